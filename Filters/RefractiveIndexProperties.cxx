@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GasChoices.h"
+#include "Gas/GasChoices.h"
 #include "vtkGasTable.h"
 #include "vtkRefractiveIndex.h"
 

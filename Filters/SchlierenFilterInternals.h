@@ -2,20 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "ExposureSteps.h"
-#include "InputsOfRanks.h"
-#include "LastImage.h"
-#include "MediumMaker.h"
-#include "RequestGuard.h"
-#include "RgbImages.h"
-#include "SceneFromSettings.h"
-#include "SensitivityLock.h"
-#include "SharedRefractivity.h"
-#include "TimeExposure.h"
-#include "TimeSlicedImage.h"
+#include "Common/RequestGuard.h"
+#include "Image/LastImage.h"
+#include "Image/RgbImages.h"
+#include "Image/SceneFromSettings.h"
+#include "Image/SensitivityLock.h"
+#include "Image/TimeSlicedImage.h"
+#include "Input/TimeExposure.h"
+#include "Ranks/ExposureSteps.h"
+#include "Ranks/InputsOfRanks.h"
+#include "Sources/MediumMaker.h"
+#include "Sources/SharedRefractivity.h"
 #include "vtkSchlierenFilter.h"
 
-#include "FieldFromImage.h"
+#include "Common/FieldFromImage.h"
 
 #include "vtkImageData.h"
 #include "vtkNew.h"

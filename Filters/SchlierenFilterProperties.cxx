@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SchlierenFilterInternals.h"
 
-#include "QualityPresets.h"
-#include "RealOptics.h"
+#include "Image/RealOptics.h"
+#include "Settings/QualityPresets.h"
 
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"

@@ -3,12 +3,12 @@
 // What vtkSchlierenFilter makes of its inputs before there is a view.
 #include "SchlierenFilterInternals.h"
 
-#include "FieldTints.h"
-#include "GasChoices.h"
-#include "InputDescription.h"
-#include "MediumMaker.h"
-#include "RefractivitySource.h"
-#include "SceneFromSettings.h"
+#include "Gas/GasChoices.h"
+#include "Image/SceneFromSettings.h"
+#include "Input/InputDescription.h"
+#include "Input/RefractivitySource.h"
+#include "Sources/FieldTints.h"
+#include "Sources/MediumMaker.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

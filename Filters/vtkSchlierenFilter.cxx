@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenFilter.h"
 
-#include "AtTheEnd.h"
-#include "ExposureSteps.h"
-#include "Guarded.h"
-#include "InputDescription.h"
-#include "Preview.h"
-#include "QualityPresets.h"
-#include "RefractivitySource.h"
-#include "SceneFromSettings.h"
+#include "Common/AtTheEnd.h"
+#include "Common/Guarded.h"
+#include "Image/Preview.h"
+#include "Image/SceneFromSettings.h"
+#include "Input/InputDescription.h"
+#include "Input/RefractivitySource.h"
+#include "Ranks/ExposureSteps.h"
 #include "SchlierenFilterInternals.h"
+#include "Settings/QualityPresets.h"
 
 #include "vtkCommand.h"
 #include "vtkDataSetAttributes.h"

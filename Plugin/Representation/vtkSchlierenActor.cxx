@@ -5,7 +5,7 @@
 #include "SceneBehind.h"
 #include "vtkSchlierenFilter.h"
 
-#include "Guarded.h"
+#include "Private/Common/Guarded.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"

@@ -5,7 +5,7 @@
 #include "vtkSchlierenActor.h"
 #include "vtkSchlierenFilter.h"
 
-#include "Guarded.h"
+#include "Private/Common/Guarded.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"

@@ -4,7 +4,7 @@
 // and a byte each for the mask. Both into new memory, which the system hands out page by page on the
 // first write and which is most of the cost, if the volume is large; the two take turns, so that both
 // meet the same machine. Points per second of a core's time, the median of all.
-#include "MediumMaker.h"
+#include "Sources/MediumMaker.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"

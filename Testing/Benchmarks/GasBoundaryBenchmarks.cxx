@@ -3,7 +3,7 @@
 //
 // Where the gas of a mesh ends: a sphere of radius 1 in a mesh of 1.2 million hexahedra with a far field of radius
 // 50. To find its boundary, to sample bricks near the wall, and to find what places in the sphere are.
-#include "GasBoundary.h"
+#include "Walls/GasBoundary.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"

@@ -3,10 +3,10 @@
 // Adaptive meshes of many blocks to refractivity on a grid. And other meshes: the first conversion, which searches the cells that hold the grid's
 // points; the third, which has kept them; and vtkResampleToImage, on the same mesh and in turns with the
 // others, so that all meet the same machine. The least times of all turns.
-#include "CellSampler.h"
-#include "CellTree.h"
+#include "Cells/CellSampler.h"
+#include "Cells/CellTree.h"
 
-#include "MediumMaker.h"
+#include "Sources/MediumMaker.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataSetTriangleFilter.h"

@@ -3,8 +3,8 @@
 //
 // Adaptive meshes whose cells hold the values, as the codes that make them write them.
 #include "BallOnLevels.h"
-#include "MediumMaker.h"
 #include "Schlieren.h"
+#include "Sources/MediumMaker.h"
 
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNonOverlappingAMR.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // What does not fit into memory is an error, not the end of the program.
-#include "AvailableMemory.h"
+#include "Common/AvailableMemory.h"
 
 #include "Fixtures.h"
 

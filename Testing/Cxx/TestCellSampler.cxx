@@ -4,10 +4,10 @@
 // Values in cells on lattices: against closed forms, and against MeshCell, which queries each cell.
 #include "CellMeshes.h"
 
-#include "CellSampler.h"
-#include "MeshCell.h"
-#include "PlacesInCell.h"
-#include "Polyhedra.h"
+#include "Cells/CellSampler.h"
+#include "Cells/MeshCell.h"
+#include "Cells/PlacesInCell.h"
+#include "Cells/Polyhedra.h"
 
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkRectilinearGrid.h"

@@ -4,7 +4,7 @@
 // What is known of the cells in a box.
 #include "CellMeshes.h"
 
-#include "CellTree.h"
+#include "Cells/CellTree.h"
 
 #include "vtkRectilinearGrid.h"
 #include "vtkSMPTools.h"

@@ -4,9 +4,9 @@
 // Cells of higher order: what is interpolated in them, and which of their faces bound a mesh.
 #include "CellMeshes.h"
 
-#include "BasisProduct.h"
-#include "MeshCell.h"
-#include "MeshFaces.h"
+#include "Cells/BasisProduct.h"
+#include "Cells/MeshCell.h"
+#include "Walls/MeshFaces.h"
 
 #include "vtkCellData.h"
 

@@ -3,7 +3,7 @@
 //
 // Two-dimensional data are extruded across their plane, by Depth.
 #include "Fixtures.h"
-#include "MediumMaker.h"
+#include "Sources/MediumMaker.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkDataSetTriangleFilter.h"

@@ -6,7 +6,7 @@
 #include "CutMesh.h"
 #include "Surfaces.h"
 
-#include "GasBoundary.h"
+#include "Walls/GasBoundary.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataSetAttributes.h"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Data that are spread over ranks become what one rank would have.
-#include "DataParts.h"
 #include "Fixtures.h"
-#include "GatheredData.h"
+#include "Input/DataParts.h"
+#include "Input/GatheredData.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkCellData.h"

@@ -4,7 +4,7 @@
 // What a mesh becomes on a grid. Isoparametric cells interpolate linear fields exactly, however their points
 // are moved: that is the truth here.
 #include "CellMeshes.h"
-#include "MediumMaker.h"
+#include "Sources/MediumMaker.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataSetTriangleFilter.h"

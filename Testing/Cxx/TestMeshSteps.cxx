@@ -5,12 +5,12 @@
 // no step before: the last bit of every number.
 #include "CellMeshes.h"
 #include "CutMesh.h"
-#include "MediumMaker.h"
+#include "Sources/MediumMaker.h"
 #include "Surfaces.h"
 
-#include "InputDescription.h"
-#include "MeshSource.h"
+#include "Input/InputDescription.h"
 #include "Schlieren.h"
+#include "Sources/MeshSource.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"

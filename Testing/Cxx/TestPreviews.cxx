@@ -3,10 +3,10 @@
 //
 // Images of fewer pixels, for while a view is turned: the same place, seen roughly.
 #include "Fixtures.h"
-#include "Preview.h"
-#include "QualityPresets.h"
-#include "RgbImages.h"
-#include "SceneFromSettings.h"
+#include "Image/Preview.h"
+#include "Image/RgbImages.h"
+#include "Image/SceneFromSettings.h"
+#include "Settings/QualityPresets.h"
 
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"

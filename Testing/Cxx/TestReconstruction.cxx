@@ -4,9 +4,9 @@
 // What is made of values at points, in cells: smoother than what is linear along each edge.
 #include "CellMeshes.h"
 
-#include "CellMeans.h"
-#include "CellSampler.h"
-#include "PointFit.h"
+#include "Cells/CellMeans.h"
+#include "Cells/CellSampler.h"
+#include "Cells/PointFit.h"
 
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkSMPTools.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // No exception leaves the requests of a filter.
-#include "RequestGuard.h"
+#include "Common/RequestGuard.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationRequestKey.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Fixtures.h"
-#include "RgbImages.h"
+#include "Image/RgbImages.h"
 
 #include "vtkBase64Utilities.h"
 #include "vtkPNGWriter.h"

@@ -3,9 +3,9 @@
 //
 // What the filter's properties mean to the tracer.
 #include "Fixtures.h"
-#include "RealOptics.h"
-#include "RgbImages.h"
-#include "SceneFromSettings.h"
+#include "Image/RealOptics.h"
+#include "Image/RgbImages.h"
+#include "Image/SceneFromSettings.h"
 
 #include "vtkPiecewiseFunction.h"
 

@@ -3,7 +3,7 @@
 //
 // What an image's line of words says.
 #include "Fixtures.h"
-#include "ImageStatus.h"
+#include "Image/ImageStatus.h"
 
 #include "Schlieren.h"
 

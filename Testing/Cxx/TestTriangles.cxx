@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangles.h"
+#include "Common/Triangles.h"
 
 #include <gtest/gtest.h>
 

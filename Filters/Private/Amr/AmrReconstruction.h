@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Amr/AmrLevels.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace filters
+{
+
+/// What five neighbouring cells, of edge 1 and with known means, say of the mean over an interval: the
+/// polynomial of fourth degree that has these means. So no order is lost, and the parts of a cell have the
+/// cell's mean (Colella & Woodward 1984 do so in their equation 1.6).
+struct Reconstruction
+{
+  std::array<double, 5> weights;
+
+  /// The interval is `width` wide around `centre`, measured from the centre of the middle cell.
+  Reconstruction(double centre, double width)
+  {
+    // The integral over x is a polynomial of fifth degree through six faces; cell k adds to the faces
+    // behind it.
+    constexpr int faces = 6;
+    this->weights.fill(0);
+    for (int face = 0; face < faces; ++face)
+    {
+      double atEnd = 1, atBegin = 1;
+      for (int other = 0; other < faces; ++other)
+      {
+        if (other != face)
+        {
+          atEnd *= (centre + width / 2 + 2.5 - other) / (face - other);
+          atBegin *= (centre - width / 2 + 2.5 - other) / (face - other);
+        }
+      }
+      for (int cell = 0; cell < face; ++cell)
+      {
+        this->weights[static_cast<std::size_t>(cell)] += (atEnd - atBegin) / width;
+      }
+    }
+  }
+
+  /// The cells from the left to the right; those that are NaN are extrapolated. NaN where the middle is.
+  /// Sums differences, so that what is uniform stays so to the last bit.
+  double operator()(const std::array<double, 5>& cells) const
+  {
+    std::array<double, 4> step;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      step[i] = cells[i + 1] - cells[i];
+    }
+    const auto isKnown = [](double x) { return !std::isnan(x); };
+    if (!isKnown(step[1]) && !isKnown(step[2]))
+    {
+      return cells[2]; // NaN, or alone
+    }
+    // At first straight on, and as a parabola where a third cell is known.
+    const bool hasLeft = isKnown(step[1]), hasRight = isKnown(step[2]);
+    if (!hasLeft)
+    {
+      step[1] = isKnown(step[3]) ? 2 * step[2] - step[3] : step[2];
+    }
+    if (!hasRight)
+    {
+      step[2] = isKnown(step[0]) ? 2 * step[1] - step[0] : step[1];
+    }
+    if (!hasLeft || !isKnown(step[0]))
+    {
+      step[0] = 2 * step[1] - step[2];
+    }
+    if (!hasRight || !isKnown(step[3]))
+    {
+      step[3] = 2 * step[2] - step[1];
+    }
+    return cells[2] - this->weights[0] * (step[0] + step[1]) - this->weights[1] * step[1] +
+      this->weights[3] * step[2] + this->weights[4] * (step[2] + step[3]);
+  }
+};
+
+/// The lines of cells along one axis of a box. Cells of a line are `stride` apart, and as many lines lie side by side.
+struct LinesAlong
+{
+  LinesAlong(const Counts& cells, std::size_t axis)
+    : stride(axis == 0 ? 1 : static_cast<std::ptrdiff_t>(cells[0]) * (axis == 2 ? cells[1] : 1))
+    , count(static_cast<std::ptrdiff_t>(volume(cells)) / cells[axis])
+  {
+  }
+
+  std::ptrdiff_t stride, count;
+};
+
+/// Values along one axis of a box of cells, from those at cells to the means over intervals of `width` cells around
+/// `middles`, which are counted from the first cell's centre. A mean whose middle lies in a cell that is NaN, or outside,
+/// is NaN; no other one takes anything from there. `forRows(count, work)` calls work(begin, end) for parts of 0 ... count.
+template <class ForRows>
+void resampleAxis(std::vector<double>& values, Counts& cells, std::size_t axis,
+  const std::vector<double>& middles, double width, const ForRows& forRows)
+{
+  const int n = cells[axis];
+  const auto count = static_cast<std::ptrdiff_t>(middles.size());
+  const LinesAlong lines(cells, axis);
+  const std::ptrdiff_t stride = lines.stride;
+  std::vector<double> result(static_cast<std::size_t>(lines.count * count));
+  forRows(lines.count / stride * count,
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      for (std::ptrdiff_t row = begin; row < end; ++row)
+      {
+        const double middle = middles[static_cast<std::size_t>(row % count)];
+        const int cell = static_cast<int>(std::lround(std::clamp(middle, -1., n + 0.)));
+        const Reconstruction mean(middle - cell, width);
+        const double* line = values.data() + row / count * n * stride;
+        for (std::ptrdiff_t k = 0; k < stride; ++k)
+        {
+          std::array<double, 5> around;
+          for (int i = 0; i < 5; ++i)
+          {
+            const int at = cell + i - 2;
+            around[static_cast<std::size_t>(i)] = at < 0 || at >= n ? nan : line[at * stride + k];
+          }
+          result[static_cast<std::size_t>(row * stride + k)] = mean(around);
+        }
+      }
+    });
+  values = std::move(result);
+  cells[axis] = static_cast<int>(count);
+}
+
+/// A row of cells with known means, NaN where there is none, as a cubic spline. Its coefficients are the means c less
+/// 5/24 of their second differences, so that the spline's means are c to fourth order. Where third differences are
+/// not much smaller than first ones, at shocks, second ones are left out, so that nothing overshoots by more than
+/// 1 % of the jump. It is smooth where a polynomial for each cell would show the cells.
+class SplineOfMeans
+{
+public:
+  /// It may be another row each time: memory is kept.
+  void set(const std::vector<double>& means)
+  {
+    this->Means = means;
+    const int n = static_cast<int>(this->Means.size());
+    this->Bends.resize(this->Means.size());
+    const auto meanAt = [&](int i) { return at(this->Means, i); };
+    for (int i = 0; i < n; ++i)
+    {
+      this->Bends[static_cast<std::size_t>(i)] = meanAt(i + 1) - 2 * meanAt(i) + meanAt(i - 1);
+    }
+    this->Coefficients.resize(this->Means.size());
+    for (int i = 0; i < n; ++i)
+    {
+      double first = 0, third = 0; // largest differences
+      for (int k = -2; k < 2; ++k)
+      {
+        first = larger(first, meanAt(i + k + 1) - meanAt(i + k));
+      }
+      for (int k = -1; k < 1; ++k)
+      {
+        third = larger(third, at(this->Bends, i + k + 1) - at(this->Bends, i + k));
+      }
+      constexpr double smooth = 0.35, rough = 0.8; // third by first differences
+      const double part =
+        first > 0 ? std::clamp((rough - third / first) / (rough - smooth), 0., 1.) : 0;
+      // Beside what is missing, like the next one.
+      double bend = at(this->Bends, i);
+      bend = std::isnan(bend) ? at(this->Bends, i - 1) : bend;
+      bend = std::isnan(bend) ? at(this->Bends, i + 1) : bend;
+      this->Coefficients[static_cast<std::size_t>(i)] =
+        meanAt(i) - (std::isnan(bend) ? 0 : part * 5 / 24 * bend);
+    }
+  }
+
+  /// `place` is counted from the first cell's centre. NaN where its cell is. Cells that are missing are extrapolated.
+  double operator()(double place) const
+  {
+    const int n = static_cast<int>(this->Means.size());
+    const int cell = static_cast<int>(std::lround(std::clamp(place, -1., n + 0.)));
+    const double own = at(this->Coefficients, cell);
+    if (std::isnan(own))
+    {
+      return own;
+    }
+    // Differences, so that what is uniform stays so to the last bit.
+    const int low = static_cast<int>(std::floor(place));
+    const int farSide = low < cell ? -1 : 1; // where two coefficients count
+    const auto stepTo = [&](int i) { return at(this->Coefficients, cell + i) - own; };
+    double beside = stepTo(farSide), other = stepTo(-farSide);
+    if (std::isnan(beside) && std::isnan(other))
+    {
+      return own;
+    }
+    if (std::isnan(other))
+    {
+      other = orElse(stepTo(2 * farSide) - 3 * beside, -beside);
+    }
+    if (std::isnan(beside))
+    {
+      beside = orElse(stepTo(-2 * farSide) - 3 * other, -other);
+    }
+    const double farthest = orElse(stepTo(2 * farSide), 3 * beside + other);
+    const double t = farSide < 0 ? cell - place : place - cell; // 0 to 1/2
+    return own + (1 - t) * (1 - t) * (1 - t) / 6 * other +
+      (2. / 3 - (1 - t) * (1 - t) * (0.5 + 0.5 * t)) * beside + t * t * t / 6 * farthest;
+  }
+
+private:
+  static double at(const std::vector<double>& values, int i)
+  {
+    return i < 0 || i >= static_cast<int>(values.size()) ? std::numeric_limits<double>::quiet_NaN()
+                                                         : values[static_cast<std::size_t>(i)];
+  }
+  static double larger(double most, double x) { return std::abs(x) > most ? std::abs(x) : most; }
+  static double orElse(double x, double other) { return std::isnan(x) ? other : x; }
+
+  std::vector<double> Means, Bends, Coefficients; // bends: second differences
+};
+
+/// Values at places along one axis of a box of cells that hold means; see SplineOfMeans.
+inline void splineAxis(
+  std::vector<double>& values, Counts& cells, std::size_t axis, const std::vector<double>& places)
+{
+  const LinesAlong lines(cells, axis);
+  const std::size_t count = places.size();
+  std::vector<double> result(static_cast<std::size_t>(lines.count) * count);
+  std::vector<double> line(static_cast<std::size_t>(cells[axis]));
+  SplineOfMeans spline;
+  const auto stride = static_cast<std::size_t>(lines.stride);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(lines.count); ++row)
+  {
+    const std::size_t plane = row / stride, within = row % stride;
+    for (std::size_t i = 0; i < line.size(); ++i)
+    {
+      line[i] = values[(plane * line.size() + i) * stride + within];
+    }
+    spline.set(line);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      result[(plane * count + k) * stride + within] = spline(places[k]);
+    }
+  }
+  values = std::move(result);
+  cells[axis] = static_cast<int>(count);
+}
+
+} // namespace filters

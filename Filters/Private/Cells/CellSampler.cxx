@@ -1,0 +1,653 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Cells/CellSampler.h"
+
+#include "Cells/MeshCell.h"
+#include "Cells/PlacesInCell.h"
+
+#include "vtkDataSet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace filters
+{
+
+namespace
+{
+
+// How far out of their range parametric coordinates may be; see MeshCell.cxx.
+constexpr double toleranceOfPlaneFaces = 1e-6;
+constexpr double toleranceOfCurvedFaces = 1e-3;
+
+/// Rounding must not decide for a later block where an earlier one has a point on a face.
+constexpr double nothing = 1e-9;
+
+/// Hexahedra are parallelepipeds where their corners say so, by this part of their length.
+constexpr double bendOfParallelepipeds = 1e-12;
+
+const LocateInCell locateInCell = functionsToLocate().back();
+
+/// The points of a lattice, and what is found there so far.
+class Brick
+{
+public:
+  Brick(const CellTree& tree, const schlieren::Lattice& lattice, double* values);
+
+  /// Whether points lie in a box, which is then the one that add() adds cells to.
+  bool enter(const CellTree::Steps& box);
+  void add(std::size_t place);
+  /// Of a cell that is known to hold these points, and no others that count.
+  void add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end);
+  std::size_t countFound() const;
+  void finish(unsigned char* found, CellsOfLattice* cells) const;
+
+private:
+  template <CellShape shape>
+  bool addNormal(const CellTree::Cell& cell);
+  template <CellShape shape>
+  void findSlabs(const double corners[4][8], const Polynomial place[3], const Vector rows[3]);
+  void addOther(const CellTree::Cell& cell);
+  void setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3]);
+  void locateInOther();
+  void scan(const NormalCell& cell, const Vector& middle, const Vector rows[3]);
+  void flush(const NormalCell& cell);
+  bool isSettled(std::size_t point) const
+  {
+    return this->Misses[point] == 0 && this->Owners[point] <= this->Number;
+  }
+  void set(std::size_t point, double miss, double value);
+
+  const CellTree& Tree;
+  const schlieren::Lattice& Lattice;
+  double* Values;
+  // From steps of the tree's boxes to indices of points.
+  double PerStep[3], AtOrigin[3], Rounding[3], Slack[3];
+  int First[3], Last[3]; // in the last box
+
+  // Of the best cells so far.
+  std::vector<float> Misses;
+  std::vector<CellTree::Number> Owners;
+  std::vector<std::uint32_t> Cells; // the same by their places in the tree
+
+  CellTree::Number Number = 0;
+  std::uint32_t Cell = 0;
+  const std::uint16_t *GivenBegin = nullptr, *GivenEnd = nullptr;
+  double Tolerance = 0;
+  double Low[4],
+    High[4]; // of normal coordinates in the cell, and of their sum where there is a slanting face
+  CellPoints Points;
+  std::size_t Places[CellPoints::most];
+  int Count = 0;
+  std::unique_ptr<MeshCell> Other;
+  const double* OtherValues = nullptr;
+};
+
+Brick::Brick(const CellTree& tree, const schlieren::Lattice& lattice, double* values)
+  : Tree(tree)
+  , Lattice(lattice)
+  , Values(values)
+{
+  constexpr double epsilon = 4 * std::numeric_limits<double>::epsilon();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double spacing = lattice.spacing[axis], first = lattice.first[axis];
+    this->PerStep[axis] = tree.step()[axis] / spacing;
+    this->AtOrigin[axis] = (tree.origin()[axis] - first) / spacing;
+    this->Rounding[axis] = epsilon * (std::abs(first) + std::abs(tree.origin()[axis]));
+    this->Slack[axis] = this->Rounding[axis] / spacing + 1e-12;
+  }
+  const auto size = static_cast<std::size_t>(lattice.size());
+  this->Misses.assign(size, std::numeric_limits<float>::infinity());
+  this->Owners.assign(size, 0);
+  this->Cells.assign(size, 0);
+  std::fill_n(values, size, 0.);
+}
+
+bool Brick::enter(const CellTree::Steps& box)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double last = this->Lattice.points[axis] - 1;
+    const double low =
+      this->AtOrigin[axis] + box.low[axis] * this->PerStep[axis] - this->Slack[axis];
+    const double high =
+      this->AtOrigin[axis] + box.high[axis] * this->PerStep[axis] + this->Slack[axis];
+    if (!(low <= last && high >= 0))
+    {
+      return false;
+    }
+    const int before = low > 0 ? static_cast<int>(low) : 0;
+    this->First[axis] = before < low ? before + 1 : before;
+    this->Last[axis] = static_cast<int>(high < last ? high : last);
+    if (this->First[axis] > this->Last[axis])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Brick::set(std::size_t point, double miss, double value)
+{
+  if (!(miss <= this->Tolerance) || miss == std::numeric_limits<double>::infinity())
+  {
+    return;
+  }
+  const auto rounded = miss <= nothing ? 0 : static_cast<float>(miss);
+  if (rounded < this->Misses[point] ||
+    (rounded == this->Misses[point] && this->Number < this->Owners[point]))
+  {
+    this->Misses[point] = rounded;
+    this->Owners[point] = this->Number;
+    this->Cells[point] = this->Cell;
+    this->Values[point] = value;
+  }
+}
+
+void Brick::add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end)
+{
+  this->GivenBegin = begin;
+  this->GivenEnd = end;
+  this->add(place);
+}
+
+void Brick::add(std::size_t place)
+{
+  this->Cell = static_cast<std::uint32_t>(place);
+  this->Number = this->Tree.number(place);
+  const CellTree::Cell cell = this->Tree.cell(this->Number);
+  bool isNormal = false;
+  switch (shapeOf(cell.block->type(cell.id)))
+  {
+    case CellShape::Tetrahedron:
+      isNormal = this->addNormal<CellShape::Tetrahedron>(cell);
+      break;
+    case CellShape::Wedge:
+      isNormal = this->addNormal<CellShape::Wedge>(cell);
+      break;
+    case CellShape::Pyramid:
+      isNormal = this->addNormal<CellShape::Pyramid>(cell);
+      break;
+    case CellShape::Hexahedron:
+      isNormal = this->addNormal<CellShape::Hexahedron>(cell);
+      break;
+    case CellShape::Voxel:
+      isNormal = this->addNormal<CellShape::Voxel>(cell);
+      break;
+    case CellShape::Other:
+      break;
+  }
+  if (!isNormal)
+  {
+    this->addOther(cell);
+  }
+}
+
+/// Between what the normal coordinates are in a cell.
+template <CellShape shape>
+void Brick::findSlabs(const double corners[4][8], const Polynomial place[3], const Vector rows[3])
+{
+  constexpr bool isSimplex = shape == CellShape::Tetrahedron || shape == CellShape::Wedge;
+  // What is interpolated lies between the corners, and so does the cell.
+  for (int i = 0; i < 4; ++i)
+  {
+    this->Low[i] = std::numeric_limits<double>::infinity();
+    this->High[i] = -this->Low[i];
+  }
+  for (int i = 0; i < cornersOf(shape); ++i)
+  {
+    const Vector x = { corners[0][i] - place[0][0], corners[1][i] - place[1][0],
+      corners[2][i] - place[2][0] };
+    const double at[3] = { dot(rows[0], x), dot(rows[1], x), dot(rows[2], x) };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Low[axis] = std::min(this->Low[axis], at[axis]);
+      this->High[axis] = std::max(this->High[axis], at[axis]);
+    }
+    if constexpr (isSimplex)
+    {
+      const double sum = at[0] + at[1] + (shape == CellShape::Tetrahedron ? at[2] : 0);
+      this->Low[3] = std::min(this->Low[3], sum);
+      this->High[3] = std::max(this->High[3], sum);
+    }
+  }
+  for (int i = 0; i < 4; ++i)
+  {
+    const double more = 3 * this->Tolerance * (this->High[i] - this->Low[i]);
+    this->Low[i] -= more;
+    this->High[i] += more;
+  }
+}
+
+/// Whether the cell has a volume where its middle is.
+template <CellShape shape>
+bool Brick::addNormal(const CellTree::Cell& cell)
+{
+  constexpr int count = cornersOf(shape);
+  vtkIdType points[8];
+  cell.block->points(cell.id, count, points);
+  double corners[4][8];
+  Vector origin;
+  cell.block->coordinates(points[0], origin.data());
+  double length = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    double x[3];
+    cell.block->coordinates(points[i], x);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      corners[axis][i] = x[axis] - origin[axis];
+      length = std::max(length, std::abs(corners[axis][i]));
+    }
+    corners[3][i] = cell.block->values()[points[i]];
+  }
+  const Polynomial place[3] = { polynomialOf<shape>(corners[0]), polynomialOf<shape>(corners[1]),
+    polynomialOf<shape>(corners[2]) };
+  const Vector columns[3] = { { place[0][1], place[1][1], place[2][1] },
+    { place[0][2], place[1][2], place[2][2] }, { place[0][3], place[1][3], place[2][3] } };
+  Vector rows[3];
+  if (!invert(columns, rows))
+  {
+    return false;
+  }
+  NormalCell normal;
+  normal.shape = shape;
+  normal.isAffine = true;
+  if constexpr (shape == CellShape::Hexahedron)
+  {
+    for (const Polynomial& along : place)
+    {
+      for (std::size_t i = 4; i < 8; ++i)
+      {
+        normal.isAffine = normal.isAffine && std::abs(along[i]) <= bendOfParallelepipeds * length;
+      }
+    }
+  }
+  else
+  {
+    normal.isAffine = shape == CellShape::Tetrahedron || shape == CellShape::Voxel;
+  }
+  this->Tolerance = normal.isAffine ? toleranceOfPlaneFaces : toleranceOfCurvedFaces;
+  // Far from the origin, rounding of coordinates is more.
+  for (const Vector& row : rows)
+  {
+    this->Tolerance = std::max(this->Tolerance,
+      std::abs(row[0]) * this->Rounding[0] + std::abs(row[1]) * this->Rounding[1] +
+        std::abs(row[2]) * this->Rounding[2]);
+  }
+
+  if (!this->GivenBegin)
+  {
+    this->findSlabs<shape>(corners, place, rows);
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      const Vector factor = { place[0][k + 4], place[1][k + 4], place[2][k + 4] };
+      normal.bend[i][k] = dot(rows[i], factor);
+    }
+  }
+  normal.isSmooth = cell.block->trends() != nullptr;
+  if (normal.isSmooth)
+  {
+    // The mean of the corners' linear polynomials with half of the gradients there, as the cell weighs them, is
+    // exact for quadratic fields. Apart from what is the same everywhere in them, they are slopes.
+    double slopes[3][8], limits[2][8];
+    for (int i = 0; i < count; ++i)
+    {
+      const PointTrend& trend = cell.block->trends()[points[i]];
+      limits[0][i] = corners[3][i] + trend.lowest;
+      limits[1][i] = corners[3][i] + trend.highest;
+      const Vector half = { 0.5 * trend.gradient[0], 0.5 * trend.gradient[1],
+        0.5 * trend.gradient[2] };
+      corners[3][i] -= half[0] * (corners[0][i] - place[0][0]) +
+        half[1] * (corners[1][i] - place[1][0]) + half[2] * (corners[2][i] - place[2][0]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        slopes[axis][i] = dot(half, columns[axis]);
+      }
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      const Polynomial slope = polynomialOf<shape>(slopes[i]);
+      std::copy(slope.begin(), slope.end(), normal.slope[i]);
+    }
+    for (int i = 0; i < 2; ++i)
+    {
+      const Polynomial limit = polynomialOf<shape>(limits[i]);
+      std::copy(limit.begin(), limit.end(), normal.limit[i]);
+    }
+  }
+  const Polynomial value = polynomialOf<shape>(corners[3]);
+  std::copy(value.begin(), value.end(), normal.value);
+  const Vector middle = { origin[0] + place[0][0], origin[1] + place[1][0],
+    origin[2] + place[2][0] };
+  this->scan(normal, middle, rows);
+  return true;
+}
+
+/// Collects the points that may be in the cell, row by row.
+void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows[3])
+{
+  constexpr double parallel = 1e300; // 1 / 0, but without NaN
+  const bool isSimplex = cell.shape == CellShape::Tetrahedron || cell.shape == CellShape::Wedge;
+  const int slabs = isSimplex ? 4 : 3;
+  const schlieren::Lattice& lattice = this->Lattice;
+  double start[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    start[axis] = lattice.first[axis] - middle[axis];
+  }
+  double along[4], perAlong[4]; // changes from one point to the next
+  for (int i = 0; i < 3; ++i)
+  {
+    along[i] = rows[i][0] * lattice.spacing[0];
+  }
+  along[3] = along[0] + along[1] + (cell.shape == CellShape::Tetrahedron ? along[2] : 0);
+  for (int i = 0; i < slabs; ++i)
+  {
+    perAlong[i] = std::abs(along[i]) > 1 / parallel ? 1 / along[i] : parallel;
+  }
+  const auto rowLength = static_cast<std::size_t>(lattice.points[0]);
+  const auto rowCount = static_cast<std::size_t>(lattice.points[1]);
+  const auto beginRow = [&](int j, int k, double at[4])
+  {
+    const double y = start[1] + j * lattice.spacing[1];
+    const double z = start[2] + k * lattice.spacing[2];
+    for (int i = 0; i < 3; ++i)
+    {
+      at[i] = rows[i][0] * start[0] + rows[i][1] * y + rows[i][2] * z;
+    }
+  };
+  const auto collect = [&](const double at[4], int i, std::size_t point)
+  {
+    if (this->Count == CellPoints::most)
+    {
+      this->flush(cell);
+    }
+    for (int n = 0; n < 3; ++n)
+    {
+      this->Points.normal[n][this->Count] = at[n] + i * along[n];
+    }
+    this->Places[this->Count++] = point;
+  };
+  if (this->GivenBegin)
+  {
+    for (const std::uint16_t* given = this->GivenBegin; given != this->GivenEnd; ++given)
+    {
+      const std::size_t row = *given / rowLength;
+      double at[4];
+      beginRow(static_cast<int>(row % rowCount), static_cast<int>(row / rowCount), at);
+      collect(at, static_cast<int>(*given % rowLength), *given);
+    }
+    this->flush(cell);
+    return;
+  }
+  for (int k = this->First[2]; k <= this->Last[2]; ++k)
+  {
+    for (int j = this->First[1]; j <= this->Last[1]; ++j)
+    {
+      double at[4];
+      beginRow(j, k, at);
+      at[3] = at[0] + at[1] + (cell.shape == CellShape::Tetrahedron ? at[2] : 0);
+      double low = this->First[0], high = this->Last[0];
+      for (int i = 0; i < slabs; ++i)
+      {
+        const double a = (this->Low[i] - at[i]) * perAlong[i];
+        const double b = (this->High[i] - at[i]) * perAlong[i];
+        low = std::max(low, std::min(a, b));
+        high = std::min(high, std::max(a, b));
+      }
+      if (!(low <= high))
+      {
+        continue;
+      }
+      int i = static_cast<int>(low);
+      i += i < low ? 1 : 0;
+      const std::size_t row =
+        (static_cast<std::size_t>(k) * rowCount + static_cast<std::size_t>(j)) * rowLength;
+      for (const int last = static_cast<int>(high); i <= last; ++i)
+      {
+        const std::size_t point = row + static_cast<std::size_t>(i);
+        if (!this->isSettled(point))
+        {
+          collect(at, i, point);
+        }
+      }
+    }
+  }
+  this->flush(cell);
+}
+
+void Brick::flush(const NormalCell& cell)
+{
+  if (cell.shape == CellShape::Other)
+  {
+    this->locateInOther();
+  }
+  else
+  {
+    // The rest of the last pack: any finite numbers.
+    for (int i = this->Count; i < this->Count + 7 && this->Count > 0; ++i)
+    {
+      for (double* of : { this->Points.normal[0], this->Points.normal[1], this->Points.normal[2] })
+      {
+        of[i] = of[this->Count - 1];
+      }
+    }
+    locateInCell(cell, this->Count, this->Points);
+  }
+  for (int i = 0; i < this->Count; ++i)
+  {
+    this->set(this->Places[i], this->Points.miss[i], this->Points.value[i]);
+  }
+  this->Count = 0;
+}
+
+/// Places in the cell are MeshCell's business. What saves it most points that are not there: where a cell with
+/// the same corners has its edges, curved ones do not reach far out of the box of their points.
+void Brick::addOther(const CellTree::Cell& cell)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  Vector rows[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  Vector origin = {};
+  std::fill_n(this->Low, 4, -infinity);
+  std::fill_n(this->High, 4, infinity);
+  const CellShape skeleton = skeletonOf(cell.block->type(cell.id));
+  if (skeleton != CellShape::Other)
+  {
+    const int count = cornersOf(skeleton);
+    vtkIdType points[8];
+    cell.block->points(cell.id, count, points);
+    double corners[3][8];
+    cell.block->coordinates(points[0], origin.data());
+    for (int i = 0; i < count; ++i)
+    {
+      double x[3];
+      cell.block->coordinates(points[i], x);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        corners[axis][i] = x[axis] - origin[axis];
+      }
+    }
+    Vector columns[3];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const Polynomial place = polynomialOf(skeleton, corners[axis]);
+      for (std::size_t along = 0; along < 3; ++along)
+      {
+        columns[along][axis] = place[along + 1];
+      }
+    }
+    if (invert(columns, rows))
+    {
+      this->setLimits(cell, origin, rows);
+    }
+    else
+    {
+      rows[0] = { 1, 0, 0 };
+      rows[1] = { 0, 1, 0 };
+      rows[2] = { 0, 0, 1 };
+    }
+  }
+  if (!this->Other)
+  {
+    this->Other = std::make_unique<MeshCell>(-1);
+  }
+  this->Other->set(cell.block->data(), cell.id);
+  this->OtherValues = cell.block->values();
+  this->Tolerance = infinity; // MeshCell has its own
+  NormalCell other{};
+  other.shape = CellShape::Other;
+  this->scan(other, origin, rows);
+}
+
+/// From all points of a cell.
+void Brick::setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3])
+{
+  std::fill_n(this->Low, 3, std::numeric_limits<double>::infinity());
+  std::fill_n(this->High, 3, -std::numeric_limits<double>::infinity());
+  cell.block->forPoints(cell.id,
+    [&](vtkIdType point)
+    {
+      Vector x;
+      cell.block->coordinates(point, x.data());
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        x[axis] -= origin[axis];
+      }
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double at = dot(rows[axis], x);
+        this->Low[axis] = std::min(this->Low[axis], at);
+        this->High[axis] = std::max(this->High[axis], at);
+      }
+    });
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double more = bulge * (this->High[axis] - this->Low[axis]);
+    this->Low[axis] -= more;
+    this->High[axis] += more;
+  }
+}
+
+void Brick::locateInOther()
+{
+  const auto row = static_cast<std::size_t>(this->Lattice.points[0]);
+  const std::size_t layer = row * static_cast<std::size_t>(this->Lattice.points[1]);
+  for (int i = 0; i < this->Count; ++i)
+  {
+    const std::size_t point = this->Places[i];
+    const std::size_t index[3] = { point % row, point % layer / row, point / layer };
+    double x[3], coordinates[3], miss;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      x[axis] =
+        this->Lattice.first[axis] + static_cast<double>(index[axis]) * this->Lattice.spacing[axis];
+    }
+    const bool isFound = this->Other->find(x, coordinates, miss);
+    this->Points.miss[i] = isFound ? miss : std::numeric_limits<double>::infinity();
+    this->Points.value[i] = isFound ? this->Other->valueAt(x, coordinates, this->OtherValues) : 0;
+  }
+}
+
+std::size_t Brick::countFound() const
+{
+  return static_cast<std::size_t>(std::count_if(this->Misses.begin(), this->Misses.end(),
+    [](float miss) { return miss < std::numeric_limits<float>::infinity(); }));
+}
+
+void Brick::finish(unsigned char* found, CellsOfLattice* cells) const
+{
+  std::transform(this->Misses.begin(), this->Misses.end(), found,
+    [](float miss) -> unsigned char
+    { return miss < std::numeric_limits<float>::infinity() ? 1 : 0; });
+  if (!cells)
+  {
+    return;
+  }
+  const std::size_t count = this->countFound();
+  // Cells get numbers in the order in which points meet them, by a table with open addresses.
+  std::size_t last = 1;
+  while (last < 2 * count)
+  {
+    last = 2 * last + 1;
+  }
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> table(last + 1, none), numbers(this->Misses.size(), none);
+  cells->cells.clear();
+  std::vector<std::uint16_t> counts;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    if (found[i] == 0)
+    {
+      continue;
+    }
+    const std::uint32_t cell = this->Cells[i];
+    std::size_t at = (cell * 0x9e3779b97f4a7c15u >> 32) & last;
+    while (table[at] != none && cells->cells[table[at]] != cell)
+    {
+      at = (at + 1) & last;
+    }
+    if (table[at] == none)
+    {
+      table[at] = static_cast<std::uint32_t>(cells->cells.size());
+      cells->cells.push_back(cell);
+      counts.push_back(0);
+    }
+    numbers[i] = table[at];
+    ++counts[table[at]];
+  }
+  cells->starts.assign(counts.size() + 1, 0);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+  {
+    cells->starts[i + 1] = static_cast<std::uint16_t>(cells->starts[i] + counts[i]);
+    counts[i] = cells->starts[i];
+  }
+  cells->points.resize(count);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    if (numbers[i] != none)
+    {
+      cells->points[counts[numbers[i]]++] = static_cast<std::uint16_t>(i);
+    }
+  }
+  cells->cells.shrink_to_fit();
+}
+
+} // namespace
+
+CellSampler::CellSampler(const CellTree& tree)
+  : Tree(tree)
+{
+}
+
+void CellSampler::sample(const schlieren::Lattice& lattice, double* values, unsigned char* found,
+  CellsOfLattice* cells) const
+{
+  Brick brick(this->Tree, lattice, values);
+  this->Tree.walk([&](const CellTree::Steps& box) { return brick.enter(box); },
+    [&](std::size_t place) { brick.add(place); });
+  brick.finish(found, cells);
+}
+
+bool CellSampler::sample(
+  const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const
+{
+  Brick brick(this->Tree, lattice, values);
+  for (std::size_t i = 0; i < cells.cells.size(); ++i)
+  {
+    this->Tree.fetchAhead(
+      i, cells.cells.size(), [&](std::size_t n) { return std::size_t{ cells.cells[n] }; });
+    brick.add(cells.cells[i], cells.points.data() + cells.starts[i],
+      cells.points.data() + cells.starts[i + 1]);
+  }
+  return brick.countFound() == cells.points.size();
+}
+
+} // namespace filters

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Cells in which what is interpolated is a polynomial of the parametric coordinates, of degree 1 in each of them:
+// tetrahedra, hexahedra, voxels, wedges, and pyramids, whose tops are hexahedra's faces collapsed to points.
+#pragma once
+
+#include "Common/Vectors.h"
+
+#include "vtkCellType.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace filters
+{
+
+/// How far curved cells may reach out of the box of their points, in parts of its lengths.
+constexpr double bulge = 0.05;
+
+enum class CellShape : unsigned char
+{
+  Tetrahedron,
+  Wedge,
+  Pyramid,
+  Hexahedron,
+  Voxel,
+  Other // what VTK finds places and weights in
+};
+
+inline CellShape shapeOf(int type)
+{
+  switch (type)
+  {
+    case VTK_TETRA:
+      return CellShape::Tetrahedron;
+    case VTK_WEDGE:
+      return CellShape::Wedge;
+    case VTK_PYRAMID:
+      return CellShape::Pyramid;
+    case VTK_HEXAHEDRON:
+      return CellShape::Hexahedron;
+    case VTK_VOXEL:
+      return CellShape::Voxel;
+    default:
+      return CellShape::Other;
+  }
+}
+
+/// The shape of the corners of a curved cell, which come first among its points.
+inline CellShape skeletonOf(int type)
+{
+  switch (type)
+  {
+    case VTK_QUADRATIC_HEXAHEDRON:
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+    case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
+      return CellShape::Hexahedron;
+    case VTK_QUADRATIC_TETRA:
+    case VTK_LAGRANGE_TETRAHEDRON:
+    case VTK_BEZIER_TETRAHEDRON:
+      return CellShape::Tetrahedron;
+    case VTK_QUADRATIC_WEDGE:
+    case VTK_QUADRATIC_LINEAR_WEDGE:
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+    case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
+      return CellShape::Wedge;
+    case VTK_QUADRATIC_PYRAMID:
+      return CellShape::Pyramid;
+    default:
+      return shapeOf(type);
+  }
+}
+
+/// Whether a cell is three-dimensional and curved, of the kinds that are known.
+inline bool isCurved(int type)
+{
+  return shapeOf(type) == CellShape::Other && skeletonOf(type) != CellShape::Other;
+}
+
+constexpr int cornersOf(CellShape shape)
+{
+  switch (shape)
+  {
+    case CellShape::Tetrahedron:
+      return 4;
+    case CellShape::Wedge:
+      return 6;
+    case CellShape::Pyramid:
+      return 5;
+    default:
+      return 8;
+  }
+}
+
+/// The edges of a cell's corners; none where these are in no known order.
+inline const std::vector<std::array<int, 2>>& edgesOf(CellShape shape)
+{
+  using Edges = std::vector<std::array<int, 2>>;
+  static const Edges tetrahedron{ { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
+  static const Edges wedge{ { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 }, { 0, 3 },
+    { 1, 4 }, { 2, 5 } };
+  static const Edges pyramid{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 }, { 2, 4 },
+    { 3, 4 } };
+  static const Edges hexahedron{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 },
+    { 6, 7 }, { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } };
+  static const Edges voxel{ { 0, 1 }, { 2, 3 }, { 0, 2 }, { 1, 3 }, { 4, 5 }, { 6, 7 }, { 4, 6 },
+    { 5, 7 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } };
+  static const Edges none;
+  switch (shape)
+  {
+    case CellShape::Tetrahedron:
+      return tetrahedron;
+    case CellShape::Wedge:
+      return wedge;
+    case CellShape::Pyramid:
+      return pyramid;
+    case CellShape::Hexahedron:
+      return hexahedron;
+    case CellShape::Voxel:
+      return voxel;
+    default:
+      return none;
+  }
+}
+
+/// Where parametric coordinates u, v, w are zero here: in the middle of the cell.
+inline const Vector& middleOf(CellShape shape)
+{
+  static constexpr Vector tetrahedron = { 0.25, 0.25, 0.25 }, wedge = { 1. / 3, 1. / 3, 0.5 },
+                          pyramid = { 0.5, 0.5, 0.25 }, box = { 0.5, 0.5, 0.5 };
+  switch (shape)
+  {
+    case CellShape::Tetrahedron:
+      return tetrahedron;
+    case CellShape::Wedge:
+      return wedge;
+    case CellShape::Pyramid:
+      return pyramid;
+    default:
+      return box;
+  }
+}
+
+/// Factors of 1, u, v, w, uv, vw, uw and uvw.
+using Polynomial = std::array<double, 8>;
+
+/// Of what has these values at a cell's corners, in VTK's order.
+template <CellShape shape>
+Polynomial polynomialOf(const double* c)
+{
+  if constexpr (shape == CellShape::Tetrahedron)
+  {
+    return { 0.25 * (c[0] + c[1] + c[2] + c[3]), c[1] - c[0], c[2] - c[0], c[3] - c[0], 0, 0, 0,
+      0 };
+  }
+  else if constexpr (shape == CellShape::Wedge)
+  {
+    const double upper[3] = { c[3] - c[0], c[4] - c[1], c[5] - c[2] };
+    const double s = c[1] - c[0], t = c[2] - c[0];
+    const double sw = upper[1] - upper[0], tw = upper[2] - upper[0];
+    return { (c[0] + c[1] + c[2] + c[3] + c[4] + c[5]) / 6, s + 0.5 * sw, t + 0.5 * tw,
+      (upper[0] + upper[1] + upper[2]) / 3, 0, tw, sw, 0 };
+  }
+  else if constexpr (shape == CellShape::Pyramid)
+  {
+    const double middle = 0.25 * (c[0] + c[1] + c[2] + c[3]);
+    const double u = 0.5 * (c[1] + c[2] - c[0] - c[3]), v = 0.5 * (c[2] + c[3] - c[0] - c[1]);
+    const double uv = c[0] + c[2] - c[1] - c[3];
+    return { 0.75 * middle + 0.25 * c[4], 0.75 * u, 0.75 * v, c[4] - middle, 0.75 * uv, -v, -u,
+      -uv };
+  }
+  else
+  {
+    constexpr bool isVoxel = shape == CellShape::Voxel;
+    const double c2 = c[isVoxel ? 3 : 2], c3 = c[isVoxel ? 2 : 3];
+    const double c6 = c[isVoxel ? 7 : 6], c7 = c[isVoxel ? 6 : 7];
+    // Along u: sums and differences; then along v and w.
+    const double s0 = c[0] + c[1], d0 = c[1] - c[0], s1 = c3 + c2, d1 = c2 - c3;
+    const double s2 = c[4] + c[5], d2 = c[5] - c[4], s3 = c7 + c6, d3 = c6 - c7;
+    const double ss0 = s0 + s1, ss1 = s2 + s3, sd0 = s1 - s0, sd1 = s3 - s2;
+    const double ds0 = d0 + d1, ds1 = d2 + d3, dd0 = d1 - d0, dd1 = d3 - d2;
+    return { 0.125 * (ss0 + ss1), 0.25 * (ds0 + ds1), 0.25 * (sd0 + sd1), 0.25 * (ss1 - ss0),
+      0.5 * (dd0 + dd1), 0.5 * (sd1 - sd0), 0.5 * (ds1 - ds0), dd1 - dd0 };
+  }
+}
+
+inline Polynomial polynomialOf(CellShape shape, const double* corners)
+{
+  switch (shape)
+  {
+    case CellShape::Tetrahedron:
+      return polynomialOf<CellShape::Tetrahedron>(corners);
+    case CellShape::Wedge:
+      return polynomialOf<CellShape::Wedge>(corners);
+    case CellShape::Pyramid:
+      return polynomialOf<CellShape::Pyramid>(corners);
+    case CellShape::Voxel:
+      return polynomialOf<CellShape::Voxel>(corners);
+    default:
+      return polynomialOf<CellShape::Hexahedron>(corners);
+  }
+}
+
+/// The rows of the inverse of a matrix of three columns. Whether there is one, rounding apart.
+inline bool invert(const Vector columns[3], Vector inverse[3])
+{
+  constexpr double flattest = 1e-12; // volume, of that of the box with the same edges
+  inverse[0] = cross(columns[1], columns[2]);
+  inverse[1] = cross(columns[2], columns[0]);
+  inverse[2] = cross(columns[0], columns[1]);
+  const double determinant = dot(columns[0], inverse[0]);
+  const double box = std::sqrt(
+    dot(columns[0], columns[0]) * dot(columns[1], columns[1]) * dot(columns[2], columns[2]));
+  if (!(std::abs(determinant) > flattest * box))
+  {
+    return false;
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    for (double& x : inverse[i])
+    {
+      x /= determinant;
+    }
+  }
+  return true;
+}
+
+} // namespace filters

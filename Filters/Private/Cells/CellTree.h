@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Cells/CellShape.h"
+#include "Cells/MeshArrays.h"
+#include "Cells/PointTrends.h"
+#include "Common/WorkProgress.h"
+
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+class vtkDataSet;
+class vtkGenericCell;
+
+namespace filters
+{
+
+/**
+ * The 3-D cells of several datasets, sorted by place, in boxes of boxes.
+ *
+ * Cells follow each other along a Hilbert curve. Eight in a row make a group, eight groups a larger one, and
+ * so on: no pointers, some 40 bytes for each cell. VTK's locators know no values.
+ *
+ * Cells that are hidden, that have points nowhere or points whose value is NaN are not there. Everything
+ * depends on the datasets alone, not on the number of threads; and everything but the constructor, which
+ * works in parallel (vtkSMPTools), may be called from many threads at once.
+ */
+class CellTree
+{
+public:
+  /// What is interpolated in cells whose own functions are linear along each edge.
+  enum class Reconstruction
+  {
+    Linear, // these functions
+    Smooth  // exact for quadratic fields, by gradients at the points (see PointTrends.h)
+  };
+
+  struct Mesh;
+
+  /// Each dataset has one double scalar at each point. They must outlive the tree. Throws where there are
+  /// too many cells or points.
+  explicit CellTree(const std::vector<vtkDataSet*>& blocks,
+    Reconstruction reconstruction = Reconstruction::Linear,
+    const WorkProgress& progress = WorkProgress(), Copies copies = Copies::Used);
+
+  /// Of other values on the mesh of another tree, which that tree need not outlive.
+  CellTree(const std::vector<vtkDataSet*>& blocks, std::shared_ptr<const Mesh> mesh,
+    const WorkProgress& progress = WorkProgress());
+  const std::shared_ptr<const Mesh>& mesh() const { return this->Sorted; }
+
+  /// Cells by numbers that count through all blocks, hidden ones too.
+  using Number = std::uint32_t;
+  struct Cell
+  {
+    const MeshArrays* block;
+    vtkIdType id;
+  };
+  Cell cell(Number number) const;
+
+  /// In the tree's order cells have other numbers: their places.
+  Number number(std::size_t place) const { return this->Sorted->numbers[place]; }
+
+  /// Cells that follow each other in the tree's order are anywhere in a dataset, and the processor waits for memory. To be
+  /// called before the i-th of `count` cells is read, whose places are placeOf(i): fetches what is read of later ones.
+  template <class PlaceOf>
+  void fetchAhead(std::size_t i, std::size_t count, const PlaceOf& placeOf) const
+  {
+    constexpr std::size_t ahead = 12;
+    if (i + 2 * ahead < count)
+    {
+      const Cell later = this->cell(this->number(placeOf(i + 2 * ahead)));
+      later.block->fetchCell(later.id);
+    }
+    if (i + ahead < count)
+    {
+      const Cell soon = this->cell(this->number(placeOf(i + ahead)));
+      soon.block->fetchPoints(soon.id);
+    }
+  }
+
+  std::size_t size() const { return this->Sorted->numbers.size(); }  // cells that are there
+  std::size_t copies() const { return this->Sorted->copies.size(); } // that are neighbours only
+  std::size_t bytes() const; // of memory, without the datasets'
+
+  struct Bounds // low > high: none
+  {
+    Vector low, high;
+  };
+  const Bounds& bounds() const { return this->Sorted->whole; }
+
+  /// What is known of some cells.
+  struct Content
+  {
+    double lowest,
+      highest;       // of what is interpolated between their points; lowest > highest: no cells
+    Vector cellSize; // the smallest, along each axis; infinite: no cells
+  };
+
+  /// Of the cells whose bounds meet a box: the same whichever other cells the tree has.
+  Content content(const Bounds& box) const;
+
+  /// Proportions that voxels should have: how large cells are along each axis, the largest being 1.
+  const Vector& voxelShape() const { return this->Sorted->voxelShape; }
+
+  /// Of some cells, and what follows from them. They are those with the lowest `order`, a number that depends on a cell alone:
+  /// so those of a mesh are the same, whichever parts it is divided into. This has those that are needed of a mesh of so
+  /// many cells.
+  struct MeasuredCell
+  {
+    std::uint64_t order;
+    Vector size;
+  };
+  std::vector<MeasuredCell> measuredCells(std::int64_t cellsOfAll) const;
+  static Vector voxelShapeOf(std::vector<MeasuredCell> cells);
+
+  /// Along each axis the largest voxel that such a cell needs: a step of one voxel changes none of its parametric
+  /// coordinates by more than 1. Infinite where it has no volume.
+  Vector sizeOf(const Cell& cell) const;
+
+  // For those who walk through the tree: boxes in steps of a lattice that is fine enough for all of them.
+  // They lie within; rounding widens them.
+  struct Steps
+  {
+    std::int32_t low[3], high[3];
+  };
+  struct Group
+  {
+    Steps box;
+    float cellSize[3];
+  };
+
+  /// What depends on the mesh alone: points, cells, which of them are hidden, and which points have no value. It needs
+  /// no dataset.
+  struct Mesh
+  {
+    std::vector<Number> firstNumbers; // of each block, and the end
+    Bounds whole;
+    Vector origin, step, voxelShape;
+    std::vector<Number> numbers;            // sorted
+    std::vector<Number> copies;             // that are neighbours only
+    std::vector<Steps> boxes;               // of them
+    std::vector<std::vector<Group>> levels; // of eight cells, of eight times as many, ... one group
+    std::vector<PointNeighbours> neighbours; // of each block; none: linear
+
+    std::size_t bytes() const;
+  };
+  const Vector& origin() const { return this->Sorted->origin; }
+  const Vector& step() const { return this->Sorted->step; }
+
+  /// Calls enter(box), whether to continue, for groups and cells, and visit(place of a cell), in an order that
+  /// depends on the tree only.
+  template <class Enter, class Visit>
+  void walk(const Enter& enter, const Visit& visit) const
+  {
+    if (!this->Sorted->levels.empty())
+    {
+      this->walk(this->Sorted->levels.size() - 1, 0, enter, visit);
+    }
+  }
+
+  /// Calls visit(number) for all cells whose boxes meet a box.
+  template <class Visit>
+  void visit(const Bounds& box, const Visit& visit) const
+  {
+    const Steps steps = this->stepsOf(box);
+    this->walk([&](const Steps& other) { return meet(steps, other); },
+      [&](std::size_t place) { visit(this->number(place)); });
+  }
+
+private:
+  static constexpr std::size_t width = 8; // of groups
+
+  static bool meet(const Steps& a, const Steps& b)
+  {
+    return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] &&
+      b.low[1] <= a.high[1] && a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
+  }
+
+  template <class Enter, class Visit>
+  void walk(std::size_t level, std::size_t group, const Enter& enter, const Visit& visit) const
+  {
+    if (!enter(this->Sorted->levels[level][group].box))
+    {
+      return;
+    }
+    const std::size_t first = width * group;
+    if (level > 0)
+    {
+      const std::size_t end = std::min(first + width, this->Sorted->levels[level - 1].size());
+      for (std::size_t i = first; i < end; ++i)
+      {
+        this->walk(level - 1, i, enter, visit);
+      }
+      return;
+    }
+    const std::size_t end = std::min(first + width, this->Sorted->numbers.size());
+    for (std::size_t i = first; i < end; ++i)
+    {
+      if (enter(this->Sorted->boxes[i]))
+      {
+        visit(i);
+      }
+    }
+  }
+
+  /// What groups hold, level by level.
+  struct Range
+  {
+    double lowest, highest;
+  };
+
+  static bool isLinear(int type);
+  /// Into how many parts a curved cell's points divide its edges.
+  static int orderOf(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved);
+  /// sizeOf() its parts.
+  std::array<float, 3> voxelFor(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved) const;
+  void addBlocks(const std::vector<vtkDataSet*>& blocks);
+  Bounds boundsOf(const Cell& cell) const;
+  Steps stepsOf(const Bounds& box) const;
+  void findCells(Mesh& mesh, Copies copies, const WorkProgress& progress);
+  void findNeighbours(Mesh& mesh, const WorkProgress& progress);
+  void sortCells(Mesh& mesh, const WorkProgress& progress);
+  void makeGroups(Mesh& mesh, const WorkProgress& progress);
+  void setValues(const WorkProgress& progress);
+  std::array<double, 2> rangeOf(const Cell& cell) const;
+  Range rangeWithin(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved) const;
+  bool meets(std::size_t place, const Bounds& box, const Steps& steps) const;
+
+  std::vector<MeshArrays> Blocks;
+  std::shared_ptr<const Mesh> Sorted;
+  std::vector<std::vector<Range>> Ranges; // of the groups of each level
+};
+
+} // namespace filters

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Common/Triangles.h"
+
+#include <vector>
+
+namespace filters
+{
+
+/// The points of a lattice in coordinates in which its spacings are 1 and its first point is 0.
+class LatticeMetric
+{
+public:
+  explicit LatticeMetric(const schlieren::Lattice& lattice);
+
+  Point at(const Point& place) const
+  {
+    return { (place[0] - this->First[0]) * this->PerUnit[0],
+      (place[1] - this->First[1]) * this->PerUnit[1],
+      (place[2] - this->First[2]) * this->PerUnit[2] };
+  }
+
+private:
+  Point First, PerUnit;
+};
+
+/// The lattice's box and `reach` spacings around it.
+schlieren::Box boxAround(const schlieren::Lattice& lattice, double reach);
+
+/**
+ * Unsigned distances from the points of a lattice to triangles, in spacings, and which triangle is nearest.
+ * Triangles look for the points within reach of them, eight at a time in a row along x.
+ */
+class LatticeDistances
+{
+public:
+  LatticeDistances(const schlieren::Lattice& lattice, float reach);
+
+  /// `number` is what nearest() returns.
+  void add(const std::array<Point, 3>& corners, std::int32_t number);
+
+  /// Of a row of points along x: the squares of the distances, at most that of the reach, and the nearest
+  /// triangles; -1: none is within reach.
+  const float* squaredInRow(int j, int k) const { return this->Squared.data() + this->row(j, k); }
+  const std::int32_t* nearestInRow(int j, int k) const
+  {
+    return this->Nearest.data() + this->row(j, k);
+  }
+
+  static constexpr int lanes = 4; ///< points that are looked at together
+
+private:
+  std::size_t row(int j, int k) const
+  {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(this->Points[1]) +
+             static_cast<std::size_t>(j)) *
+      this->Stride;
+  }
+
+  std::array<int, 3> Points;
+  std::size_t Stride; // of a row
+  float Reach;
+  std::vector<float> Squared;
+  std::vector<std::int32_t> Nearest;
+};
+
+} // namespace filters

@@ -1,0 +1,570 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Cells/LatticeSampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace filters
+{
+
+namespace
+{
+
+constexpr float smallest = 1.f / 4096; // distances are never 0
+constexpr float depthOfThin = 0.5f;
+constexpr float onSurface =
+  1e-3f;                     // points so near to a surface are counted to the side of its normal
+constexpr float tie = 1e-3f; // of the distances to two faces
+constexpr float squaredDiagonal = 3.001f; // of a voxel
+constexpr float cosineOfPlane = 0.9f;
+constexpr double besideVoxel = 0.01; // walls that count as meeting it
+
+constexpr int steps[6][3] = { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { 0, 0, -1 },
+  { 0, 0, 1 } };
+
+/// The part of the line from one place to another at which a triangle lies across it; negative: nowhere.
+double crossingOf(
+  const std::array<Point, 3>& t, const Point& normal, const Point& from, const Point& to)
+{
+  constexpr double slack = 1e-9; // so that no line slips through between two triangles
+  const Point line = to - from;
+  const double fraction = dot(normal, t[0] - from) / dot(normal, line);
+  if (!(fraction >= -slack && fraction <= 1 + slack)) // NaN, too
+  {
+    return -1;
+  }
+  const Point at = from + fraction * line;
+  double size = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Point edge = t[(i + 1) % 3] - t[i];
+    size = std::max(size, dot(edge, edge));
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (dot(cross(t[(i + 1) % 3] - t[i], at - t[i]), normal) < -slack * size)
+    {
+      return -1;
+    }
+  }
+  return std::clamp(fraction, 0., 1.);
+}
+
+} // namespace
+
+LatticeSampling::LatticeSampling(const schlieren::Lattice& lattice)
+  : Lattice(lattice)
+  , Metric(lattice)
+{
+}
+
+template <class Visit>
+void LatticeSampling::forPoints(const Visit& visit) const
+{
+  for (int k = 0; k < this->Lattice.points[2]; ++k)
+  {
+    for (int j = 0; j < this->Lattice.points[1]; ++j)
+    {
+      for (int i = 0; i < this->Lattice.points[0]; ++i)
+      {
+        visit(Index{ i, j, k });
+      }
+    }
+  }
+}
+
+void LatticeSampling::add(Kind kind, const Triangles& surface, std::int32_t triangle)
+{
+  const auto t = static_cast<std::size_t>(triangle);
+  Near near;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    near.corners[i] = this->Metric.at(surface.corner(t, i));
+  }
+  near.normal = unit(cross(near.corners[1] - near.corners[0], near.corners[2] - near.corners[0]));
+  const auto number = static_cast<std::int32_t>(this->Nearby.size());
+  this->Nearby.push_back(near);
+  this->Numbers[kind].push_back(number);
+  std::unique_ptr<LatticeDistances>& field = this->Fields[kind];
+  if (!field)
+  {
+    field = std::make_unique<LatticeDistances>(this->Lattice, schlieren::MediumSource::reach);
+  }
+  field->add(near.corners, number);
+}
+
+void LatticeSampling::addFaces(
+  const Triangles& surface, const TriangleTree& tree, const std::vector<unsigned char>& walls)
+{
+  tree.forTrianglesAt(boxAround(this->Lattice, schlieren::MediumSource::reach),
+    [&](std::int32_t triangle)
+    { this->add(walls[static_cast<std::size_t>(triangle)] ? Wall : Window, surface, triangle); });
+}
+
+bool LatticeSampling::addBodies(const Triangles& surface, const TriangleTree& tree)
+{
+  tree.forTrianglesAt(boxAround(this->Lattice, schlieren::MediumSource::reach),
+    [&](std::int32_t triangle) { this->add(Body, surface, triangle); });
+  return this->Fields[Body] != nullptr;
+}
+
+template <class Visit>
+void LatticeSampling::forNeighbours(const Index& at, const Visit& visit) const
+{
+  for (const auto& step : steps)
+  {
+    const Index beside{ at.i + step[0], at.j + step[1], at.k + step[2] };
+    if (this->holds(beside))
+    {
+      visit(beside, this->numberOf(beside));
+    }
+  }
+}
+
+/// Of a wall and a window that are equally near, at a common edge, the one whose plane is farther away faces the
+/// point more.
+bool LatticeSampling::isWallNearer(const Index& at, std::int32_t wall, std::int32_t window) const
+{
+  const auto heightOver = [&](std::int32_t number)
+  {
+    const Near& near = this->Nearby[static_cast<std::size_t>(number)];
+    return std::abs(dot(near.normal, placeOf(at) - near.corners[0]));
+  };
+  return heightOver(wall) >= heightOver(window);
+}
+
+void LatticeSampling::measure(
+  const unsigned char* isInCell, const std::vector<unsigned char>& isInBody)
+{
+  constexpr float reach = schlieren::MediumSource::reach;
+  const auto size = static_cast<std::size_t>(this->Lattice.size());
+  this->Distances.resize(size);
+  this->States.resize(size);
+  this->SquaredToSolid.resize(size);
+  this->NearestSolid.resize(size);
+  const std::vector<float> far(static_cast<std::size_t>(this->Lattice.points[0]), reach * reach);
+  const std::vector<std::int32_t> none(far.size(), -1);
+  for (int k = 0; k < this->Lattice.points[2]; ++k)
+  {
+    for (int j = 0; j < this->Lattice.points[1]; ++j)
+    {
+      const float* squared[3];
+      const std::int32_t* nearest[3];
+      for (const Kind kind : { Wall, Window, Body })
+      {
+        const LatticeDistances* field = this->Fields[kind].get();
+        squared[kind] = field ? field->squaredInRow(j, k) : far.data();
+        nearest[kind] = field ? field->nearestInRow(j, k) : none.data();
+      }
+      const std::size_t row = this->numberOf({ 0, j, k });
+      for (int i = 0; i < this->Lattice.points[0]; ++i)
+      {
+        const std::size_t p = row + static_cast<std::size_t>(i);
+        const float toWall = squared[Wall][i], toWindow = squared[Window][i],
+                    toBody = squared[Body][i];
+        const bool isBodyNearer = toBody < toWall;
+        this->SquaredToSolid[p] = isBodyNearer ? toBody : toWall;
+        this->NearestSolid[p] = nearest[isBodyNearer ? Body : Wall][i];
+
+        const bool isWithinBody = !isInBody.empty() && isInBody[p];
+        const float toMesh = std::max(std::sqrt(std::min(toWall, toWindow)), smallest);
+        const float fromBody = std::max(std::sqrt(toBody), smallest);
+        this->Distances[p] =
+          std::min(isInCell[p] ? toMesh : -toMesh, isWithinBody ? -fromBody : fromBody);
+        State state = isWithinBody ? InWall : InGas;
+        if (!isWithinBody && !isInCell[p])
+        {
+          const std::int32_t wall = nearest[Wall][i], window = nearest[Window][i];
+          const bool isTie =
+            wall >= 0 && window >= 0 && std::abs(std::sqrt(toWall) - std::sqrt(toWindow)) < tie;
+          // A body whose surface is where cells end, as of a hole that a mesh leaves for it, need not be closed.
+          const bool isBody = window >= 0 && nearest[Body][i] >= 0 &&
+            std::abs(std::sqrt(toBody) - std::sqrt(toWindow)) < tie;
+          const bool isWall = isBody ||
+            (isTie ? this->isWallNearer({ i, j, k }, wall, window)
+                   : wall >= 0 && toWall < toWindow);
+          state = isWall ? InWall : (window >= 0 ? InWindow : Unknown);
+        }
+        this->States[p] = state;
+      }
+    }
+  }
+}
+
+/// Outside points with gas beside them, from which no face separates them, are gaps between cells.
+void LatticeSampling::findGaps()
+{
+  this->forPoints(
+    [&](const Index& at)
+    {
+      const std::size_t p = this->numberOf(at);
+      // Of a face through the point beside it, rounding decides on which side that is.
+      if (this->States[p] == InGas || this->Distances[p] >= -1 - tie)
+      {
+        return;
+      }
+      this->forNeighbours(at,
+        [&](const Index&, std::size_t beside)
+        {
+          if (this->States[beside] == InGas)
+          {
+            this->States[p] = InWindow;
+            this->Distances[p] = -smallest;
+          }
+        });
+    });
+}
+
+/// Outside points that are known decide for those beside them that are not.
+void LatticeSampling::spread(std::vector<Index>& known)
+{
+  for (std::size_t next = 0; next < known.size(); ++next)
+  {
+    const unsigned char state = this->States[this->numberOf(known[next])];
+    this->forNeighbours(Index(known[next]),
+      [&](const Index& beside, std::size_t number)
+      {
+        if (this->States[number] == Unknown)
+        {
+          this->States[number] = state;
+          known.push_back(beside);
+        }
+      });
+  }
+  known.clear();
+}
+
+void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt)
+{
+  this->findGaps();
+  const auto hasAny = [&](State state)
+  { return std::find(this->States.begin(), this->States.end(), state) != this->States.end(); };
+  if (!hasAny(Unknown))
+  {
+    return;
+  }
+  const schlieren::Lattice& lattice = this->Lattice;
+  const auto isWallAt = [&](const Index& at)
+  {
+    return kindAt({ lattice.first[0] + at.i * lattice.spacing[0],
+             lattice.first[1] + at.j * lattice.spacing[1],
+             lattice.first[2] + at.k * lattice.spacing[2] }) == Place::Wall;
+  };
+  const bool hasWall = hasAny(InWall), hasWindow = hasAny(InWindow);
+  if (!hasWall || !hasWindow)
+  {
+    // Mostly all are of one kind, by the corners.
+    int walls = hasWall ? 1 : 0, windows = hasWindow ? 1 : 0;
+    for (int corner = 0; corner < 8 && !hasWindow; ++corner)
+    {
+      const Index at{ (corner & 1) != 0 ? lattice.points[0] - 1 : 0,
+        (corner & 2) != 0 ? lattice.points[1] - 1 : 0,
+        (corner & 4) != 0 ? lattice.points[2] - 1 : 0 };
+      if (this->States[this->numberOf(at)] == Unknown)
+      {
+        ++(isWallAt(at) ? walls : windows);
+      }
+    }
+    this->forPoints(
+      [&](const Index& at)
+      {
+        unsigned char& state = this->States[this->numberOf(at)];
+        if (state == Unknown)
+        {
+          const bool isWall = walls > 0 && (windows == 0 || isWallAt(at));
+          state = isWall ? InWall : InWindow;
+        }
+      });
+    return;
+  }
+  std::vector<Index> known;
+  this->forPoints(
+    [&](const Index& at)
+    {
+      const std::size_t p = this->numberOf(at);
+      if (this->States[p] != InGas && this->States[p] != Unknown && this->Distances[p] < -smallest)
+      {
+        known.push_back(at);
+      }
+    });
+  this->spread(known);
+  this->forPoints(
+    [&](const Index& at)
+    {
+      const std::size_t p = this->numberOf(at);
+      if (this->States[p] == Unknown)
+      {
+        this->States[p] = isWallAt(at) ? InWall : InWindow;
+        known.push_back(at);
+        this->spread(known);
+      }
+    });
+}
+
+/// On which side of the nearest solid each point is. What is farther away from it than from its neighbours does
+/// not need to know.
+void LatticeSampling::findSides()
+{
+  this->IsBeside.assign(this->States.size(), 0);
+  this->Sides.assign(this->States.size(), { 0, 0, 0 });
+  this->forPoints(
+    [&](const Index& at)
+    {
+      const std::size_t p = this->numberOf(at);
+      if (this->States[p] != InGas || this->SquaredToSolid[p] > squaredDiagonal)
+      {
+        return;
+      }
+      this->IsBeside[p] = 1;
+      const Near& near = this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
+      const bool isBehind = dot(near.normal, placeOf(at) - near.corners[0]) < 0 &&
+        this->SquaredToSolid[p] > onSurface * onSurface;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        this->Sides[p][axis] =
+          static_cast<float>(isBehind ? -near.normal[axis] : near.normal[axis]);
+      }
+    });
+}
+
+/// Which walls and bodies meet each row of voxels along x: a coarse lattice may have very many of them.
+void LatticeSampling::findSolidsOfRows()
+{
+  const auto& points = this->Lattice.points;
+  std::vector<std::size_t>& starts = this->StartsOfRows;
+  starts.assign(static_cast<std::size_t>(points[1]) * static_cast<std::size_t>(points[2]) + 1, 0);
+  const auto forRowsOf = [&](std::int32_t number, const auto& visit)
+  {
+    const Near& near = this->Nearby[static_cast<std::size_t>(number)];
+    int first[3], last[3];
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      const auto [least, most] =
+        std::minmax({ near.corners[0][axis], near.corners[1][axis], near.corners[2][axis] });
+      const double end = points[axis] - 1;
+      first[axis] = static_cast<int>(std::clamp(std::ceil(least - 1 - besideVoxel), 0., end));
+      last[axis] = static_cast<int>(std::clamp(std::floor(most + besideVoxel), -1., end));
+    }
+    for (int k = first[2]; k <= last[2]; ++k)
+    {
+      for (int j = first[1]; j <= last[1]; ++j)
+      {
+        visit(this->rowOf({ 0, j, k }));
+      }
+    }
+  };
+  const auto forSolids = [&](const auto& visit)
+  {
+    for (const Kind kind : { Wall, Body })
+    {
+      std::for_each(this->Numbers[kind].begin(), this->Numbers[kind].end(), visit);
+    }
+  };
+  forSolids(
+    [&](std::int32_t number) { forRowsOf(number, [&](std::size_t row) { ++starts[row + 1]; }); });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  this->SolidsOfRows.resize(starts.back());
+  std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
+  forSolids([&](std::int32_t number)
+    { forRowsOf(number, [&](std::size_t row) { this->SolidsOfRows[next[row]++] = number; }); });
+}
+
+/// Of a voxel whose corners `low` and low + (1, 1, 1) are: marks points so that a wall no longer separates
+/// corners with gas.
+void LatticeSampling::separate(const Index& low)
+{
+  std::array<std::size_t, 8> numbers; // of the corners with gas
+  std::array<Point, 8> places;
+  std::size_t count = 0;
+  const std::array<float, 3>* side = nullptr;
+  bool mayBeCrossed = false;
+  const int corners = this->Lattice.points[2] > 1 ? 8 : 4;
+  for (int c = 0; c < corners; ++c)
+  {
+    const Index at{ low.i + (c & 1), low.j + (c >> 1 & 1), low.k + (c >> 2) };
+    const std::size_t p = this->numberOf(at);
+    if (this->States[p] != InGas)
+    {
+      continue;
+    }
+    numbers[count] = p;
+    places[count] = placeOf(at);
+    if (this->IsBeside[p])
+    {
+      // On one side of a wall that is about plane there is nothing to do.
+      const std::array<float, 3>& own = this->Sides[p];
+      side = side ? side : &own;
+      mayBeCrossed = mayBeCrossed ||
+        (*side)[0] * own[0] + (*side)[1] * own[1] + (*side)[2] * own[2] < cosineOfPlane;
+      if (this->SquaredToSolid[p] <= onSurface * onSurface)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          places[count][axis] += double{ onSurface } * own[axis];
+        }
+      }
+    }
+    ++count;
+  }
+  if (!mayBeCrossed)
+  {
+    return;
+  }
+  if (this->StartsOfRows.empty())
+  {
+    this->findSolidsOfRows();
+  }
+
+  // The walls that meet the voxel.
+  std::vector<const Near*> walls;
+  const std::size_t row = this->rowOf(low);
+  for (std::size_t n = this->StartsOfRows[row]; n < this->StartsOfRows[row + 1]; ++n)
+  {
+    const Near& near = this->Nearby[static_cast<std::size_t>(this->SolidsOfRows[n])];
+    const auto [least, most] =
+      std::minmax({ near.corners[0][0], near.corners[1][0], near.corners[2][0] });
+    if (least <= low.i + 1 + besideVoxel && most >= low.i - besideVoxel)
+    {
+      walls.push_back(&near);
+    }
+  }
+  if (walls.empty())
+  {
+    return;
+  }
+  std::array<int, 8> sides{ 0, 1, 2, 3, 4, 5, 6, 7 }; // the same number: not separated
+  double crossing[8][8]; // the mean of the first and the last one; negative: none
+  for (std::size_t a = 0; a < count; ++a)
+  {
+    for (std::size_t b = a + 1; b < count; ++b)
+    {
+      double first = 2, last = -1;
+      for (const Near* wall : walls)
+      {
+        const double fraction = crossingOf(wall->corners, wall->normal, places[a], places[b]);
+        if (fraction >= 0)
+        {
+          first = std::min(first, fraction);
+          last = std::max(last, fraction);
+        }
+      }
+      crossing[a][b] = last < 0 ? -1 : 0.5 * (first + last);
+      if (last < 0)
+      {
+        joinSides(sides, a, b);
+      }
+    }
+  }
+  for (std::size_t a = 0; a < count; ++a)
+  {
+    for (std::size_t b = a + 1; b < count; ++b)
+    {
+      if (sides[a] != sides[b])
+      {
+        if (crossing[a][b] < 0.5 + 1e-3)
+        {
+          this->Marked[numbers[a]] = 1;
+        }
+        if (crossing[a][b] > 0.5 - 1e-3)
+        {
+          this->Marked[numbers[b]] = 1;
+        }
+      }
+    }
+  }
+}
+
+/// Whether there is gas on two opposite sides of a point in a wall.
+bool LatticeSampling::isThin(const Index& at) const
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto& step = steps[2 * axis];
+    const Index one{ at.i + step[0], at.j + step[1], at.k + step[2] };
+    const Index other{ at.i - step[0], at.j - step[1], at.k - step[2] };
+    if (this->holds(one) && this->holds(other))
+    {
+      const std::array<float, 3>&a = this->Sides[this->numberOf(one)],
+                              &b = this->Sides[this->numberOf(other)];
+      if (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < -0.5f)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void LatticeSampling::thickenPlates()
+{
+  this->findSides();
+  this->Marked.assign(this->States.size(), 0);
+  const auto& points = this->Lattice.points;
+  // Voxels of one layer are squares.
+  const int layers = std::max(1, points[2] - 1);
+  const int up = points[2] > 1 ? 1 : 0;
+  for (int k = 0; k < layers; ++k)
+  {
+    for (int j = 0; j + 1 < points[1]; ++j)
+    {
+      const unsigned char* rows[4] = { &this->IsBeside[this->numberOf({ 0, j, k })],
+        &this->IsBeside[this->numberOf({ 0, j + 1, k })],
+        &this->IsBeside[this->numberOf({ 0, j, k + up })],
+        &this->IsBeside[this->numberOf({ 0, j + 1, k + up })] };
+      for (int i = 0; i + 1 < points[0]; ++i)
+      {
+        int beside = 0;
+        for (const unsigned char* row : rows)
+        {
+          beside += row[i] + row[i + 1];
+        }
+        if (beside > 1)
+        {
+          this->separate({ i, j, k });
+        }
+      }
+    }
+  }
+  this->forPoints(
+    [&](const Index& at)
+    {
+      const std::size_t p = this->numberOf(at);
+      if (this->States[p] == InWall && this->Distances[p] > -depthOfThin && this->isThin(at))
+      {
+        this->Marked[p] = 1;
+      }
+    });
+  for (std::size_t p = 0; p < this->Marked.size(); ++p)
+  {
+    if (this->Marked[p])
+    {
+      this->States[p] = InWall;
+      this->Distances[p] = std::min(this->Distances[p], -depthOfThin);
+    }
+  }
+}
+
+void LatticeSampling::run(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody,
+  const std::function<Place(const Point&)>& kindAt, Place* places, float* distances)
+{
+  this->measure(isInCell, isInBody);
+  this->findKinds(kindAt);
+  if (this->Fields[Wall] || this->Fields[Body])
+  {
+    this->thickenPlates();
+  }
+  for (std::size_t p = 0; p < this->States.size(); ++p)
+  {
+    places[p] = this->States[p] == InGas
+      ? Place::Gas
+      : (this->States[p] == InWall ? Place::Wall : Place::Window);
+  }
+  if (distances)
+  {
+    std::copy(this->Distances.begin(), this->Distances.end(), distances);
+  }
+}
+
+} // namespace filters

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Cells/LatticeDistances.h"
+#include "Common/Triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace filters
+{
+
+/// Gives the sides that two corners of a voxel are on one number, the lower one.
+inline void joinSides(std::array<int, 8>& sides, std::size_t a, std::size_t b)
+{
+  // By value: std::replace reads both while it changes the array.
+  const int high = std::max(sides[a], sides[b]), low = std::min(sides[a], sides[b]);
+  std::replace(sides.begin(), sides.end(), high, low);
+}
+
+/// What the points of one lattice are, and how far from where the gas ends; see GasBoundary::sample().
+class LatticeSampling
+{
+public:
+  using Place = schlieren::Place;
+
+  explicit LatticeSampling(const schlieren::Lattice& lattice);
+
+  /// Faces of meshes, whose normals point into the gas.
+  void addFaces(
+    const Triangles& surface, const TriangleTree& tree, const std::vector<unsigned char>& walls);
+  /// Surfaces in the gas. Whether there are any within reach.
+  bool addBodies(const Triangles& surface, const TriangleTree& tree);
+
+  /// `isInBody`: empty where no point is. `kindAt` returns what is at a place outside from the faces beyond
+  /// reach.
+  void run(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody,
+    const std::function<Place(const Point&)>& kindAt, Place* places, float* distances);
+
+private:
+  enum Kind
+  {
+    Wall,
+    Window,
+    Body
+  };
+  struct Near // a triangle within reach
+  {
+    std::array<Point, 3> corners; // in the lattice's metric
+    Point normal;                 // of unit length there
+  };
+  /// The points, by their indices.
+  struct Index
+  {
+    int i, j, k;
+  };
+
+  void add(Kind kind, const Triangles& surface, std::int32_t triangle);
+  void measure(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody);
+  bool isWallNearer(const Index& at, std::int32_t wall, std::int32_t window) const;
+  void findKinds(const std::function<Place(const Point&)>& kindAt);
+  void findGaps();
+  void spread(std::vector<Index>& known);
+  void findSides();
+  void thickenPlates();
+  void findSolidsOfRows();
+  void separate(const Index& low);
+  bool isThin(const Index& at) const;
+
+  template <class Visit>
+  void forPoints(const Visit& visit) const;
+  template <class Visit>
+  void forNeighbours(const Index& at, const Visit& visit) const;
+  static Point placeOf(const Index& at)
+  {
+    return { static_cast<double>(at.i), static_cast<double>(at.j), static_cast<double>(at.k) };
+  }
+  std::size_t rowOf(const Index& at) const
+  {
+    return static_cast<std::size_t>(at.k) * static_cast<std::size_t>(this->Lattice.points[1]) +
+      static_cast<std::size_t>(at.j);
+  }
+  std::size_t numberOf(const Index& at) const
+  {
+    return this->rowOf(at) * static_cast<std::size_t>(this->Lattice.points[0]) +
+      static_cast<std::size_t>(at.i);
+  }
+  bool holds(const Index& at) const
+  {
+    return at.i >= 0 && at.i < this->Lattice.points[0] && at.j >= 0 &&
+      at.j < this->Lattice.points[1] && at.k >= 0 && at.k < this->Lattice.points[2];
+  }
+
+  const schlieren::Lattice Lattice;
+  LatticeMetric Metric;
+  std::vector<Near> Nearby;
+  std::array<std::unique_ptr<LatticeDistances>, 3> Fields; // of each kind; null: none within reach
+  std::array<std::vector<std::int32_t>, 3> Numbers;        // of each kind
+  // Walls and bodies by rows of voxels: those of a row are SolidsOfRows[StartsOfRows[row]] to the next row's.
+  std::vector<std::size_t> StartsOfRows; // empty: not found yet
+  std::vector<std::int32_t> SolidsOfRows;
+
+  // Of each point.
+  enum State : unsigned char
+  {
+    InGas,
+    InWall,
+    InWindow,
+    Unknown // outside, of what kind?
+  };
+  std::vector<unsigned char> States;
+  std::vector<float> Distances;
+  std::vector<float> SquaredToSolid;      // walls and bodies
+  std::vector<std::int32_t> NearestSolid; // -1: none within reach
+  std::vector<std::array<float, 3>>
+    Sides; // in gas near a solid: its normal, turned to the point; else 0
+  std::vector<unsigned char> IsBeside; // whether it has such a normal
+  std::vector<unsigned char> Marked;   // to become walls
+};
+
+} // namespace filters

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Cells/CellSampler.h"
+
+#include "Schlieren.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace filters
+{
+
+/// What a mesh alone decides on the points of a lattice.
+struct KnownLattice
+{
+  CellsOfLattice cells;
+  std::vector<schlieren::Place> places; // empty: gas everywhere
+  std::vector<float> distances;         // empty: not requested yet
+
+  /// `toDistances`: may be null where none were requested.
+  void copyTo(schlieren::Place* toPlaces, float* toDistances, std::size_t points) const;
+};
+
+/// `distances`: may be null.
+KnownLattice knownLattice(
+  CellsOfLattice cells, const schlieren::Place* places, const float* distances, std::size_t points);
+
+/**
+ * What is known of lattices on a mesh, for the next time steps, which need the same ones as long as neither the view
+ * nor what it sees changes much. Up to `maxBytes`; those that neither of two steps needs go after them. May be used
+ * from many threads at once.
+ */
+class LatticesOfMesh
+{
+public:
+  static constexpr std::size_t maxBytes = std::size_t{ 1 } << 29;
+
+  /// Null: not known.
+  std::shared_ptr<const KnownLattice> find(const schlieren::Lattice& lattice, bool hasDistances);
+
+  bool hasRoomFor(const schlieren::Lattice& lattice) const;
+  void keep(const schlieren::Lattice& lattice, KnownLattice known);
+
+  /// What the last two steps have not needed goes.
+  void beginStep();
+
+  std::size_t bytes() const;
+
+private:
+  using Key = std::array<double, 10>;
+  static Key keyOf(const schlieren::Lattice& lattice, bool hasDistances);
+  static std::size_t bytesOf(const KnownLattice& known);
+
+  struct Entry
+  {
+    std::shared_ptr<const KnownLattice> known;
+    std::uint64_t step;
+  };
+  mutable std::mutex One;
+  std::map<Key, Entry> Entries;
+  std::size_t Bytes = 0;
+  std::uint64_t Step = 0;
+};
+
+} // namespace filters

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Cells/BasisProduct.h"
+#include "Common/Vectors.h"
+
+#include "vtkGenericCell.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+
+#include <array>
+#include <vector>
+
+class vtkDataSet;
+
+namespace filters
+{
+
+/// One cell at a time, for one thread: where in it a point lies, and what its points' values are there.
+class MeshCell
+{
+public:
+  /// `flatAxis`: the axis across 2-D cells; -1 for 3-D ones.
+  explicit MeshCell(int flatAxis);
+
+  void set(vtkDataSet* data, vtkIdType cell);
+
+  /// Whether the cell holds `x`, with tolerance; then its parametric coordinates, and by how much the largest
+  /// of them is out of their range.
+  bool find(const double x[3], double coordinates[3], double& outside);
+
+  /// The interpolated value at a place that was found.
+  double valueAt(const double x[3], const double coordinates[3], const double* values);
+
+private:
+  enum class Shape
+  {
+    Box,
+    Simplex,
+    Wedge,
+    Other // VTK finds places and weights
+  };
+
+  static Shape shapeOf(int type);
+  void setPoints();
+  bool isAffine() const;
+  void setInverse();
+  void startInTheMiddle();
+  bool iterate(const Vector& x);
+  void evaluate(Vector& x, Vector columns[3]);
+  bool isAt(const Vector& x, Vector& step);
+  double missOf(const double coordinates[3]) const;
+
+  vtkNew<vtkGenericCell> Cell; // where VTK's functions are needed
+  vtkNew<vtkIdList> Ids;
+  vtkDataSet* Data = nullptr;
+  vtkIdType Number = -1;
+  const vtkIdType* PointIds = nullptr;
+  vtkIdType Count = 0;
+  int Type = 0;
+  int FlatAxis;
+  bool IsProduct = false;
+  BasisProduct Product;
+  Shape Form = Shape::Other;
+
+  // For find().
+  bool HasPoints = false, HasInverse = false, IsWarm = false;
+  std::vector<Vector> Points; // from the first one
+  Vector Origin{};
+  double Length = 0;
+  double Inverse[3][3];
+  double Place[3];
+  std::vector<double> Weights, Derivatives;
+};
+
+} // namespace filters

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Cells/PlacesInCell.h"
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace filters
+{
+
+namespace
+{
+
+// Newton's method converges quadratically: after a step as small as this nothing is left.
+constexpr int maxSteps = 15;
+constexpr double lastStep = 1e-7;
+constexpr double farthest = 1; // from the range
+constexpr double nearlyAffine = 0.5;
+constexpr double nothing = 1e-14; // of what is left, in edges: also where cells are collapsed
+
+#define SCHLIEREN_CODE_FOR_PACKS "PlacesInCell.inl"
+#include "ForInstructions.inl"
+
+} // namespace
+
+std::vector<LocateInCell> functionsToLocate()
+{
+  std::vector<LocateInCell> functions = { two::locate };
+#if defined(SCHLIEREN_HAS_AVX)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+  {
+    functions.push_back(four::locate);
+  }
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
+  {
+    functions.push_back(eight::locate);
+  }
+#endif
+  return functions;
+}
+
+} // namespace filters

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Cells/PointFit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+
+namespace filters
+{
+
+namespace
+{
+
+/// Added to the matrix for second derivatives, in parts of their mean: where points are too few they are
+/// small.
+constexpr double leastSecond = 1e-5;
+/// And for first ones, where all points lie in a plane or on a line.
+constexpr double leastFirst = 1e-12;
+/// Both for those of means: what first and second derivatives explain nearly alike, as at the boundary, is taken for a
+/// first one.
+constexpr double leastSecondOfMeans = 1e-2;
+constexpr double leastFirstOfMeans = 1e-6;
+/// Means have nothing to be compared with along directions in which their places are spread by less than this part of
+/// their size, squared.
+constexpr double flat = 0.01;
+/// Added to squares of distances, of the mean one: no weight is infinite.
+constexpr double leastSquare = 1e-6;
+
+constexpr int unknowns = 9; // three first derivatives, six second ones
+constexpr std::size_t fewest = 3;
+
+#define SCHLIEREN_CODE_FOR_PACKS "PointFit.inl"
+#include "ForInstructions.inl"
+
+} // namespace
+
+void PointFit::clear(std::size_t most, Values ofWhat)
+{
+  this->values = ofWhat;
+  this->neighbours = most;
+  this->perNeighbour = ofWhat == Values::Means ? 10 : 4;
+  const std::size_t count = this->perNeighbour * points * most;
+  this->numbers.resize(std::max(this->numbers.size(), count));
+  std::fill_n(this->numbers.begin(), count, 0.);
+  std::fill(std::begin(this->counts), std::end(this->counts), 0);
+}
+
+std::vector<FitPoints> functionsToFit()
+{
+  std::vector<FitPoints> functions = { two::fit };
+#if defined(SCHLIEREN_HAS_AVX)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+  {
+    functions.push_back(four::fit);
+  }
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
+  {
+    functions.push_back(eight::fit);
+  }
+#endif
+  return functions;
+}
+
+} // namespace filters

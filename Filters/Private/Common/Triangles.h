@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Common/Vectors.h"
+
+#include "Schlieren.h"
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace filters
+{
+
+/// A surface. Points of which triangles make use are finite.
+struct Triangles
+{
+  using Corners = std::array<std::int32_t, 3>;
+
+  std::vector<Point> points;
+  std::vector<Corners> corners;
+
+  std::size_t size() const { return this->corners.size(); }
+  const Point& corner(std::size_t triangle, std::size_t i) const
+  {
+    return this->points[static_cast<std::size_t>(this->corners[triangle][i])];
+  }
+  /// Twice its area is its length.
+  Point normal(std::size_t triangle) const
+  {
+    const Point& a = this->corner(triangle, 0);
+    return cross(this->corner(triangle, 1) - a, this->corner(triangle, 2) - a);
+  }
+};
+
+/// The triangles at each edge: pairs of the edge's points (the lower number first) and the triangle, sorted.
+struct EdgeOfTriangle
+{
+  std::int32_t low, high;
+  std::int32_t triangle;
+
+  bool isSameEdge(const EdgeOfTriangle& other) const
+  {
+    return this->low == other.low && this->high == other.high;
+  }
+};
+std::vector<EdgeOfTriangle> edgesOf(const Triangles& surface);
+
+/**
+ * Boxes around boxes around triangles. (VTK's locators know one metric, that of space, and hand over cells as
+ * objects; here distances are measured in voxels, which may be longer along one axis than along another,
+ * many thousand times for each brick of the medium.)
+ */
+class TriangleTree
+{
+public:
+  /// Keeps a reference to the triangles.
+  explicit TriangleTree(const Triangles& triangles);
+
+  /// Calls visit(triangle) for those whose boxes meet a box.
+  template <class Visit>
+  void forTrianglesAt(const schlieren::Box& box, const Visit& visit) const;
+
+  /// The triangle that is nearest to a place; of those that are equally near, as at a common edge, the one whose plane
+  /// is farthest away, which faces the place most. -1: there are none.
+  int nearest(const Point& place) const;
+
+  /// Whether a corner x of any triangle has dot(normal, x) > offset.
+  bool hasBeyond(const Point& normal, double offset) const;
+
+  /// Prepares isBehindAny().
+  void findPlanes();
+  /// Whether a place is behind the plane of any triangle, where its normal does not point to.
+  bool isBehindAny(const Point& place) const;
+
+private:
+  struct Node
+  {
+    Point low, high;
+    std::int32_t
+      first; // of Order; inner nodes: the second child. The first child is the next node.
+    std::int32_t count; // 0: an inner node
+  };
+  /// Of the triangles of a node.
+  struct Planes
+  {
+    Point low, high; // of the normals, of unit length
+    double offset;   // the largest dot(normal, corner - Centre)
+  };
+  static constexpr std::int32_t maxInLeaf = 4;
+
+  void build(std::int32_t begin, std::int32_t end, const std::vector<Point>& centres);
+  void around(std::int32_t triangle, Node& node) const;
+  static bool meets(const Point& low, const Point& high, const schlieren::Box& box)
+  {
+    return low[0] <= box.high[0] && high[0] >= box.low[0] && low[1] <= box.high[1] &&
+      high[1] >= box.low[1] && low[2] <= box.high[2] && high[2] >= box.low[2];
+  }
+
+  const Triangles& Surface;
+  std::vector<Node> Nodes;
+  std::vector<std::int32_t> Order;
+  std::vector<Planes> PlanesOfNodes; // empty: not prepared
+  Point Centre{};
+};
+
+/// The square of the distance of a place to a triangle.
+double squaredDistance(const Triangles& surface, std::size_t triangle, const Point& place);
+
+/// Whether a triangle and a box have places in common (separating axes; Akenine-Moeller 2001).
+bool meets(const Triangles& surface, std::size_t triangle, const schlieren::Box& box);
+
+template <class Visit>
+void TriangleTree::forTrianglesAt(const schlieren::Box& box, const Visit& visit) const
+{
+  if (this->Nodes.empty())
+  {
+    return;
+  }
+  std::int32_t stack[64];
+  int waiting = 0;
+  stack[waiting++] = 0;
+  while (waiting > 0)
+  {
+    const std::int32_t number = stack[--waiting];
+    const Node& node = this->Nodes[static_cast<std::size_t>(number)];
+    if (!meets(node.low, node.high, box))
+    {
+      continue;
+    }
+    if (node.count == 0)
+    {
+      stack[waiting++] = node.first;
+      stack[waiting++] = number + 1;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      const std::int32_t triangle = this->Order[static_cast<std::size_t>(i)];
+      Node own;
+      this->around(triangle, own);
+      if (meets(own.low, own.high, box))
+      {
+        visit(triangle);
+      }
+    }
+  }
+}
+
+} // namespace filters

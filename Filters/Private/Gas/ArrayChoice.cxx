@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Gas/ArrayChoice.h"
+
+#include "Gas/GasChoices.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+using S = MediumSettings;
+
+/// Whether an array that the model needs is not chosen.
+bool lacksArrays(const MediumSettings& settings)
+{
+  const std::vector<std::size_t> needed = arraysOfModel(settings.IndexModel);
+  return std::any_of(needed.begin(), needed.end(),
+    [&](std::size_t index)
+    { return index != S::HumidityArray && !settings.Arrays[index].isChosen(); });
+}
+
+double scaleIn(const FlowDefaults& defaults, const std::string& property)
+{
+  for (const auto& [name, scale] : defaults.scales)
+  {
+    if (name == property)
+    {
+      return scale;
+    }
+  }
+  return 0;
+}
+
+std::string inWords(const MediumSettings& settings)
+{
+  std::string text;
+  for (const std::size_t index : arraysOfModel(settings.IndexModel))
+  {
+    const ArraySelection& selection = settings.Arrays[index];
+    if (!selection.isNamed())
+    {
+      continue;
+    }
+    text += (text.empty() ? "" : "; ") + std::string(S::arrayProperties[index]) + ": '" +
+      selection.name + "'";
+    const double scale = index == S::DensityArray ? settings.DensityScale
+      : index == S::TemperatureArray              ? settings.TemperatureScale
+      : index == S::PressureArray                 ? settings.PressureScale
+                                                  : 1;
+    if (scale != 1)
+    {
+      char factor[32];
+      std::snprintf(factor, sizeof factor, " times %g", scale);
+      text += factor;
+    }
+  }
+  for (std::size_t i = 0; settings.IndexModel == S::Mixture && i < settings.MixtureArrays.size();
+       ++i)
+  {
+    text += (i > 0 ? ", '" : "; fractions: '") + settings.MixtureArrays[i] + "'";
+  }
+  return text.empty() ? text : text + ".";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<FlowArray> KnownArrays::Get() const
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return this->Arrays;
+}
+
+//------------------------------------------------------------------------------
+void KnownArrays::Note(std::vector<FlowArray> arrays)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  if (!this->AreAll)
+  {
+    this->Arrays = std::move(arrays);
+  }
+}
+
+//------------------------------------------------------------------------------
+void KnownArrays::SetOfRanks(std::vector<FlowArray> arrays)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  this->Arrays = std::move(arrays);
+  this->AreAll = true;
+}
+
+//------------------------------------------------------------------------------
+bool KnownArrays::AreOfRanks() const
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return this->AreAll;
+}
+
+//------------------------------------------------------------------------------
+void addArrays(std::vector<FlowArray>& all, const std::vector<FlowArray>& more)
+{
+  for (const FlowArray& array : more)
+  {
+    const auto same = std::find_if(all.begin(), all.end(),
+      [&array](const FlowArray& other)
+      { return other.name == array.name && other.association == array.association; });
+    if (same == all.end())
+    {
+      all.push_back(array);
+      continue;
+    }
+    same->components = std::max(same->components, array.components);
+    same->range[0] = std::min(same->range[0], array.range[0]);
+    same->range[1] = std::max(same->range[1], array.range[1]);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<FlowArray> flowArraysOf(const std::vector<vtkDataSet*>& data, bool hasRanges)
+{
+  std::vector<FlowArray> all;
+  for (vtkDataSet* set : data)
+  {
+    std::vector<FlowArray> ofSet;
+    for (const FlowArray::Association association : { FlowArray::Points, FlowArray::Cells })
+    {
+      vtkDataSetAttributes* attributes = set->GetAttributes(association);
+      for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+      {
+        vtkDataArray* array = attributes->GetArray(i);
+        if (!array || !array->GetName() || array->GetNumberOfTuples() == 0)
+        {
+          continue;
+        }
+        FlowArray described{ array->GetName(), association, array->GetNumberOfComponents(),
+          { 0, 0 } };
+        if (described.components == 1 && (hasRanges || dependsOnRange(described.name)))
+        {
+          array->GetFiniteRange(described.range.data(), 0);
+        }
+        ofSet.push_back(std::move(described));
+      }
+    }
+    addArrays(all, ofSet);
+  }
+  return all;
+}
+
+//------------------------------------------------------------------------------
+void putArrays(const std::vector<FlowArray>& arrays, std::vector<char>& message)
+{
+  put(static_cast<std::uint64_t>(arrays.size()), message);
+  for (const FlowArray& array : arrays)
+  {
+    putAll(array.name, message);
+    put(array.association, message);
+    put(array.components, message);
+    put(array.range, message);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<FlowArray> getArrays(Reader& message)
+{
+  std::vector<FlowArray> arrays;
+  const auto count = message.Get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count; ++i)
+  {
+    FlowArray& array = arrays.emplace_back();
+    array.name = message.GetAll<std::string>();
+    array.association = message.Get<FlowArray::Association>();
+    array.components = message.Get<int>();
+    array.range = message.Get<std::array<double, 2>>();
+  }
+  return arrays;
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::size_t> arraysOfModel(int model)
+{
+  switch (model)
+  {
+    case S::Ciddor:
+      return { S::TemperatureArray, S::PressureArray, S::HumidityArray };
+    case S::Curves:
+      return {};
+    case S::RefractiveIndex:
+    case S::Refractivity:
+      return { S::IndexArray };
+    default:
+      return { S::DensityArray };
+  }
+}
+
+//------------------------------------------------------------------------------
+bool isOpen(const MediumSettings& settings)
+{
+  return settings.IndexModel == S::Auto ||
+    (settings.IndexModel == S::Mixture && settings.MixtureArrays.empty()) || lacksArrays(settings);
+}
+
+//------------------------------------------------------------------------------
+MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>& known)
+{
+  MediumChoice choice;
+  choice.settings = given;
+  MediumSettings& settings = choice.settings;
+  ArraySelection& density = settings.Arrays[S::DensityArray];
+  const bool isAuto = given.IndexModel == S::Auto;
+  FlowDefaults defaults;
+  if (isAuto && !density.isChosen() && given.MixtureArrays.empty())
+  {
+    defaults = flowDefaults(known);
+    settings.IndexModel = defaults.indexModel;
+  }
+  else
+  {
+    settings.IndexModel = !isAuto   ? given.IndexModel
+      : given.MixtureArrays.empty() ? S::GladstoneDale
+                                    : S::Mixture;
+    if (lacksArrays(settings))
+    {
+      defaults = flowDefaults(known, static_cast<MediumSettings::Models>(settings.IndexModel));
+    }
+  }
+  // Arrays that are not chosen.
+  for (const std::size_t index : arraysOfModel(settings.IndexModel))
+  {
+    ArraySelection& selection = settings.Arrays[index];
+    // Without an array RelativeHumidity counts.
+    if (selection.isChosen() || (index == S::HumidityArray && !isAuto))
+    {
+      continue;
+    }
+    selection.name = defaults.arrayOf(S::arrayProperties[index]);
+    selection.cellsFirst = defaults.association == FlowArray::Cells;
+    if (selection.name.empty() && index != S::HumidityArray)
+    {
+      choice.note = defaults.note;
+    }
+  }
+  // The gases of a density: with a gas of the user's own there is no mixture.
+  const bool isOneGas =
+    !isCustom(given.Gas) || given.GladstoneDaleConstant != MediumSettings::defaultConstant;
+  const bool mayBeMixture = settings.IndexModel == S::Mixture ||
+    (isAuto && settings.IndexModel == S::GladstoneDale && !isOneGas);
+  if (isAuto && isOneGas && settings.IndexModel == S::Mixture && given.MixtureArrays.empty())
+  {
+    settings.IndexModel = S::GladstoneDale;
+  }
+  else if (mayBeMixture && given.MixtureArrays.empty())
+  {
+    const FlowDefaults species =
+      flowSpecies(known, density.cellsFirst ? FlowArray::Cells : FlowArray::Points);
+    if (!species.fractions.empty())
+    {
+      settings.IndexModel = S::Mixture;
+      settings.MixtureArrays = species.fractions;
+      settings.MixtureGases = given.MixtureGases.empty() ? species.gases : given.MixtureGases;
+      settings.FractionType = species.ofVolume ? 1 : 0;
+    }
+  }
+  // Factors to SI units.
+  const auto scaleOf = [&](std::size_t index, double scale)
+  {
+    const std::string property = S::arrayProperties[index];
+    const std::string& name = settings.Arrays[index].name;
+    const double byUnit = scaleByUnit(property, name);
+    // What is guessed by values, as hPa are, belongs to arrays that were not chosen.
+    const bool isOfDefaults = isAuto && name == defaults.arrayOf(property);
+    const double byValues = isOfDefaults ? scaleIn(defaults, property + "Scale") : 0;
+    const bool isKnown = scale != 0 || byUnit != 0 || byValues != 0;
+    choice.isScaleKnown = choice.isScaleKnown || isKnown;
+    return scale != 0 ? scale : byUnit != 0 ? byUnit : byValues != 0 ? byValues : 1;
+  };
+  if (settings.IndexModel == S::Ciddor)
+  {
+    settings.TemperatureScale = scaleOf(S::TemperatureArray, given.TemperatureScale);
+    choice.isScaleKnown = false; // that of the pressure counts
+    settings.PressureScale = scaleOf(S::PressureArray, given.PressureScale);
+  }
+  else if (settings.IndexModel == S::GladstoneDale || settings.IndexModel == S::Mixture)
+  {
+    settings.DensityScale = scaleOf(S::DensityArray, given.DensityScale);
+  }
+  choice.message = inWords(settings);
+  return choice;
+}
+
+} // namespace filters

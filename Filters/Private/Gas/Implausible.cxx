@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlowDefaults.h"
+#include "Gas/ArrayNames.h"
+
+#include <cstdio>
+
+using filters::ArrayName;
+
+namespace
+{
+
+// Of n - 1. Air at 0 C and 15 times the pressure of the atmosphere has the first, which no surroundings of
+// flows exceed but in few engines; liquids begin at the second; the third is air at less than a hundredth of it.
+constexpr double densestSurroundings = 4e-3;
+constexpr double densestGas = 0.05;
+constexpr double thinnestGas = 2e-6;
+// Solvers undershoot.
+constexpr double undershoot = 1e-3;
+
+std::string textOf(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// "'rho' (1 to 2)", as the array has it.
+std::string described(const FlowArray& array)
+{
+  return "'" + array.name + "' (" + textOf(array.range[0]) + " to " + textOf(array.range[1]) + ")";
+}
+
+/// What holds for any quantity of which a gas's index follows.
+Implausible ofAny(const FlowArray& array, const std::string& quantity)
+{
+  if (array.range[0] == 0 && array.range[1] == 0)
+  {
+    return { "zero",
+      "The " + quantity + " '" + array.name +
+        "' is 0 everywhere, so there is nothing that bends light. Choose another array, or another "
+        "time step." };
+  }
+  return {};
+}
+
+Implausible ofDensity(const FlowInUse& flow)
+{
+  constexpr const char* document = " (Documentation/density.md)";
+  const FlowArray& array = flow.arrays[0];
+  if (Implausible any = ofAny(array, "density"); !any.text.empty())
+  {
+    return any;
+  }
+  if (isNoDensity(array))
+  {
+    return { "no density",
+      described(array) +
+        " was chosen as the density, but its name or its values are those of something else. If "
+        "it is no density, choose another array for Density, or another IndexModel" +
+        std::string(document) + "." };
+  }
+  const ArrayName name(array.name);
+  if (!flow.isScaleGiven && name.HasUnit(filters::Quantity::Density) &&
+    name.Scale(filters::Quantity::Density) == 0)
+  {
+    return { "unit",
+      "The unit in the name of the density '" + array.name +
+        "' is not known and kg/m\xc2\xb3 is assumed. Set DensityScale to the factor that makes "
+        "kg/m\xc2\xb3 "
+        "of it." };
+  }
+  const double low = array.range[0] * flow.scales[0], high = array.range[1] * flow.scales[0];
+  if (low == high && flow.indexModel == MediumSettings::GladstoneDale)
+  {
+    return { "constant",
+      "The density '" + array.name + "' is " + textOf(array.range[0]) +
+        " everywhere, as in incompressible flow, so that nothing bends light. Where temperatures "
+        "differ, compute a density from temperature and pressure" +
+        std::string(document) + "." };
+  }
+  if (low < -undershoot * high)
+  {
+    return { "negative",
+      "The density " + described(array) +
+        " is negative in places, which no gas is. Choose an array that is an absolute density, or "
+        "add what it counts from with Calculator." };
+  }
+  const double lowest = flow.constant * low, highest = flow.constant * high;
+  if (flow.isGas && (highest > densestGas || (lowest > densestSurroundings && !flow.isScaleGiven)))
+  {
+    return { "dense",
+      "With the density " + described(array) + ", n - 1 is " + textOf(lowest) + " to " +
+        textOf(highest) +
+        ", more than that of gases (air in a room: 2.7e-4). If it is no density in kg/m\xc2\xb3, "
+        "set DensityScale or choose another array; of a liquid, give the index itself" +
+        std::string(document) + "." };
+  }
+  if (flow.isGas && !flow.isScaleGiven && highest < thinnestGas)
+  {
+    return { "thin",
+      "With the density " + described(array) + ", n - 1 is at most " + textOf(highest) +
+        ", a hundredth of that of air in a room, or less. If the density is in g/cm\xc2\xb3, set "
+        "DensityScale to 1000; if it is relative to the free stream, to the free stream's." };
+  }
+  return {};
+}
+
+Implausible ofMoistAir(const FlowInUse& flow)
+{
+  const FlowArray& temperature = flow.arrays[0];
+  const FlowArray& pressure = flow.arrays[1];
+  for (const auto& [array, quantity] :
+    { std::make_pair(&temperature, "temperature"), std::make_pair(&pressure, "pressure") })
+  {
+    if (Implausible any = ofAny(*array, quantity); !any.text.empty())
+    {
+      return any;
+    }
+  }
+  const double kelvins[2] = { temperature.range[0] * flow.scales[0],
+    temperature.range[1] * flow.scales[0] };
+  const double pascals[2] = { pressure.range[0] * flow.scales[1],
+    pressure.range[1] * flow.scales[1] };
+  // Bodies often have 0; the coldest streams of wind tunnels have some 45 K.
+  const bool isBelowAll = kelvins[0] < 0 || (kelvins[0] > 0 && kelvins[0] < 40);
+  if (ArrayName(temperature.name).IsInDegrees() || isBelowAll || kelvins[1] < 150)
+  {
+    return { "Celsius",
+      "The temperature " + described(temperature) +
+        " seems not to be in kelvins. If it is in degrees Celsius, compute kelvins (+ 273.15) with "
+        "Calculator and choose these for Temperature." };
+  }
+  if (pascals[0] <= 0 || ArrayName(pressure.name).IsGauge())
+  {
+    return { "gauge",
+      "The pressure " + described(pressure) +
+        " seems to count from that of the surroundings. Compute the absolute one (+ 101325) with "
+        "Calculator and choose it for Pressure." };
+  }
+  constexpr double leastOfAir = 1200, mostOfAir = 1e8; // pascals
+  if (pascals[1] < leastOfAir || pascals[0] > mostOfAir)
+  {
+    const double factor = pascals[1] > 300 ? 100 : pascals[1] > 30 ? 1e3 : 1e5;
+    return { "pressure",
+      "With PressureScale " + textOf(flow.scales[1]) + " the pressure " + described(pressure) +
+        " is in Pa, so that n - 1 is far from that of air in a room." +
+        (pascals[1] < leastOfAir && !flow.isScaleGiven ? " If it is in " +
+              std::string(factor == 100 ? "hPa"
+                  : factor == 1e3       ? "kPa"
+                                        : "bar") +
+              ", set PressureScale to " + textOf(factor) + "."
+                                                       : " Check PressureScale.") };
+  }
+  return {};
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Implausible implausible(const FlowInUse& flow)
+{
+  for (const FlowArray& array : flow.arrays)
+  {
+    constexpr double most = 1e100; // what is more is no state of anything
+    if (!(array.range[0] <= array.range[1]) || array.range[0] < -most || array.range[1] > most)
+    {
+      return {}; // there are other messages for that
+    }
+  }
+  switch (flow.indexModel)
+  {
+    case MediumSettings::GladstoneDale:
+    case MediumSettings::Mixture:
+      return flow.arrays.size() == 1 ? ofDensity(flow) : Implausible();
+    case MediumSettings::Ciddor:
+      return flow.arrays.size() == 2 ? ofMoistAir(flow) : Implausible();
+    default:
+      return {};
+  }
+}

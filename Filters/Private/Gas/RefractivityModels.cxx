@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Gas/RefractivityModels.h"
+
+#include "Gas/GasChoices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <type_traits>
+
+namespace filters
+{
+
+namespace
+{
+
+/// Fractions (and relative humidities) above 1 by more than rounding and interpolation explain.
+constexpr double maxOfAll = 1.01;
+
+std::string textOf(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+void requireFinite(const std::string& name, double value)
+{
+  if (!std::isfinite(value))
+  {
+    throw std::runtime_error(name + " is not a finite number. Set it to one.");
+  }
+}
+
+void requireConstant(const std::string& name, double value)
+{
+  requireFinite(name, value);
+  if (value < 0)
+  {
+    throw std::runtime_error(name + " holds " + textOf(value) +
+      ", but a Gladstone-Dale constant is not negative. Give it in m^3/kg (air: 2.26e-4).");
+  }
+}
+
+void requireMolarMass(const std::string& name, double value)
+{
+  requireFinite(name, value);
+  if (value <= 0)
+  {
+    throw std::runtime_error(name + " holds " + textOf(value) +
+      ", but a molar mass is positive. Give it in kg/mol (air: 0.0289647).");
+  }
+}
+
+/// One value is needed for each species.
+void requireOneEach(const char* name, std::size_t count, std::size_t species)
+{
+  if (count != species)
+  {
+    throw std::runtime_error("MixtureArrays and " + std::string(name) + " differ in length (" +
+      std::to_string(species) + " and " + std::to_string(count) +
+      "). Give one value for each array.");
+  }
+}
+
+Linear gladstoneDale(const MediumSettings& settings)
+{
+  const schlieren::Gas* gas = gasFrom("Gas", settings.Gas);
+  const double constant =
+    gas ? gas->constantAt(wavelengthOfGases(settings)) : settings.GladstoneDaleConstant;
+  requireFinite("GladstoneDaleConstant", constant);
+  requireFinite("DensityScale", settings.DensityScale);
+  return { constant * settings.DensityScale, 0 };
+}
+
+/// What the species and the background are made of where they were chosen by name, null elsewhere; the
+/// background is the last.
+std::vector<const schlieren::Gas*> gasesOfMixture(const MediumSettings& settings)
+{
+  const std::size_t species = settings.MixtureArrays.size();
+  std::vector<const schlieren::Gas*> gases;
+  if (!settings.MixtureGases.empty())
+  {
+    requireOneEach("MixtureGases", settings.MixtureGases.size(), species);
+    for (const std::string& name : settings.MixtureGases)
+    {
+      gases.push_back(gasFrom("MixtureGases", name));
+    }
+  }
+  gases.resize(species);
+  gases.push_back(gasFrom("BackgroundGas", settings.BackgroundGas));
+  return gases;
+}
+
+GasMixture gasMixture(const MediumSettings& settings)
+{
+  const std::vector<double>& constants = settings.MixtureConstants;
+  const std::vector<double>& molarMasses = settings.MixtureMolarMasses;
+  const std::size_t species = settings.MixtureArrays.size();
+  if (species == 0)
+  {
+    throw std::runtime_error(
+      "MixtureArrays is empty, so there is no mixture, and no array is known by its name as a "
+      "fraction of a gas. Name the arrays of "
+      "the fractions, or set IndexModel to Gladstone-Dale for a single gas.");
+  }
+  requireFinite("DensityScale", settings.DensityScale);
+  const std::vector<const schlieren::Gas*> gases = gasesOfMixture(settings);
+  const bool allNamed = std::find(gases.begin(), gases.end() - 1, nullptr) == gases.end() - 1;
+
+  GasMixture model;
+  model.densityScale = settings.DensityScale;
+  model.ofVolumes = settings.FractionType == 1;
+  if (!allNamed)
+  {
+    requireOneEach("MixtureConstants", constants.size(), species);
+    if (model.ofVolumes && molarMasses.empty())
+    {
+      throw std::runtime_error("MixtureMolarMasses is empty, but volume fractions weigh by the "
+                               "gases' masses. Give the molar mass of each gas in kg/mol (helium: "
+                               "0.0040026), or set FractionType to Mass.");
+    }
+    if (model.ofVolumes)
+    {
+      requireOneEach("MixtureMolarMasses", molarMasses.size(), species);
+    }
+  }
+  const auto component = [&](std::size_t i)
+  {
+    schlieren::Component part;
+    if (gases[i])
+    {
+      part.constant = gases[i]->constantAt(wavelengthOfGases(settings));
+      part.molarMass = gases[i]->molarMass;
+      return part;
+    }
+    const bool isBackground = i == species;
+    part.constant = isBackground ? settings.BackgroundConstant : constants[i];
+    requireConstant(isBackground ? "BackgroundConstant" : "MixtureConstants", part.constant);
+    if (model.ofVolumes)
+    {
+      part.molarMass = isBackground ? settings.BackgroundMolarMass : molarMasses[i];
+      requireMolarMass(isBackground ? "BackgroundMolarMass" : "MixtureMolarMasses", part.molarMass);
+    }
+    return part;
+  };
+  for (std::size_t i = 0; i < species; ++i)
+  {
+    model.mixture.species.push_back(component(i));
+  }
+  model.mixture.background = component(species);
+  return model;
+}
+
+CiddorAir ciddorAir(const MediumSettings& settings)
+{
+  requireFinite("TemperatureScale", settings.TemperatureScale);
+  requireFinite("PressureScale", settings.PressureScale);
+  const bool hasHumidity = settings.Arrays[MediumSettings::HumidityArray].isNamed();
+  const double humidity = settings.RelativeHumidity;
+  if (!hasHumidity && !(humidity >= 0 && humidity <= 1))
+  {
+    throw std::runtime_error("RelativeHumidity is " + textOf(humidity) +
+      ", but it is a fraction of saturation. Set it between 0 and 1.");
+  }
+  if (!(settings.CO2 >= 0 && settings.CO2 <= 1e6))
+  {
+    throw std::runtime_error("CO2 is " + textOf(settings.CO2) +
+      ", which is no number of parts per million. Set it between 0 and 1e6 (air: 450).");
+  }
+  const double wavelength = 1e-9 * settings.Wavelength;
+  if (!schlieren::isWithinCiddorWavelengths(wavelength))
+  {
+    throw std::runtime_error("Wavelength is " + textOf(settings.Wavelength) +
+      " nm, where Ciddor's equations do not hold. Set it between 300 and 1700 nm.");
+  }
+  return { schlieren::MoistAir::at(wavelength, settings.CO2), settings.TemperatureScale,
+    settings.PressureScale, hasHumidity, humidity };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+double GasMixture::refractivity(const double* values) const
+{
+  const double constant = this->ofVolumes ? this->mixture.constantByVolume(values + 1)
+                                          : this->mixture.constantByMass(values + 1);
+  return schlieren::gladstoneDaleRefractivity(constant, this->densityScale * values[0]);
+}
+
+bool GasMixture::isDoubtful(const double* values) const
+{
+  double sum = 0;
+  for (std::size_t i = 1; i <= this->mixture.species.size(); ++i)
+  {
+    sum += values[i];
+  }
+  return sum > maxOfAll;
+}
+
+std::string GasMixture::warning(const std::string& fraction) const
+{
+  return "The fractions of MixtureArrays add up to more than " + textOf(maxOfAll) + " in " +
+    fraction +
+    " of the points, which leaves less than nothing to the background gas. Check that they "
+    "are fractions of 1 and do not include the background.";
+}
+
+//------------------------------------------------------------------------------
+double CiddorAir::refractivity(const double* values) const
+{
+  return this->air.refractivity(this->temperatureScale * values[0], this->pressureScale * values[1],
+    this->hasHumidity ? values[2] : this->relativeHumidity);
+}
+
+bool CiddorAir::isDoubtful(const double* values) const
+{
+  return !schlieren::isWithinCiddorRange(
+           this->temperatureScale * values[0], this->pressureScale * values[1]) ||
+    (this->hasHumidity && values[2] > maxOfAll);
+}
+
+std::string CiddorAir::warning(const std::string& fraction) const
+{
+  return fraction +
+    " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to "
+    "120 kPa, relative humidity to 1). There they are continued towards the ideal gas. "
+    "If so many surprise you, check that TemperatureScale and PressureScale give K and "
+    "Pa, and that humidity is from 0 to 1.";
+}
+
+//------------------------------------------------------------------------------
+FieldMean fieldMeanFrom(const MediumSettings& settings)
+{
+  const bool isModel = settings.IndexModel == MediumSettings::Curves;
+  const auto& functions = settings.TransferFunctions;
+  const std::vector<double>& ranges = settings.FieldRanges;
+  const std::size_t fields = settings.Fields.size();
+  if (isModel && !functions.empty() && functions.size() != fields)
+  {
+    throw std::runtime_error("Fields and TransferFunctions differ in length (" +
+      std::to_string(fields) + " and " + std::to_string(functions.size()) +
+      "). Give one function for each field, or none for straight lines.");
+  }
+  if (!ranges.empty() && ranges.size() != 2 * fields)
+  {
+    throw std::runtime_error("FieldRanges holds " + std::to_string(ranges.size()) + " values for " +
+      std::to_string(fields) + " fields. Give two for each, or none for the fields' own ranges.");
+  }
+  requireFinite("RefractivityScale", settings.RefractivityScale);
+
+  FieldMean model;
+  model.scale = settings.RefractivityScale;
+  for (std::size_t i = 0; i < fields; ++i)
+  {
+    const double low = ranges.empty() ? 0 : ranges[2 * i];
+    const double high = ranges.empty() ? 0 : ranges[2 * i + 1];
+    requireFinite("A value of FieldRanges", low);
+    requireFinite("A value of FieldRanges", high);
+    model.curves.emplace_back(
+      isModel && !functions.empty() ? functions[i] : TransferCurve(), low, high);
+  }
+  return model;
+}
+
+//------------------------------------------------------------------------------
+Model modelFrom(const MediumSettings& settings)
+{
+  switch (settings.IndexModel)
+  {
+    case MediumSettings::GladstoneDale:
+      return gladstoneDale(settings);
+    case MediumSettings::Mixture:
+      return gasMixture(settings);
+    case MediumSettings::Ciddor:
+      return ciddorAir(settings);
+    case MediumSettings::Curves:
+      return fieldMeanFrom(settings);
+    case MediumSettings::RefractiveIndex:
+      return Linear{ 1, -1 };
+    default:
+      return Linear();
+  }
+}
+
+//------------------------------------------------------------------------------
+Selection selectionOf(const MediumSettings& settings, std::size_t index)
+{
+  return { MediumSettings::arrayProperties[index], settings.Arrays[index] };
+}
+
+//------------------------------------------------------------------------------
+std::vector<Selection> selectionsFrom(const MediumSettings& settings)
+{
+  using S = MediumSettings;
+  std::vector<Selection> selections;
+  switch (settings.IndexModel)
+  {
+    case S::GladstoneDale:
+      selections = { selectionOf(settings, S::DensityArray) };
+      break;
+    case S::Mixture:
+      selections = { selectionOf(settings, S::DensityArray) };
+      for (const std::string& name : settings.MixtureArrays)
+      {
+        selections.push_back({ "MixtureArrays", { name, -1, selections[0].cellsFirst } });
+      }
+      break;
+    case S::Ciddor:
+      selections = { selectionOf(settings, S::TemperatureArray),
+        selectionOf(settings, S::PressureArray) };
+      if (settings.Arrays[S::HumidityArray].isNamed())
+      {
+        selections.push_back(selectionOf(settings, S::HumidityArray));
+      }
+      break;
+    case S::Curves:
+      for (const std::string& name : settings.Fields)
+      {
+        selections.push_back({ "Fields", { name } });
+      }
+      if (selections.empty())
+      {
+        selections.push_back({ "Fields", {} }); // for the message
+      }
+      break;
+    default:
+      selections = { selectionOf(settings, S::IndexArray) };
+      break;
+  }
+  return selections;
+}
+
+//------------------------------------------------------------------------------
+Tally& Tally::operator+=(const Tally& other)
+{
+  this->all += other.all;
+  this->doubtful += other.doubtful;
+  return *this;
+}
+
+std::string warningFrom(const Model& model, const Tally& tally)
+{
+  if (tally.doubtful == 0)
+  {
+    return "";
+  }
+  char fraction[32];
+  std::snprintf(fraction, sizeof fraction, "%.3g %%",
+    100 * static_cast<double>(tally.doubtful) / static_cast<double>(tally.all));
+  return std::visit(
+    [&fraction](const auto& chosen) -> std::string
+    {
+      if constexpr (std::is_same_v<std::decay_t<decltype(chosen)>, Linear>)
+      {
+        return "";
+      }
+      else
+      {
+        return chosen.warning(fraction);
+      }
+    },
+    model);
+}
+
+} // namespace filters

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/ImageOutput.h"
+
+#include "Common/AvailableMemory.h"
+
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+
+#include "Schlieren.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+constexpr const char* dataUnits = "data units";
+
+void setUnit(vtkDataArray* array, const char* unit)
+{
+  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
+}
+
+/// Takes the memory of the values over.
+template <class Array, class Value>
+vtkSmartPointer<Array> newArray(
+  const char* name, schlieren::PixelArray<Value>& values, int components, const char* unit)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  const auto size = static_cast<vtkIdType>(values.size());
+  array->SetArray(values.release(), size, 0, Array::VTK_DATA_ARRAY_DELETE);
+  setUnit(array, unit);
+  return array;
+}
+
+/// Of two values for each pixel. The third component, along the light, is 0: what ParaView takes for a vector has three.
+vtkSmartPointer<vtkFloatArray> newVectors(
+  const char* name, schlieren::PixelArray<float>& values, const char* unit)
+{
+  const schlieren::PixelArray<float> pairs = std::move(values);
+  schlieren::PixelArray<float> vectors(pairs.size() / 2 * 3);
+  for (std::size_t pixel = 0; pixel < pairs.size() / 2; ++pixel)
+  {
+    vectors[3 * pixel] = pairs[2 * pixel];
+    vectors[3 * pixel + 1] = pairs[2 * pixel + 1];
+    vectors[3 * pixel + 2] = 0;
+  }
+  auto array = newArray<vtkFloatArray>(name, vectors, 3, unit);
+  array->SetComponentName(0, "u");
+  array->SetComponentName(1, "v");
+  array->SetComponentName(2, "w");
+  return array;
+}
+
+template <class Array, class Value>
+void addFieldValue(vtkImageData* output, const char* name, const Value& value)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+void addFieldValue(vtkImageData* output, const char* name, double value, const char* unit)
+{
+  addFieldValue<vtkDoubleArray>(output, name, value);
+  setUnit(output->GetFieldData()->GetArray(name), unit);
+}
+
+/// Where the points of an image in the plane z = 0 lie. Since VTK 9.3 it would be turned with the input.
+void place(vtkImageData* output, double x, double y, double spacing)
+{
+  output->SetOrigin(x, y, 0);
+  output->SetSpacing(spacing, spacing, spacing);
+  output->SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1);
+}
+
+/// The sRGB curve, IEC 61966-2-1.
+float srgbFromLinear(float light)
+{
+  return light <= 0.0031308f ? 12.92f * light : 1.055f * std::pow(light, 1 / 2.4f) - 0.055f;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void dropIdleBounds(schlieren::Image& image)
+{
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  if (image.displacementBound >= 0.5 * image.frame.pixelSize * std::min(image.width, image.height))
+  {
+    image.displacementBound = unknown;
+  }
+  double largestSquare = 0;
+  for (std::size_t i = 0; i + 1 < image.deflection.size(); i += 2)
+  {
+    const double u = image.deflection[i], v = image.deflection[i + 1];
+    largestSquare = std::max(largestSquare, u * u + v * v);
+  }
+  if (image.skippingBound > 0 && image.skippingBound >= std::sqrt(largestSquare))
+  {
+    image.skippingBound = unknown;
+  }
+}
+
+//------------------------------------------------------------------------------
+void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
+{
+  output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
+  place(output, image.frame.origin[0], image.frame.origin[1], image.frame.pixelSize);
+
+  vtkPointData* arrays = output->GetPointData();
+  arrays->SetScalars(newArray<vtkFloatArray>("Intensity", image.intensity, 1, "1"));
+  arrays->AddArray(newVectors("Deflection", image.deflection, "rad"));
+  arrays->AddArray(
+    newArray<vtkDoubleArray>("OpticalPathDifference", image.opticalPathDifference, 1, "m"));
+  arrays->AddArray(newVectors("Displacement", image.displacement, dataUnits));
+  arrays->AddArray(newArray<vtkFloatArray>("BlockedFraction", image.blockedFraction, 1, "1"));
+  if (!image.background.empty())
+  {
+    arrays->AddArray(newArray<vtkFloatArray>("Background", image.background, 1, "1"));
+  }
+  if (!image.backgroundDisplacement.empty())
+  {
+    arrays->AddArray(newVectors("BackgroundDisplacement", image.backgroundDisplacement, dataUnits));
+  }
+
+  addFieldValue<vtkStringArray>(
+    output, "Device", image.device == schlieren::Device::Cuda ? "CUDA" : "CPU");
+  addFieldValue<vtkStringArray>(output, "PathModel",
+    isDifference                                          ? "Difference"
+      : image.pathModel == schlieren::PathModel::Straight ? "Straight"
+                                                          : "Refracted");
+  addFieldValue<vtkDoubleArray>(output, "KScale", image.kScale);
+  addFieldValue<vtkDoubleArray>(output, "UndisturbedLevel", image.undisturbedLevel);
+  addFieldValue<vtkDoubleArray>(output, "SaturatedShare", image.saturatedFraction);
+  addFieldValue<vtkDoubleArray>(output, "LightEmitted", image.light.emitted);
+  addFieldValue<vtkDoubleArray>(output, "LightOnFilm", image.light.onFilm);
+  addFieldValue<vtkDoubleArray>(output, "LightOutside", image.light.outside);
+  addFieldValue<vtkDoubleArray>(output, "AmbientRefractivity", image.ambient);
+  addFieldValue<vtkDoubleArray>(output, "ExitRefractivity", image.exitRefractivity);
+  addFieldValue<vtkTypeInt64Array>(output, "RaysTraced", image.raysTraced);
+  addFieldValue<vtkTypeInt64Array>(output, "RaysLost", image.raysLost);
+  addFieldValue<vtkTypeInt64Array>(output, "StepsTaken", image.stepsTaken);
+  addFieldValue(output, "TraceSeconds", image.traceSeconds, "s");
+  if (std::isfinite(image.displacementBound))
+  {
+    addFieldValue(output, "DisplacementBound", image.displacementBound, dataUnits);
+  }
+  if (std::isfinite(image.skippingBound))
+  {
+    addFieldValue(output, "SkippingBound", image.skippingBound, "rad");
+  }
+  addFieldValue<vtkDoubleArray>(output, "MomentumDrift", image.momentumDrift);
+}
+
+//------------------------------------------------------------------------------
+void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale)
+{
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName("Color");
+  array->SetNumberOfComponents(3);
+  setTuples(array, static_cast<vtkIdType>(image.color.size()) / 3);
+  const float white = scale == ColorScale::LinearToTwice ? 2 : 1;
+  std::transform(image.color.begin(), image.color.end(), array->GetPointer(0),
+    [white, scale](float light)
+    {
+      const float fraction = std::clamp(light / white, 0.f, 1.f);
+      return static_cast<unsigned char>(
+        (scale == ColorScale::Srgb ? srgbFromLinear(fraction) : fraction) * 255.f + 0.5f);
+    });
+  output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
+  output->GetPointData()->SetActiveScalars("Color");
+}
+
+//------------------------------------------------------------------------------
+void addFringeSpacing(vtkImageData* output, double spacing)
+{
+  addFieldValue(output, "FringeSpacing", spacing, dataUnits);
+}
+
+//------------------------------------------------------------------------------
+void addExposure(vtkImageData* output, double begin, double end)
+{
+  vtkNew<vtkDoubleArray> interval;
+  interval->SetName("ExposureInterval");
+  interval->InsertNextValue(begin);
+  interval->InsertNextValue(end);
+  output->GetFieldData()->AddArray(interval);
+}
+
+//------------------------------------------------------------------------------
+void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)
+{
+  vtkNew<vtkIntArray> levels;
+  levels->SetName("MediumLevels");
+  levels->InsertNextValue(medium.coarsestLevel);
+  levels->InsertNextValue(medium.finestLevel);
+  output->GetFieldData()->AddArray(levels);
+  addFieldValue<vtkTypeInt64Array>(
+    output, "MediumBricks", static_cast<vtkTypeInt64>(medium.bricks));
+  addFieldValue<vtkTypeInt64Array>(
+    output, "MediumVoxels", static_cast<vtkTypeInt64>(medium.voxels));
+  addFieldValue<vtkTypeInt64Array>(output, "MediumBytes", static_cast<vtkTypeInt64>(medium.bytes));
+  addFieldValue<vtkDoubleArray>(output, "SmallestVoxel", medium.smallestVoxel);
+  addFieldValue<vtkDoubleArray>(output, "MediumError", medium.estimatedError);
+}
+
+//------------------------------------------------------------------------------
+std::string mediumInWords(const schlieren::MediumStatistics& medium)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << medium.bricks << " bricks on levels " << medium.coarsestLevel << " to "
+       << medium.finestLevel << ", " << 1e-6 * static_cast<double>(medium.voxels)
+       << " million voxels of " << medium.smallestVoxel << " and more, "
+       << std::lround(1e-6 * static_cast<double>(medium.bytes)) << " MB; estimated error "
+       << 100 * medium.estimatedError << " % of the largest deflection";
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+void addGrid(vtkImageData* output, const char* grid, vtkImageData* refractivity)
+{
+  addFieldValue<vtkStringArray>(output, "Grid", std::string(grid));
+  if (vtkDataArray* used = refractivity->GetFieldData()->GetArray("SamplingDimensions"))
+  {
+    vtkNew<vtkIntArray> dimensions;
+    dimensions->DeepCopy(used);
+    dimensions->SetName("MediumDimensions");
+    output->GetFieldData()->AddArray(dimensions);
+  }
+}
+
+//------------------------------------------------------------------------------
+void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram)
+{
+  if (histogram.rays.empty())
+  {
+    return;
+  }
+  const double width = 2 * histogram.range / histogram.size;
+  const double first = -histogram.range + width / 2;
+  output->SetDimensions(histogram.size, histogram.size, 1);
+  place(output, first, first, width);
+  vtkNew<vtkTypeInt64Array> rays;
+  rays->SetName("Rays");
+  rays->SetNumberOfValues(static_cast<vtkIdType>(histogram.rays.size()));
+  std::copy(histogram.rays.begin(), histogram.rays.end(), rays->GetPointer(0));
+  setUnit(rays, "1");
+  output->GetPointData()->SetScalars(rays);
+}
+
+} // namespace filters

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/ImageStatus.h"
+
+#include "Schlieren.h"
+
+#include <cstdio>
+
+namespace filters
+{
+
+namespace
+{
+
+std::string textOf(const char* format, double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string textOf(double value) { return textOf("%.2g", value); }
+
+/// Like "2 of 4 samples per pixel".
+std::string samplesInWords(const schlieren::Image& image, const schlieren::Scene& scene)
+{
+  const std::string wanted = std::to_string(scene.samplesPerPixel);
+  const bool isWhole = image.samples == scene.samplesPerPixel;
+  return (isWhole ? wanted : std::to_string(image.samples) + " of " + wanted) +
+    (scene.samplesPerPixel == 1 ? " sample per pixel" : " samples per pixel");
+}
+
+/// Like "85 million rays/s".
+std::string speedInWords(double raysPerSecond)
+{
+  constexpr double million = 1e6;
+  return raysPerSecond >= 10 * million ? textOf("%.0f million rays/s", raysPerSecond / million)
+    : raysPerSecond >= 0.1 * million   ? textOf("%.1f million rays/s", raysPerSecond / million)
+                                       : textOf("%.0f rays/s", raysPerSecond);
+}
+
+std::string deviceInWords(const schlieren::Image& image)
+{
+  const std::string ranks =
+    image.processes > 1 ? " on each of " + std::to_string(image.processes) + " ranks" : "";
+  if (image.device == schlieren::Device::Cuda)
+  {
+    return "CUDA" + ranks;
+  }
+  const std::string threads =
+    std::to_string(image.threads) + (image.threads == 1 ? " thread" : " threads");
+  return "CPU (" + threads + ranks + ")";
+}
+
+/// What straight rays leave out: a bound on how far refracted ones are beside them where they leave the data. It is
+/// left out where it is too large to say anything, and so is MomentumDrift: |p| may be right where the direction
+/// of p is not.
+std::string accuracyInWords(const schlieren::Image& image, const schlieren::Scene& scene)
+{
+  if (image.pathModel == schlieren::PathModel::Refracted)
+  {
+    return image.integrator == scene.integrator
+      ? "refracted rays"
+      : "refracted rays, with short steps where the index jumps";
+  }
+  constexpr double least = 0.01; // pixels
+  constexpr double most = 10;
+  const double pixels = image.displacementBound / image.frame.pixelSize;
+  return pixels < least ? "straight rays, displaced by less than " + textOf(least) + " pixels"
+    : !(pixels <= most) ? "straight rays, bending left out"
+                        : "straight rays, displaced by up to " + textOf(pixels) + " pixels";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string statusInWords(
+  const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond)
+{
+  std::string words = samplesInWords(image, scene) + ", ";
+  if (raysPerSecond > 0)
+  {
+    words += speedInWords(raysPerSecond) + " on ";
+  }
+  return words + deviceInWords(image) + ", " + accuracyInWords(image, scene);
+}
+
+} // namespace filters

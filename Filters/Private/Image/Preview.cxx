@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/Preview.h"
+
+#include "Settings/QualityPresets.h"
+
+#include "vtkMath.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace filters
+{
+
+//------------------------------------------------------------------------------
+int previewPixels(int pixels, int reduction)
+{
+  return std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels) / reduction)));
+}
+
+//------------------------------------------------------------------------------
+schlieren::View previewView(
+  const schlieren::View& view, const schlieren::Frame& frame, int reduction)
+{
+  schlieren::View preview = view;
+  preview.width = previewPixels(view.width, reduction);
+  preview.height = previewPixels(view.height, reduction);
+  const double larger = std::max(static_cast<double>(view.width) / preview.width,
+    static_cast<double>(view.height) / preview.height);
+  preview.parallelScale = 0.5 * preview.height * larger * frame.pixelSize;
+  if (frame.pupil > 0)
+  {
+    preview.viewAngle =
+      vtkMath::DegreesFromRadians(2 * std::atan(preview.parallelScale / frame.pupil));
+  }
+  return preview;
+}
+
+//------------------------------------------------------------------------------
+int reductionAtFirst(const schlieren::View& view)
+{
+  constexpr int pixels = 64;
+  return std::max(2, (std::max(view.width, view.height) + pixels - 1) / pixels);
+}
+
+//------------------------------------------------------------------------------
+void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction)
+{
+  constexpr double pixelsPerPeriod = 8; // the tracer's default
+  constexpr double fewestPerPeriod = 4; // finer ones fade to grey
+  if (scene.background.period == 0)
+  {
+    scene.background.period =
+      std::max(pixelsPerPeriod, fewestPerPeriod * reduction) * frame.pixelSize;
+  }
+  scene.view = previewView(scene.view, frame, reduction);
+  scene.samplesPerPixel = std::min(scene.samplesPerPixel, 1); // fewer is a mistake that stays one
+  scene.stepSize = std::max(scene.stepSize, interactiveStepSize());
+  scene.noiseFilterRadius /= reduction;
+}
+
+} // namespace filters

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/RealOptics.h"
+
+#include "SchlierenSettings.h"
+
+#include "vtkMath.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+namespace filters
+{
+
+namespace
+{
+
+/// From a diverging source to the middle of the data, and from fringe to fringe, by default.
+constexpr double depthsToSource = 10;
+constexpr double fringesInImage = 10;
+
+std::string textOf(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+[[noreturn]] void refuse(
+  const char* property, double value, const std::string& unit, const std::string& advice)
+{
+  throw std::runtime_error(
+    std::string(property) + " is " + textOf(value) + " " + unit + ", " + advice);
+}
+
+void requirePositive(
+  const char* property, double value, const std::string& unit, const std::string& owner)
+{
+  if (!(value > 0) || !std::isfinite(value))
+  {
+    refuse(property, value, unit, "but it has to be positive. Set it to that of " + owner + ".");
+  }
+}
+
+void requireSize(const char* property, double value)
+{
+  if (!(value >= 0) || !std::isfinite(value))
+  {
+    refuse(property, value, "mm", "which is no size. Set it to 0 or more.");
+  }
+}
+
+const schlieren::Technique& techniqueOf(const OpticsSettings& optics)
+{
+  return schlieren::techniqueOf(static_cast<schlieren::Cutoff>(optics.Cutoff));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool usesK(const OpticsSettings& optics) { return techniqueOf(optics).hasK(); }
+
+//------------------------------------------------------------------------------
+bool choosesK(const OpticsSettings& optics)
+{
+  return usesK(optics) && !optics.KFromOptics && optics.AutoKScale;
+}
+
+//------------------------------------------------------------------------------
+double kOfOptics(const OpticsSettings& optics)
+{
+  return optics.FocalLength > 0 && optics.SourceWidth > 0
+    ? optics.FocalLength / (metresPerMillimetre * optics.SourceWidth)
+    : std::numeric_limits<double>::quiet_NaN();
+}
+
+//------------------------------------------------------------------------------
+double offsetOfOptics(const OpticsSettings& optics)
+{
+  return optics.SourceWidth > 0 ? optics.CutoffPosition / optics.SourceWidth
+                                : std::numeric_limits<double>::quiet_NaN();
+}
+
+//------------------------------------------------------------------------------
+void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
+{
+  scene.cutoffOffset = optics.CutoffOffset;
+  if (optics.KFromOptics)
+  {
+    requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
+    requirePositive("SourceWidth", optics.SourceWidth, "mm", "the source's image");
+    if (!std::isfinite(optics.CutoffPosition))
+    {
+      refuse("CutoffPosition", optics.CutoffPosition, "mm",
+        "which is no place. Set it to how far the edge is in, 0 for the middle.");
+    }
+    scene.kScale = kOfOptics(optics);
+    scene.cutoffOffset = offsetOfOptics(optics);
+  }
+  else if (!optics.AutoKScale)
+  {
+    scene.kScale = optics.KScale;
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string kInWords(double k, bool isKept)
+{
+  return (isKept ? "k locked at " : "k = ") + textOf(k);
+}
+
+//------------------------------------------------------------------------------
+std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool isKept)
+{
+  if (techniqueOf(settings).hasFringes)
+  {
+    return settings.WhiteLight
+      ? "white light: a fringe of each colour is its wavelength of optical path"
+      : "a fringe is " + textOf(settings.Wavelength) +
+        " nm of optical path: Wavelength, in the group Medium";
+  }
+  if (!usesK(settings) || !(k > 0))
+  {
+    return "";
+  }
+  const double focalLength = settings.FocalLength;
+  // From the light that nothing bends to the brightest or the darkest.
+  const schlieren::Technique& technique = techniqueOf(settings);
+  std::string words = kInWords(k, isKept) + ": full scale is a deflection of " +
+    textOf(1e3 * technique.fullScale / k) + " mrad";
+  if (focalLength > 0)
+  {
+    words += "; optics: " + textOf(focalLength) + " m focal length, source " +
+      textOf(focalLength / k / metresPerMillimetre) + " mm wide";
+  }
+  if (settings.KFromOptics && technique.hasEdge)
+  {
+    words += ", the edge " + textOf(settings.CutoffPosition) + " mm in (offset " +
+      textOf(offsetOfOptics(settings)) + ")";
+  }
+  return words;
+}
+
+//------------------------------------------------------------------------------
+schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schlieren::Frame& frame)
+{
+  schlieren::LightSource source;
+  if (optics.LightSource == OpticsSettings::divergingLight)
+  {
+    const double distance = optics.SourceDistance;
+    source.distance = distance == 0 ? depthsToSource * (frame.exit - frame.entry) : distance;
+  }
+  source.shape = static_cast<schlieren::SourceShape>(optics.SourceShape);
+  if (source.shape != schlieren::SourceShape::Point)
+  {
+    requirePositive("FocalLength", optics.FocalLength, "m", "the mirrors");
+    requireSize("SourceWidth", optics.SourceWidth);
+    source.width = metresPerMillimetre * optics.SourceWidth / optics.FocalLength;
+  }
+  if (source.shape == schlieren::SourceShape::Slit)
+  {
+    requireSize("SourceLength", optics.SourceLength);
+    source.length = metresPerMillimetre * optics.SourceLength / optics.FocalLength;
+  }
+  return source;
+}
+
+//------------------------------------------------------------------------------
+double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
+{
+  const double angle = settings.BeamAngle;
+  if (!(angle >= 0 && angle <= 180))
+  {
+    refuse("BeamAngle", angle, "degrees",
+      "but beams cross at 0 to 180 degrees. Set it to that, or to 0 and give FringeSpacing.");
+  }
+  if (angle > 0)
+  {
+    const double wavelength = metresPerNanometre * settings.Wavelength;
+    return wavelength / (2 * std::sin(vtkMath::RadiansFromDegrees(angle) / 2)) /
+      settings.LengthScale;
+  }
+  return settings.FringeSpacing == 0 ? frame.pixelSize * settings.ImageSize[1] / fringesInImage
+                                     : settings.FringeSpacing;
+}
+
+} // namespace filters

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/SceneFromSettings.h"
+
+#include "Gas/GasChoices.h"
+#include "Image/Preview.h"
+#include "Image/RealOptics.h"
+#include "Image/RgbImages.h"
+#include "SchlierenSettings.h"
+
+#include "vtkPiecewiseFunction.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace filters
+{
+
+namespace
+{
+
+/// Where a graded filter is read off.
+constexpr int gradedFilterSamples = 1025;
+
+schlieren::Fringes fringesFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
+{
+  schlieren::Fringes fringes;
+  fringes.finite = settings.FringeMode == OpticsSettings::finiteFringes;
+  if (fringes.finite)
+  {
+    fringes.spacing = fringeSpacingFrom(settings, frame);
+    fringes.angle = settings.FringeAngle;
+  }
+  fringes.whiteLight = settings.WhiteLight;
+  return fringes;
+}
+
+schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbImageReader& images)
+{
+  schlieren::BackgroundPattern pattern;
+  if (settings.BackgroundPattern == OpticsSettings::scenePattern)
+  {
+    return pattern; // see addBackground
+  }
+  pattern.kind = static_cast<schlieren::PatternKind>(settings.BackgroundPattern);
+  if (!(settings.BackgroundDistance < 0))
+  {
+    pattern.distance = settings.BackgroundDistance;
+  }
+  pattern.period = settings.BackgroundPeriod;
+  pattern.angle = settings.BackgroundAngle;
+  if (pattern.kind == schlieren::PatternKind::Image)
+  {
+    if (settings.BackgroundImage.empty())
+    {
+      throw std::runtime_error(
+        "BackgroundImage is empty, so there is no image behind the flow. Give "
+        "the name of one, or set BackgroundPattern to Dots or Stripes.");
+    }
+    pattern.image = images.read("BackgroundImage", settings.BackgroundImage);
+  }
+  return pattern;
+}
+
+/// Of the whole image.
+schlieren::View viewFrom(const ViewSettings& settings)
+{
+  schlieren::View view;
+  std::copy_n(settings.ViewDirection, 3, view.viewDirection.begin());
+  std::copy_n(settings.ViewUp, 3, view.viewUp.begin());
+  if (settings.HasFocalPoint)
+  {
+    const double* point = settings.FocalPoint;
+    view.focalPoint = schlieren::Vector{ point[0], point[1], point[2] };
+  }
+  view.parallelScale = settings.ParallelScale;
+  view.viewAngle = settings.ViewAngle;
+  view.width = settings.ImageSize[0];
+  view.height = settings.ImageSize[1];
+  return view;
+}
+
+std::vector<double> gradedFilterFrom(vtkPiecewiseFunction* function)
+{
+  if (!function || function->GetSize() == 0)
+  {
+    return { 0, 1 };
+  }
+  std::vector<double> values(gradedFilterSamples);
+  function->GetTable(0, 1, gradedFilterSamples, values.data());
+  return values;
+}
+
+/// Whether the view is what it is by default, and along a plane.
+bool looksAlong(const ViewSettings& settings, int flatAxis)
+{
+  const ViewSettings byDefault;
+  return settings.FaceFlatData && (flatAxis == 0 || flatAxis == 1) &&
+    std::equal(settings.ViewDirection, settings.ViewDirection + 3, byDefault.ViewDirection);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+SchlierenSettings facing(SchlierenSettings settings, int flatAxis)
+{
+  if (looksAlong(settings, flatAxis))
+  {
+    // So that z is up, and x, or y, to the right.
+    const double across[2][3] = { { -1, 0, 0 }, { 0, 1, 0 } };
+    std::copy_n(across[flatAxis], 3, settings.ViewDirection);
+    const ViewSettings byDefault;
+    if (std::equal(settings.ViewUp, settings.ViewUp + 3, byDefault.ViewUp))
+    {
+      const double z[3] = { 0, 0, 1 };
+      std::copy_n(z, 3, settings.ViewUp);
+    }
+  }
+  return settings;
+}
+
+//------------------------------------------------------------------------------
+std::string noteOnView(const SchlierenSettings& settings, int flatAxis)
+{
+  return looksAlong(settings, flatAxis)
+    ? std::string(" ViewDirection (0, 0, -1) is along their plane: the image is as seen along ") +
+      (flatAxis == 0 ? "(-1, 0, 0)" : "(0, 1, 0)") + ", onto it."
+    : "";
+}
+
+//------------------------------------------------------------------------------
+schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
+{
+  const schlieren::View view = viewFrom(settings);
+  const schlieren::Frame frame = schlieren::frameOf(grid, view);
+  const int reduction = settings.PreviewReduction;
+  return reduction > 1 ? schlieren::frameOf(grid, previewView(view, frame, reduction)) : frame;
+}
+
+//------------------------------------------------------------------------------
+int threadsFrom(const ResourceSettings& settings)
+{
+  const char* limit = std::getenv("VTK_SMP_MAX_THREADS");
+  return settings.NumberOfThreads > 0 || !limit ? settings.NumberOfThreads
+                                                : std::max(0, std::atoi(limit));
+}
+
+//------------------------------------------------------------------------------
+schlieren::Scene sceneFrom(
+  const SchlierenSettings& settings, const schlieren::Grid& grid, RgbImageReader& images)
+{
+  schlieren::Scene scene;
+  scene.view = viewFrom(settings);
+  const schlieren::Frame frame = schlieren::frameOf(grid, scene.view);
+  scene.source = lightSourceFrom(settings, frame);
+  scene.cutoff = static_cast<schlieren::Cutoff>(settings.Cutoff);
+  scene.knifeEdgeAngle = settings.KnifeEdgeAngle;
+  scene.invertCutoff = settings.InvertCutoff;
+  // What another cutoff needs may hold anything.
+  if (usesK(settings))
+  {
+    setSensitivity(settings, scene);
+  }
+  if (scene.cutoff == schlieren::Cutoff::ColorFilter && !settings.ColorFilterImage.empty())
+  {
+    scene.colorFilter = images.read("ColorFilterImage", settings.ColorFilterImage);
+  }
+  if (schlieren::techniqueOf(scene.cutoff).hasFringes)
+  {
+    scene.wavelength = metresPerNanometre * settings.Wavelength;
+    scene.fringes = fringesFrom(settings, frame);
+  }
+  if (schlieren::isOfCamera(scene.cutoff))
+  {
+    scene.background = backgroundFrom(settings, images);
+  }
+  if (!(settings.ScreenDistance < 0)) // NaN too, which the core then reports
+  {
+    scene.screenDistance = settings.ScreenDistance;
+  }
+  scene.focusOffset = settings.FocusOffset;
+  scene.exitInto = static_cast<schlieren::ExitInto>(settings.ExitInto);
+  scene.exitRefractivity = settings.ExitRefractivity;
+  scene.filmEstimator = static_cast<schlieren::FilmEstimator>(settings.FilmEstimator);
+  scene.noiseFilter = static_cast<schlieren::NoiseFilter>(settings.NoiseFilter);
+  scene.noiseFilterRadius = settings.NoiseFilterRadius;
+  scene.histogramSize = settings.HistogramSize;
+  scene.memoryBudget = static_cast<std::size_t>(settings.MemoryBudget) << 20;
+  scene.samplesPerPixel = settings.SamplesPerPixel;
+  scene.seed = static_cast<std::uint32_t>(settings.Seed);
+  scene.pathModel = settings.PathModel == AccuracySettings::differencePath
+    ? schlieren::PathModel::Refracted
+    : static_cast<schlieren::PathModel>(settings.PathModel);
+  scene.integrator = static_cast<schlieren::Integrator>(settings.Integrator);
+  scene.stepSize = settings.StepSize;
+  scene.homogeneityTolerance = settings.HomogeneityTolerance;
+  scene.interpolation = static_cast<schlieren::Interpolation>(settings.Interpolation);
+  scene.precision = static_cast<schlieren::Precision>(settings.Precision);
+  scene.adaptiveTolerance = settings.AdaptiveTolerance;
+  scene.pathTolerance = settings.PathTolerance;
+  scene.mediumTolerance = settings.MediumTolerance;
+  scene.mediumMemory = static_cast<std::size_t>(settings.MediumMemory) << 20;
+  scene.device = static_cast<schlieren::Device>(settings.Device);
+  scene.threads = threadsFrom(settings);
+  if (settings.PreviewReduction > 1)
+  {
+    makePreview(scene, frame, settings.PreviewReduction);
+  }
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+void addObjects(
+  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumSettings& medium)
+{
+  if (scene.cutoff == schlieren::Cutoff::GradedFilter)
+  {
+    scene.gradedFilter = gradedFilterFrom(gradedFilter);
+  }
+  if (scene.fringes.whiteLight)
+  {
+    scene.fringes.dispersion = filters::dispersionOfGases(medium, scene.wavelength);
+  }
+}
+
+//------------------------------------------------------------------------------
+void addBackground(
+  schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background)
+{
+  if (!schlieren::isOfCamera(scene.cutoff) ||
+    settings.BackgroundPattern != OpticsSettings::scenePattern)
+  {
+    return;
+  }
+  if (!background.image)
+  {
+    throw std::runtime_error("BackgroundPattern is Scene, but what is behind the flow is not "
+                             "known: it is for flows that a "
+                             "view draws as Schlieren, in one process. Set BackgroundPattern to "
+                             "Dots, Stripes or Picture.");
+  }
+  schlieren::BackgroundPattern& pattern = scene.background;
+  pattern.kind = schlieren::PatternKind::Image;
+  pattern.image = background.image;
+  const double distance =
+    settings.BackgroundDistance < 0 ? background.distance : settings.BackgroundDistance;
+  if (!(distance < 0))
+  {
+    pattern.distance = distance;
+  }
+}
+
+} // namespace filters

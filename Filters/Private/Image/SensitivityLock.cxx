@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/SensitivityLock.h"
+
+#include "SchlierenSettings.h"
+
+#include "Schlieren.h"
+
+#include <iterator>
+#include <tuple>
+#include <type_traits>
+
+namespace filters
+{
+
+namespace
+{
+
+bool isAtOtherTime(const ImageCircumstances& a, const ImageCircumstances& b)
+{
+  return a.time && b.time && *a.time != *b.time;
+}
+
+/// Those of an exposure are of several times: only their sources and its own time identify them.
+bool haveSameData(const ImageCircumstances& a, const ImageCircumstances& b)
+{
+  return a.data && b.data ? *a.data == *b.data : a.upstream == b.upstream && a.time == b.time;
+}
+
+/// Whether they are the same, whenever they were requested.
+bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
+{
+  return a.data.has_value() == b.data.has_value() && haveSameData(a, b) &&
+    std::tie(a.properties, a.medium, a.rays) == std::tie(b.properties, b.medium, b.rays);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<double> settingsOfRays(const SchlierenSettings& settings)
+{
+  std::vector<double> values;
+  const auto add = [&values](const char*, const auto& value)
+  {
+    if constexpr (std::is_array_v<std::remove_reference_t<decltype(value)>>)
+    {
+      values.insert(values.end(), std::begin(value), std::end(value));
+    }
+    else
+    {
+      values.push_back(static_cast<double>(value));
+    }
+  };
+  settings.ViewSettings::visit(add);
+  settings.AccuracySettings::visit(add);
+  values.insert(values.end(),
+    { double(settings.LightSource), settings.SourceDistance, double(settings.SourceShape),
+      double(settings.ColorByField), double(settings.Device) });
+  if (static_cast<schlieren::SourceShape>(settings.SourceShape) != schlieren::SourceShape::Point)
+  {
+    values.insert(values.end(),
+      { settings.SourceWidth, settings.SourceLength, settings.FocalLength,
+        settings.KnifeEdgeAngle });
+  }
+  return values;
+}
+
+//------------------------------------------------------------------------------
+std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& now)
+{
+  // A series differs from time to time, and an animation moves the camera before or after the first image of a time
+  // is made: only at the time that k is of does the camera make another one. One that was given is of another time.
+  const bool holds = this->Last && this->Last->properties == now.properties &&
+    this->Last->medium == now.medium &&
+    (haveSameData(*this->Last, now) || isAtOtherTime(*this->Last, now)) &&
+    (!this->Origin || this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
+      mode == OpticsSettings::lockAlways);
+  if (mode == OpticsSettings::lockOff || (this->Last && !holds))
+  {
+    this->Drop();
+  }
+  this->Last = now;
+  return this->K;
+}
+
+//------------------------------------------------------------------------------
+void SensitivityLock::Found(double k)
+{
+  this->K = k;
+  this->FoundAt = this->Origin = this->Last;
+}
+
+//------------------------------------------------------------------------------
+void SensitivityLock::Give(std::optional<double> k)
+{
+  this->K = k;
+  this->FoundAt.reset();
+  this->Origin.reset();
+  this->Last.reset();
+}
+
+//------------------------------------------------------------------------------
+std::optional<double> SensitivityLock::GetKept() const
+{
+  const bool isFound = this->FoundAt && this->Last && isSame(*this->FoundAt, *this->Last);
+  return isFound ? std::nullopt : this->K;
+}
+
+} // namespace filters

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/TimeSlicedImage.h"
+
+#include "Image/ImageStatus.h"
+#include "Sources/SharedRefractivity.h"
+
+#include <chrono>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+/// Adds a pause after so much time. It runs from the first question on: before that the medium is made, which
+/// takes what it takes, and would leave nothing for the image.
+schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
+{
+  using Clock = std::chrono::steady_clock;
+  schlieren::Monitor with = monitor;
+  if (seconds > 0)
+  {
+    with.paused = [seconds, start = std::optional<Clock::time_point>()]() mutable
+    {
+      const Clock::time_point now = Clock::now();
+      start = start.value_or(now);
+      return std::chrono::duration<double>(now - *start).count() >= seconds;
+    };
+  }
+  return with;
+}
+
+void add(schlieren::Work& sum, const schlieren::Work& work)
+{
+  sum.mediumBuilds += work.mediumBuilds;
+  sum.raySets += work.raySets;
+  sum.raysTraced += work.raysTraced;
+}
+
+PathDifference::MonitorOf limitedBy(const schlieren::Monitor& monitor, double seconds)
+{
+  return [monitor, seconds](double fraction) { return limited(monitor, fraction * seconds); };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TimeSlicedImage::TimeSlicedImage()
+{
+  this->Bench.setMedia(mediaOfProcess());
+  this->StraightBench.setMedia(mediaOfProcess());
+}
+
+//------------------------------------------------------------------------------
+schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,
+  const schlieren::Scene& scene, Paths paths, double seconds, const schlieren::Monitor& monitor)
+{
+  this->Scene = scene;
+  this->Difference.Cancel();
+  const bool wasDifference = this->IsDifference;
+  this->IsDifference = paths == Paths::Difference;
+  if (wasDifference && !this->IsDifference) // what it has cached would not be used
+  {
+    add(this->WorkBefore, this->StraightBench.work());
+    this->StraightBench = {};
+    this->StraightBench.setMedia(mediaOfProcess());
+  }
+  this->RaysBefore = this->GetWork().raysTraced;
+  return this->Noted(this->IsDifference
+      ? this->Difference.Begin(field, scene, limitedBy(monitor, seconds))
+      : this->Bench.render(field, scene, limited(monitor, seconds)));
+}
+
+//------------------------------------------------------------------------------
+schlieren::Image TimeSlicedImage::Resume(double seconds, const schlieren::Monitor& monitor)
+{
+  return this->Noted(this->Difference.IsUnfinished()
+      ? this->Difference.Resume(limitedBy(monitor, seconds))
+      : this->Bench.resume(limited(monitor, seconds)));
+}
+
+//------------------------------------------------------------------------------
+void TimeSlicedImage::SetProcesses(schlieren::Processes* processes)
+{
+  this->Bench.setProcesses(processes);
+  this->StraightBench.setProcesses(processes);
+}
+
+//------------------------------------------------------------------------------
+schlieren::Work TimeSlicedImage::GetWork() const
+{
+  schlieren::Work work = this->WorkBefore;
+  add(work, this->Bench.work());
+  add(work, this->StraightBench.work());
+  return work;
+}
+
+//------------------------------------------------------------------------------
+schlieren::Image TimeSlicedImage::Noted(schlieren::Image image)
+{
+  const std::int64_t rays = this->GetWork().raysTraced - this->RaysBefore;
+  if (rays > 0 && image.traceSeconds > 0)
+  {
+    this->RaysPerSecond = static_cast<double>(rays) / image.traceSeconds;
+  }
+  return image;
+}
+
+//------------------------------------------------------------------------------
+std::string TimeSlicedImage::GetStatus(const schlieren::Image& image) const
+{
+  return statusInWords(image, this->Scene, this->RaysPerSecond) +
+    (this->IsDifference ? " less straight ones" : "");
+}
+
+namespace
+{
+
+std::string textOf(double value)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+/// Where steps do not resolve how steeply the index changes.
+std::string driftInWords(const schlieren::Image& image)
+{
+  constexpr double largest = 0.01;
+  if (!(image.momentumDrift > largest))
+  {
+    return "";
+  }
+  const schlieren::Vector& at = image.steepestPlace;
+  return "The rays' momentum and the refractive index differ by up to " +
+    textOf(100 * image.momentumDrift) +
+    " % where rays leave the data (MomentumDrift), and deflections may be wrong by as much: the "
+    "index changes by up to " +
+    textOf(image.steepestChange) + " over one voxel, near (" + textOf(at[0]) + ", " +
+    textOf(at[1]) + ", " + textOf(at[2]) +
+    "), as at a face of glass. Remove what is no fluid with Threshold (and set Outside to Passes), "
+    "set Integrator to Adaptive and Interpolation to Quadratic, or make the jump several voxels "
+    "wide.";
+}
+
+/// Where ExitInto is automatic and not that of all flows of gases.
+std::string exitInWords(const schlieren::Image& image, const schlieren::Scene& scene)
+{
+  return scene.exitInto == schlieren::ExitInto::Auto && image.exitRefractivity != image.ambient
+    ? "n - 1 around the flow is " + textOf(image.ambient) +
+      ", as in a liquid, so light is refracted into air (n - 1 = " +
+      textOf(image.exitRefractivity) +
+      ") where it leaves the data: deflections, screens and patterns are those in air. Set "
+      "ExitInto "
+      "to Surroundings where all of the light's path is in the liquid, or to Custom, or to Air "
+      "without this message."
+    : "";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& image)
+{
+  const std::string warnings[] = { image.deviceNote,
+    image.raysTraced > 0 && image.raysBlocked == image.raysTraced
+      ? "All light that meets the data is blocked, so the image is black there: every ray meets "
+        "a place that is solid (NaN, masked, blanked, a body) or that no cell covers. Look along "
+        "another ViewDirection, or let light pass where no cell is with Outside set to Passes."
+      : "",
+    image.raysLost > 0
+      ? std::to_string(image.raysLost) + " of " + std::to_string(image.raysTraced) +
+        " rays did not come out towards the film: the medium traps them or turns them back" +
+        (image.exitRefractivity < image.ambient
+            ? ", or they are totally reflected where they would leave the data (ExitInto)."
+            : ".") +
+        " Is the refractivity (array, unit, index model) right?"
+      : "",
+    driftInWords(image) };
+  std::vector<std::string> news;
+  const std::string exit = exitInWords(image, this->Scene);
+  if (!exit.empty() && !std::exchange(this->HasNotedExit, true))
+  {
+    news.push_back(exit);
+  }
+  std::int64_t* warnedOf = this->WarnedOf;
+  for (const std::string& warning : warnings)
+  {
+    const std::int64_t rays = this->GetWork().raySets;
+    if (!warning.empty() && *warnedOf != rays)
+    {
+      *warnedOf = rays;
+      news.push_back(warning);
+    }
+    ++warnedOf;
+  }
+  return news;
+}
+
+} // namespace filters

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Input/CoincidentPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace filters
+{
+
+double relativeRounding(const std::vector<Point>& points)
+{
+  for (const Point& point : points)
+  {
+    for (const double x : point)
+    {
+      if (static_cast<double>(static_cast<float>(x)) != x)
+      {
+        return 1e-12;
+      }
+    }
+  }
+  return 5e-7;
+}
+
+std::vector<double> mergingTolerances(
+  const std::vector<Point>& points, const std::vector<double>& sizes, double rounding)
+{
+  constexpr double part = 1e-3;
+  std::vector<double> tolerances(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const double rounded = rounding * norm(points[i]);
+    tolerances[i] = std::isfinite(sizes[i]) ? std::max(part * sizes[i], rounded) : rounded;
+  }
+  return tolerances;
+}
+
+namespace
+{
+
+/// A point, by how far it lies along a direction.
+using Placed = std::pair<double, std::int32_t>;
+
+/// Points of which the largest tolerance is less than twice the smallest, sorted.
+struct Class
+{
+  double most = 0; // of the tolerances
+  std::vector<Placed> points;
+};
+
+/// So that a point with a large tolerance is not compared with all of the many that crowd a fine region.
+std::vector<Class> classesOf(
+  const std::vector<Point>& points, const std::vector<double>& tolerances, const Point& along)
+{
+  std::map<int, Class> classes;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const double tolerance = tolerances[i];
+    Class& of = classes[tolerance > 0 ? std::ilogb(tolerance) : std::numeric_limits<int>::min()];
+    of.most = std::max(of.most, tolerance);
+    of.points.emplace_back(dot(along, points[i]), static_cast<std::int32_t>(i));
+  }
+  std::vector<Class> result;
+  for (auto& one : classes)
+  {
+    std::sort(one.second.points.begin(), one.second.points.end());
+    result.push_back(std::move(one.second));
+  }
+  return result;
+}
+
+} // namespace
+
+std::vector<std::int32_t> coincidentPoints(
+  const std::vector<Point>& points, const std::vector<double>& tolerances)
+{
+  // A direction across which the points of no plausible mesh lie in planes, so that few others are in between.
+  const Point along = unit({ 1, 0.6180339887, 0.2360679775 });
+  const std::vector<Class> classes = classesOf(points, tolerances, along);
+  std::vector<std::int32_t> numbers(points.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  const auto rootOf = [&](std::int32_t i)
+  {
+    while (numbers[static_cast<std::size_t>(i)] != i)
+    {
+      i = numbers[static_cast<std::size_t>(i)];
+    }
+    return i;
+  };
+  const auto compare = [&](const Placed& one, const Placed& other)
+  {
+    const auto i = static_cast<std::size_t>(one.second), j = static_cast<std::size_t>(other.second);
+    if (norm(points[i] - points[j]) <= std::min(tolerances[i], tolerances[j]))
+    {
+      const auto [low, high] = std::minmax({ rootOf(one.second), rootOf(other.second) });
+      numbers[static_cast<std::size_t>(high)] = low;
+    }
+  };
+  for (auto fine = classes.begin(); fine != classes.end(); ++fine)
+  {
+    for (auto coarse = fine; coarse != classes.end(); ++coarse)
+    {
+      auto first = coarse->points.begin();
+      const auto end = coarse->points.end();
+      for (auto one = fine->points.begin(); one != fine->points.end(); ++one)
+      {
+        while (first != end && first->first < one->first - fine->most)
+        {
+          ++first;
+        }
+        for (auto other = fine == coarse ? one + 1 : first;
+             other != end && other->first <= one->first + fine->most; ++other)
+        {
+          compare(*one, *other);
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    numbers[i] = rootOf(static_cast<std::int32_t>(i));
+  }
+  return numbers;
+}
+
+} // namespace filters

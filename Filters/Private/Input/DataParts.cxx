@@ -1,0 +1,524 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Input/DataParts.h"
+
+#include "Common/ImagePlace.h"
+#include "Input/RefractivitySource.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkAppendPolyData.h"
+#include "vtkCellData.h"
+#include "vtkCharArray.h"
+#include "vtkCommunicator.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkDataArray.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkExtractCells.h"
+#include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStaticCleanUnstructuredGrid.h"
+#include "vtkStructuredData.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUniformGridAMR.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+void addParts(vtkDataObject* data, const Slot& slot, std::vector<Part>& parts)
+{
+  const auto below = [&slot](int child)
+  {
+    Slot of = slot;
+    of.push_back(child);
+    return of;
+  };
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
+  {
+    const bool areParts = vtkPartitionedDataSet::SafeDownCast(data) != nullptr;
+    auto iterator = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+    iterator->VisitOnlyLeavesOff();
+    iterator->TraverseSubTreeOff();
+    iterator->SkipEmptyNodesOff();
+    int child = 0;
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      addParts(iterator->GetCurrentDataObject(), areParts ? slot : below(child), parts);
+      ++child;
+    }
+  }
+  else if (auto* amr = vtkUniformGridAMR::SafeDownCast(data))
+  {
+    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(amr->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      addParts(iterator->GetCurrentDataObject(),
+        below(static_cast<int>(iterator->GetCurrentFlatIndex())), parts);
+    }
+  }
+  else if (auto* leaf = vtkDataSet::SafeDownCast(data))
+  {
+    if (leaf->GetNumberOfPoints() > 0)
+    {
+      parts.push_back({ slot, leaf });
+    }
+  }
+}
+
+/// Those arrays that are needed, in the order of their names: the same on all ranks.
+void keepArrays(
+  vtkDataSetAttributes* from, const std::vector<std::string>& names, vtkDataSetAttributes* to)
+{
+  std::map<std::string, vtkDataArray*> kept;
+  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = from->GetArray(i);
+    const std::string name = array && array->GetName() ? array->GetName() : "";
+    const bool isKnown = name == vtkDataSetAttributes::GhostArrayName() || name == arrayName ||
+      name == maskName || name == transparentName;
+    if (array && (isKnown || std::find(names.begin(), names.end(), name) != names.end()))
+    {
+      kept[name] = array;
+    }
+  }
+  to->Initialize();
+  for (const auto& array : kept)
+  {
+    to->AddArray(array.second);
+  }
+  if (vtkDataArray* scalars = from->GetScalars())
+  {
+    to->SetScalars(scalars); // what selections without a name mean
+  }
+}
+
+/// Without the cells that are copies of other ranks'; vtkUnstructuredGrid::RemoveGhostCells would remove hidden ones, too.
+vtkSmartPointer<vtkDataSet> withoutCopies(vtkUnstructuredGrid* mesh)
+{
+  vtkUnsignedCharArray* ghosts = mesh->GetCellGhostArray();
+  vtkNew<vtkIdList> own;
+  for (vtkIdType cell = 0; ghosts && cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    if (!(ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL))
+    {
+      own->InsertNextId(cell);
+    }
+  }
+  if (!ghosts || own->GetNumberOfIds() == mesh->GetNumberOfCells())
+  {
+    return mesh;
+  }
+  return extractedCells(mesh, own);
+}
+
+/// A copy with the arrays that are needed and without copies of other ranks' cells.
+vtkSmartPointer<vtkDataSet> sparseCopy(vtkDataSet* data, const std::vector<std::string>& names)
+{
+  vtkSmartPointer<vtkDataSet> copy;
+  if (vtkImageData::SafeDownCast(data))
+  {
+    copy = vtkSmartPointer<vtkImageData>::New(); // vtkUniformGrid is one that cannot be sent
+  }
+  else
+  {
+    copy.TakeReference(data->NewInstance());
+  }
+  copy->ShallowCopy(data);
+  copy->GetFieldData()->Initialize();
+  keepArrays(data->GetPointData(), names, copy->GetPointData());
+  keepArrays(data->GetCellData(), names, copy->GetCellData());
+  if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(copy))
+  {
+    return withoutCopies(mesh);
+  }
+  if (auto* surface = vtkPolyData::SafeDownCast(copy))
+  {
+    surface->RemoveGhostCells();
+  }
+  return copy;
+}
+
+/// Of an image: VTK's format leaves the direction out and rounds the others.
+struct Place
+{
+  std::array<double, 9> direction{};
+  std::array<double, 3> origin{}, spacing{};
+};
+
+std::string namesOf(vtkDataSetAttributes* attributes)
+{
+  std::string names;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    const char* name = attributes->GetAbstractArray(i)->GetName();
+    names += std::string(names.empty() ? "'" : ", '") + (name ? name : "") + "'";
+  }
+  return names.empty() ? "none" : names;
+}
+
+bool haveSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
+{
+  bool areSame = a->GetNumberOfArrays() == b->GetNumberOfArrays() && namesOf(a) == namesOf(b);
+  for (int i = 0; areSame && i < a->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray *one = a->GetAbstractArray(i), *other = b->GetAbstractArray(i);
+    areSame = one->GetDataType() == other->GetDataType() &&
+      one->GetNumberOfComponents() == other->GetNumberOfComponents();
+  }
+  return areSame;
+}
+
+vtkIdType sizeOf(const std::array<int, 6>& extent)
+{
+  vtkIdType size = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    size *= extent[2 * axis + 1] - extent[2 * axis] + 1;
+  }
+  return size;
+}
+
+/// The arrays of the parts in one grid.
+void copyAttributes(const std::vector<vtkDataSet*>& parts, bool ofCells, vtkDataSet* whole)
+{
+  const int kind = ofCells ? vtkDataObject::CELL : vtkDataObject::POINT;
+  const std::array<int, 6> extent = extentOf(whole, ofCells);
+  vtkDataSetAttributes* to = whole->GetAttributes(kind);
+  to->CopyAllOn();
+  to->CopyAllocate(parts[0]->GetAttributes(kind), sizeOf(extent));
+  for (vtkDataSet* part : parts)
+  {
+    to->CopyStructuredData(
+      part->GetAttributes(kind), extentOf(part, ofCells).data(), extent.data());
+  }
+}
+
+/// Along one axis of rectilinear grids.
+vtkSmartPointer<vtkDataArray> joinedCoordinates(
+  const std::vector<vtkDataSet*>& parts, std::size_t axis, const std::array<int, 6>& extent)
+{
+  vtkSmartPointer<vtkDataArray> joined;
+  for (vtkDataSet* part : parts)
+  {
+    auto* grid = vtkRectilinearGrid::SafeDownCast(part);
+    vtkDataArray* of = axis == 0 ? grid->GetXCoordinates()
+      : axis == 1                ? grid->GetYCoordinates()
+                                 : grid->GetZCoordinates();
+    if (!joined)
+    {
+      joined.TakeReference(of->NewInstance());
+      joined->SetNumberOfTuples(extent[2 * axis + 1] - extent[2 * axis] + 1);
+    }
+    joined->InsertTuples(
+      extentOf(part, false)[2 * axis] - extent[2 * axis], of->GetNumberOfTuples(), 0, of);
+  }
+  return joined;
+}
+
+/// Points of curvilinear grids.
+vtkSmartPointer<vtkPoints> joinedPoints(
+  const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
+{
+  auto joined = vtkSmartPointer<vtkPoints>::New();
+  joined->SetDataType(vtkStructuredGrid::SafeDownCast(parts[0])->GetPoints()->GetDataType());
+  joined->SetNumberOfPoints(sizeOf(extent));
+  for (vtkDataSet* part : parts)
+  {
+    const std::array<int, 6> of = extentOf(part, false);
+    vtkDataArray* from = vtkStructuredGrid::SafeDownCast(part)->GetPoints()->GetData();
+    vtkIdType next = 0;
+    for (int k = of[4]; k <= of[5]; ++k)
+    {
+      for (int j = of[2]; j <= of[3]; ++j)
+      {
+        const int row[3] = { of[0], j, k };
+        const vtkIdType length = of[1] - of[0] + 1;
+        joined->GetData()->InsertTuples(
+          vtkStructuredData::ComputePointIdForExtent(extent.data(), row), length, next, from);
+        next += length;
+      }
+    }
+  }
+  return joined;
+}
+
+/// Whether all points of an extent are in one of the parts.
+bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
+{
+  std::vector<bool> isThere(static_cast<std::size_t>(sizeOf(extent)));
+  for (vtkDataSet* part : parts)
+  {
+    const std::array<int, 6> of = extentOf(part, false);
+    for (int k = of[4]; k <= of[5]; ++k)
+    {
+      for (int j = of[2]; j <= of[3]; ++j)
+      {
+        const int row[3] = { of[0], j, k };
+        const auto first = isThere.begin() +
+          static_cast<std::ptrdiff_t>(
+            vtkStructuredData::ComputePointIdForExtent(extent.data(), row));
+        std::fill(first, first + (of[1] - of[0] + 1), true);
+      }
+    }
+  }
+  return std::find(isThere.begin(), isThere.end(), false) == isThere.end();
+}
+
+/// Whether the points of a part lie where those with the same indices of the whole do. Readers may give each rank a grid whose
+/// indices begin at 0.
+bool liesIn(vtkDataSet* part, vtkDataSet* whole)
+{
+  const std::array<int, 6> of = extentOf(part, false), all = extentOf(whole, false);
+  vtkIdType next = 0;
+  for (int k = of[4]; k <= of[5]; ++k)
+  {
+    for (int j = of[2]; j <= of[3]; ++j)
+    {
+      for (int i = of[0]; i <= of[1]; ++i)
+      {
+        const int index[3] = { i, j, k };
+        double own[3], ofWhole[3];
+        part->GetPoint(next++, own);
+        whole->GetPoint(vtkStructuredData::ComputePointIdForExtent(all.data(), index), ofWhole);
+        if (!std::equal(own, own + 3, ofWhole))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+bool isGrid(vtkDataSet* data)
+{
+  return vtkImageData::SafeDownCast(data) || vtkRectilinearGrid::SafeDownCast(data) ||
+    vtkStructuredGrid::SafeDownCast(data);
+}
+
+std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells)
+{
+  std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
+  if (isGrid(data))
+  {
+    std::copy_n(data->GetInformation()->Get(vtkDataObject::DATA_EXTENT()), 6, extent.begin());
+  }
+  for (std::size_t axis = 0; ofCells && axis < 3; ++axis)
+  {
+    // Along an axis with one point there is one cell.
+    extent[2 * axis + 1] = std::max(extent[2 * axis], extent[2 * axis + 1] - 1);
+  }
+  return extent;
+}
+
+std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& arrays)
+{
+  std::vector<Part> parts;
+  addParts(data, {}, parts);
+  for (Part& part : parts)
+  {
+    part.data = sparseCopy(part.data, arrays);
+  }
+  parts.erase(std::remove_if(parts.begin(), parts.end(),
+                [](const Part& part) { return part.data->GetNumberOfPoints() == 0; }),
+    parts.end());
+  return parts;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> extractedCells(vtkUnstructuredGrid* mesh, vtkIdList* cells)
+{
+  vtkNew<vtkExtractCells> extract;
+  extract->SetInputData(mesh);
+  extract->SetCellList(cells);
+  extract->Update();
+  vtkUnstructuredGrid* extracted = extract->GetOutput();
+  extracted->GetCellData()->RemoveArray("vtkOriginalCellIds");
+  extracted->GetPointData()->RemoveArray("vtkOriginalPointIds");
+  return extracted;
+}
+
+void pack(const Part& part, std::vector<char>& bytes)
+{
+  vtkNew<vtkCharArray> buffer;
+  if (!vtkCommunicator::MarshalDataObject(part.data, buffer))
+  {
+    throw std::runtime_error(std::string("Data of the type ") + part.data->GetClassName() +
+      " are spread over several ranks and cannot be sent from rank to rank. Use one process, or "
+      "take the data from before the filter that has spread them.");
+  }
+  const auto length = static_cast<std::int64_t>(part.slot.size());
+  put(&length, 1, bytes);
+  put(part.slot.data(), part.slot.size(), bytes);
+  Place place;
+  if (auto* image = vtkImageData::SafeDownCast(part.data))
+  {
+    std::copy_n(image->GetDirectionMatrix()->GetData(), 9, place.direction.begin());
+    image->GetOrigin(place.origin.data());
+    image->GetSpacing(place.spacing.data());
+  }
+  put(&place, 1, bytes);
+  const std::int64_t size = buffer->GetNumberOfValues();
+  put(&size, 1, bytes);
+  put(buffer->GetPointer(0), static_cast<std::size_t>(size), bytes);
+}
+
+Part unpack(Reader& reader)
+{
+  Part part;
+  std::int64_t length = 0;
+  reader.Get(&length, 1);
+  part.slot.resize(static_cast<std::size_t>(length));
+  reader.Get(part.slot.data(), part.slot.size());
+  Place place;
+  reader.Get(&place, 1);
+  std::int64_t size = 0;
+  reader.Get(&size, 1);
+  vtkNew<vtkCharArray> buffer;
+  buffer->SetNumberOfValues(size);
+  reader.Get(buffer->GetPointer(0), static_cast<std::size_t>(size));
+  part.data = vtkDataSet::SafeDownCast(
+    vtkCommunicator::UnMarshalDataObject(buffer.GetPointer()).GetPointer());
+  if (!part.data)
+  {
+    throw std::runtime_error("VTK cannot read what another rank has sent of its data.");
+  }
+  if (vtkImageData::SafeDownCast(part.data))
+  {
+    vtkNew<vtkImageData> image; // it comes as vtkStructuredPoints
+    image->ShallowCopy(part.data);
+    image->SetDirectionMatrix(place.direction.data());
+    image->SetOrigin(place.origin.data());
+    image->SetSpacing(place.spacing.data());
+    part.data = image;
+  }
+  return part;
+}
+
+void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind)
+{
+  vtkDataSetAttributes* first = parts[0]->GetAttributes(kind);
+  for (vtkDataSet* part : parts)
+  {
+    vtkDataSetAttributes* other = part->GetAttributes(kind);
+    if (!haveSameArrays(first, other))
+    {
+      const std::string what = kind == vtkDataObject::CELL ? "cells" : "points";
+      throw std::runtime_error(
+        "The parts of the input on several ranks have not the same arrays of " + what + ": " +
+        namesOf(first) + " on one of them, " + namesOf(other) +
+        " on another, or their types differ. Check the reader or filter that has made them.");
+    }
+  }
+}
+
+vtkSmartPointer<vtkDataSet> joinedMesh(
+  const std::vector<vtkDataSet*>& parts, const char* alsoTheSame)
+{
+  if (vtkPolyData::SafeDownCast(parts[0]))
+  {
+    vtkNew<vtkAppendPolyData> append;
+    for (vtkDataSet* part : parts)
+    {
+      append->AddInputData(vtkPolyData::SafeDownCast(part));
+    }
+    append->Update();
+    return append->GetOutput();
+  }
+  vtkNew<vtkAppendFilter> append;
+  vtkNew<vtkStaticCleanUnstructuredGrid> merge;
+  for (vtkDataSet* part : parts)
+  {
+    append->AddInputData(part);
+  }
+  merge->SetInputConnection(append->GetOutputPort());
+  merge->ToleranceIsAbsoluteOn();
+  merge->SetAbsoluteTolerance(0);
+  merge->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
+  merge->SetMergingArray(alsoTheSame);
+  merge->Update();
+  merge->SetMergingArray(nullptr); // its destructor forgets it
+  return merge->GetOutput();
+}
+
+vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts)
+{
+  std::array<int, 6> extent = extentOf(parts[0], false);
+  for (vtkDataSet* part : parts)
+  {
+    const std::array<int, 6> of = extentOf(part, false);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      extent[2 * axis] = std::min(extent[2 * axis], of[2 * axis]);
+      extent[2 * axis + 1] = std::max(extent[2 * axis + 1], of[2 * axis + 1]);
+    }
+    auto* image = vtkImageData::SafeDownCast(part);
+    if (image && !haveSamePlace(image, vtkImageData::SafeDownCast(parts[0])))
+    {
+      return nullptr;
+    }
+  }
+  vtkIdType points = 0;
+  for (vtkDataSet* part : parts)
+  {
+    points += part->GetNumberOfPoints();
+  }
+  if (sizeOf(extent) > points || !isCovered(parts, extent))
+  {
+    return nullptr;
+  }
+  vtkSmartPointer<vtkDataSet> whole;
+  whole.TakeReference(parts[0]->NewInstance());
+  if (auto* image = vtkImageData::SafeDownCast(whole))
+  {
+    auto* first = vtkImageData::SafeDownCast(parts[0]);
+    image->SetOrigin(first->GetOrigin());
+    image->SetSpacing(first->GetSpacing());
+    image->SetDirectionMatrix(first->GetDirectionMatrix());
+    image->SetExtent(extent.data());
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(whole))
+  {
+    rectilinear->SetExtent(extent.data());
+    rectilinear->SetXCoordinates(joinedCoordinates(parts, 0, extent));
+    rectilinear->SetYCoordinates(joinedCoordinates(parts, 1, extent));
+    rectilinear->SetZCoordinates(joinedCoordinates(parts, 2, extent));
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(whole))
+  {
+    structured->SetExtent(extent.data());
+    structured->SetPoints(joinedPoints(parts, extent));
+  }
+  if (!vtkImageData::SafeDownCast(whole) &&
+    !std::all_of(parts.begin(), parts.end(), [&](vtkDataSet* part) { return liesIn(part, whole); }))
+  {
+    return nullptr;
+  }
+  copyAttributes(parts, false, whole);
+  copyAttributes(parts, true, whole);
+  return whole;
+}
+
+} // namespace filters

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Input/GatheredData.h"
+
+#include "Common/ImagePlace.h"
+#include "Input/DataParts.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStructuredData.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+vtkUnsignedCharArray* ghostsOf(vtkDataSetAttributes* attributes)
+{
+  return vtkUnsignedCharArray::SafeDownCast(
+    attributes->GetArray(vtkDataSetAttributes::GhostArrayName()));
+}
+
+/// Says of no point and no cell that it is a copy of another rank's. What is hidden stays so; all parts have an array
+/// that says it, or none has.
+void forgetCopies(const std::vector<vtkDataSet*>& parts, int kind)
+{
+  const int copy = kind == vtkDataObject::CELL
+    ? static_cast<int>(vtkDataSetAttributes::DUPLICATECELL)
+    : static_cast<int>(vtkDataSetAttributes::DUPLICATEPOINT);
+  const bool isNeeded = std::any_of(parts.begin(), parts.end(),
+    [kind](vtkDataSet* part) { return ghostsOf(part->GetAttributes(kind)) != nullptr; });
+  for (vtkDataSet* part : parts)
+  {
+    vtkDataSetAttributes* attributes = part->GetAttributes(kind);
+    vtkUnsignedCharArray* ghosts = ghostsOf(attributes);
+    vtkNew<vtkUnsignedCharArray> others; // it may be the input's
+    others->SetName(vtkDataSetAttributes::GhostArrayName());
+    others->SetNumberOfValues(part->GetNumberOfElements(kind));
+    for (vtkIdType i = 0; i < others->GetNumberOfValues(); ++i)
+    {
+      const int flags = ghosts ? ghosts->GetValue(i) & ~copy : 0;
+      others->SetValue(i, static_cast<unsigned char>(flags));
+    }
+    attributes->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+    if (isNeeded)
+    {
+      attributes->AddArray(others);
+    }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<vtkSmartPointer<vtkDataSet>> joined(
+  const std::vector<vtkSmartPointer<vtkDataSet>>& parts)
+{
+  const std::vector<vtkDataSet*> all(parts.begin(), parts.end());
+  const int type = all[0]->GetDataObjectType();
+  const bool areOfOneType = std::all_of(
+    all.begin(), all.end(), [type](vtkDataSet* part) { return part->GetDataObjectType() == type; });
+  vtkSmartPointer<vtkDataSet> whole;
+  if (all.size() > 1 && areOfOneType)
+  {
+    for (const int kind : { vtkDataObject::POINT, vtkDataObject::CELL })
+    {
+      forgetCopies(all, kind);
+      requireSameArrays(all, kind);
+    }
+    whole = isGrid(all[0])                                     ? joinedGrid(all)
+      : type == VTK_UNSTRUCTURED_GRID || type == VTK_POLY_DATA ? joinedMesh(all)
+                                                               : nullptr;
+  }
+  return whole ? std::vector<vtkSmartPointer<vtkDataSet>>{ whole } : parts;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> gatheredData(const std::vector<std::vector<char>>& ofRanks)
+{
+  std::map<Slot, std::vector<vtkSmartPointer<vtkDataSet>>> slots;
+  for (const std::vector<char>& bytes : ofRanks)
+  {
+    Reader reader(bytes);
+    while (!reader.IsAtEnd())
+    {
+      Part part = unpack(reader);
+      slots[std::move(part.slot)].push_back(std::move(part.data));
+    }
+  }
+  std::vector<vtkSmartPointer<vtkDataSet>> blocks;
+  for (const auto& slot : slots)
+  {
+    const std::vector<vtkSmartPointer<vtkDataSet>> all = joined(slot.second);
+    blocks.insert(blocks.end(), all.begin(), all.end());
+  }
+  if (blocks.size() < 2)
+  {
+    return blocks.empty() ? nullptr : vtkSmartPointer<vtkDataObject>(blocks[0]);
+  }
+  auto composite = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (std::size_t n = 0; n < blocks.size(); ++n)
+  {
+    composite->SetBlock(static_cast<unsigned int>(n), blocks[n]);
+  }
+  return composite;
+}
+
+} // namespace filters

@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Ranks/SamplesOverRanks.h"
+
+#include "Cells/LatticeDistances.h"
+#include "Common/ForEach.h"
+#include "Input/DataParts.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr schlieren::MediumSource::FieldRange nowhere{ 1, 0 };
+
+} // namespace
+
+void extend(schlieren::Box& box, const schlieren::Box& by)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.low[axis] = std::min(box.low[axis], by.low[axis]);
+    box.high[axis] = std::max(box.high[axis], by.high[axis]);
+  }
+}
+
+void extend(CellTree::Content& content, const CellTree::Content& by)
+{
+  if (by.lowest <= by.highest)
+  {
+    const bool isFirst = content.lowest > content.highest;
+    content.lowest = isFirst ? by.lowest : std::min(content.lowest, by.lowest);
+    content.highest = isFirst ? by.highest : std::max(content.highest, by.highest);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    content.cellSize[axis] = std::min(content.cellSize[axis], by.cellSize[axis]);
+  }
+}
+
+void extend(
+  schlieren::MediumSource::FieldRange& range, const schlieren::MediumSource::FieldRange& by)
+{
+  if (by.lowest <= by.highest)
+  {
+    const bool isFirst = range.lowest > range.highest;
+    range.lowest = isFirst ? by.lowest : std::min(range.lowest, by.lowest);
+    range.highest = isFirst ? by.highest : std::max(range.highest, by.highest);
+  }
+}
+
+SamplesOverRanks::SamplesOverRanks(const Ranks& ranks, std::uint64_t number, Facts facts,
+  std::unique_ptr<const DataPiece> piece, std::shared_ptr<const GasBoundary> boundary,
+  std::shared_ptr<LatticesOfMesh> lattices, int threads)
+  : AllRanks(ranks)
+  , Number(number)
+  , All(std::move(facts))
+  , Piece(std::move(piece))
+  , Boundary(std::move(boundary))
+  , Lattices(std::move(lattices))
+  , Threads(threads)
+{
+  OwnContent all{ this->All.content, {} };
+  all.holds.fill(1);
+  this->Whole = this->contentFrom(this->All.bounds, all);
+}
+
+SamplesOverRanks::BoxKey SamplesOverRanks::keyOf(const schlieren::Box& box)
+{
+  return { box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2] };
+}
+
+SamplesOverRanks::LatticeKey SamplesOverRanks::keyOf(const schlieren::Lattice& lattice)
+{
+  const auto& [first, spacing, points] = lattice;
+  return { first[0], first[1], first[2], spacing[0], spacing[1], spacing[2],
+    static_cast<double>(points[0]), static_cast<double>(points[1]),
+    static_cast<double>(points[2]) };
+}
+
+/// Which places there are, by the boundary; and the cells where there is gas.
+schlieren::MediumSource::Content SamplesOverRanks::contentFrom(
+  const schlieren::Box& box, const OwnContent& found) const
+{
+  Content content{ 1, 0, { infinity, infinity, infinity }, false, false, false };
+  const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
+  this->Boundary->findPlaces(
+    box,
+    [&](const Point& place)
+    {
+      const auto at = std::find(tested.begin(), tested.end(), place);
+      return at != tested.end() && found.holds[static_cast<std::size_t>(at - tested.begin())] != 0;
+    },
+    content);
+  if (content.hasGas)
+  {
+    content.lowest = found.cells.lowest;
+    content.highest = found.cells.highest;
+    content.cellSize = found.cells.cellSize;
+  }
+  return content;
+}
+
+SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box& box) const
+{
+  OwnContent own{ { 1, 0, { infinity, infinity, infinity } }, {} };
+  const DataPiece::Summary summary = this->Piece->summary();
+  if (summary.cells > 0 && meet(box, summary.bounds))
+  {
+    own.cells = this->Piece->contentOf(box);
+    const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
+    for (std::size_t n = 0; n < tested.size(); ++n)
+    {
+      own.holds[n] = this->Piece->holds(tested[n]) ? 1 : 0;
+    }
+  }
+  return own;
+}
+
+void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes) const
+{
+  const std::size_t fields = this->All.fields.size();
+  const std::vector<Ranks::Bytes> ofRanks = this->AllRanks.allGather(
+    [&]
+    {
+      std::vector<OwnContent> own(boxes.size());
+      std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
+      forEach(boxes.size(), this->Threads,
+        [&](std::size_t n)
+        {
+          own[n] = this->ownContentOf(boxes[n]);
+          const bool has = own[n].cells.lowest <= own[n].cells.highest;
+          for (std::size_t field = 0; has && field < fields; ++field)
+          {
+            ranges[n * fields + field] =
+              this->Piece->rangeOfField(static_cast<int>(field), boxes[n]);
+          }
+        });
+      Ranks::Bytes bytes;
+      putAll(own, bytes);
+      putAll(ranges, bytes);
+      return bytes;
+    });
+  std::vector<OwnContent> all(boxes.size(), { { 1, 0, { infinity, infinity, infinity } }, {} });
+  std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
+  for (const Ranks::Bytes& bytes : ofRanks)
+  {
+    Reader reader(bytes);
+    const auto own = reader.GetAll<std::vector<OwnContent>>();
+    const auto ownRanges = reader.GetAll<std::vector<FieldRange>>();
+    for (std::size_t n = 0; n < all.size(); ++n)
+    {
+      extend(all[n].cells, own.at(n).cells);
+      for (std::size_t place = 0; place < all[n].holds.size(); ++place)
+      {
+        all[n].holds[place] = all[n].holds[place] | own[n].holds[place];
+      }
+    }
+    for (std::size_t n = 0; n < ranges.size(); ++n)
+    {
+      extend(ranges[n], ownRanges.at(n));
+    }
+  }
+  this->Boxes.clear();
+  std::vector<KnownBox*> known;
+  for (const schlieren::Box& box : boxes)
+  {
+    known.push_back(&this->Boxes[keyOf(box)]);
+  }
+  forEach(boxes.size(), this->Threads,
+    [&](std::size_t n)
+    {
+      const auto first = ranges.begin() + static_cast<std::ptrdiff_t>(n * fields);
+      *known[n] = { this->contentFrom(boxes[n], all[n]),
+        { first, first + static_cast<std::ptrdiff_t>(fields) } };
+    });
+}
+
+void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lattices) const
+{
+  const std::size_t ranks = this->AllRanks.count();
+  std::vector<Ranks::Bytes> packed(ranks); // for each rank
+  this->AllRanks.agree(
+    [&]
+    {
+      std::vector<Ranks::Bytes> ofLattices(lattices.size());
+      forEach(lattices.size(), this->Threads,
+        [&](std::size_t n)
+        {
+          const DataPiece::Summary summary = this->Piece->summary();
+          if (summary.cells > 0)
+          {
+            this->Piece->sample(lattices[n]).Put(ofLattices[n]);
+          }
+        });
+      for (std::size_t n = 0; n < lattices.size(); ++n)
+      {
+        putAll(ofLattices[n], packed[n % ranks]);
+      }
+    });
+  // What may fail comes behind the last of these, at which others would wait.
+  std::vector<Ranks::Bytes> ofRanks;
+  for (std::size_t root = 0; root < ranks; ++root)
+  {
+    std::vector<Ranks::Bytes> gathered = this->AllRanks.gather(packed[root], root);
+    Ranks::Bytes().swap(packed[root]);
+    if (root == this->AllRanks.rank())
+    {
+      ofRanks = std::move(gathered);
+    }
+  }
+  this->Samples.clear();
+  for (const Ranks::Bytes& bytes : ofRanks)
+  {
+    Reader reader(bytes);
+    for (std::size_t n = this->AllRanks.rank(); n < lattices.size(); n += ranks)
+    {
+      const auto ofLattice = reader.GetAll<Ranks::Bytes>();
+      DataPiece::Samples& samples = this->Samples[keyOf(lattices[n])];
+      if (!ofLattice.empty())
+      {
+        Reader own(ofLattice);
+        samples.Add(DataPiece::Samples::Get(
+          own, static_cast<std::size_t>(lattices[n].size()), this->All.fields.size()));
+      }
+    }
+  }
+}
+
+schlieren::MediumSource::Content SamplesOverRanks::contentOf(const schlieren::Box& box) const
+{
+  const bool isAll = box.low == this->All.bounds.low && box.high == this->All.bounds.high;
+  return isAll ? this->Whole : this->Boxes.at(keyOf(box)).content;
+}
+
+const DataPiece::Samples& SamplesOverRanks::samplesOn(const schlieren::Lattice& lattice) const
+{
+  return this->Samples.at(keyOf(lattice));
+}
+
+void SamplesOverRanks::sample(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances) const
+{
+  const DataPiece::Samples& samples = this->samplesOn(lattice);
+  const auto size = static_cast<std::size_t>(lattice.size());
+  std::fill_n(refractivity, size, 0.);
+  std::copy(samples.values.begin(), samples.values.end(), refractivity);
+  if (const auto known = this->Lattices ? this->Lattices->find(lattice, distances) : nullptr)
+  {
+    known->copyTo(places, distances, size);
+    return;
+  }
+  const std::vector<unsigned char> none(samples.found.empty() ? size : 0, 0);
+  this->Boundary->sample(
+    lattice, none.empty() ? samples.found.data() : none.data(), places, distances);
+  if (this->Lattices && this->Lattices->hasRoomFor(lattice))
+  {
+    this->Lattices->keep(lattice, knownLattice({}, places, distances, size));
+  }
+}
+
+schlieren::MediumSource::FieldRange SamplesOverRanks::rangeOfField(
+  int field, const schlieren::Box& box) const
+{
+  const auto number = static_cast<std::size_t>(field);
+  const auto found = this->Boxes.find(keyOf(box));
+  return found == this->Boxes.end() ? this->All.fields[number] : found->second.fields[number];
+}
+
+void SamplesOverRanks::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances, double* values) const
+{
+  this->sample(lattice, refractivity, places, distances);
+  const std::vector<double>& fields = this->samplesOn(lattice).fields;
+  std::fill_n(values, static_cast<std::size_t>(lattice.size()) * this->All.fields.size(),
+    std::numeric_limits<double>::quiet_NaN());
+  std::copy(fields.begin(), fields.end(), values);
+}
+
+std::vector<std::vector<char>> SamplesOverRanks::makeShare(
+  const schlieren::BrickRules& rules, const std::vector<schlieren::BrickRequest>& requests) const
+{
+  const auto makeOf = [&](const auto& maker) {
+    return maker.makeShare(requests, this->AllRanks.rank(), this->AllRanks.count(), this->Threads);
+  };
+  std::vector<std::vector<char>> made = rules.bytesOfReal == sizeof(float)
+    ? makeOf(schlieren::BrickMaker<float>(*this, rules))
+    : makeOf(schlieren::BrickMaker<double>(*this, rules));
+  this->Samples.clear();
+  return made;
+}
+
+std::vector<char> SamplesOverRanks::answerBricks(Reader& request) const
+{
+  const auto rules = request.Get<schlieren::BrickRules>();
+  const auto requests = request.GetAll<std::vector<schlieren::BrickRequest>>();
+  std::vector<char> answer;
+  for (const std::vector<char>& brick : this->makeShare(rules, requests))
+  {
+    putAll(brick, answer);
+  }
+  return answer;
+}
+
+std::vector<std::vector<char>> SamplesOverRanks::make(
+  const schlieren::BrickRules& rules, const std::vector<schlieren::BrickRequest>& requests) const
+{
+  if (!this->Used)
+  {
+    throw std::runtime_error(
+      "The ranks that have the data do not work for this image. Update the filter again.");
+  }
+  std::vector<char> message;
+  put(requestOfBricks, message);
+  put(this->Number, message);
+  put(rules, message);
+  putAll(requests, message);
+  std::vector<std::vector<char>> made;
+  for (const std::vector<char>& answer :
+    this->Used->request(message, [&] { made = this->makeShare(rules, requests); }))
+  {
+    Reader reader(answer);
+    for (std::vector<char>& brick : made)
+    {
+      auto other = reader.GetAll<std::vector<char>>();
+      if (brick.empty())
+      {
+        brick = std::move(other);
+      }
+    }
+  }
+  return made;
+}
+
+} // namespace filters

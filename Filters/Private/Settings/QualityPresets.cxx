@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Settings/QualityPresets.h"
+
+#include "SchlierenSettings.h"
+
+#include "Schlieren.h"
+
+#include <algorithm>
+#include <string>
+
+namespace filters
+{
+
+namespace
+{
+
+/// The number of a value of an enumeration of the tracer.
+template <class Value>
+constexpr double numberOf(Value value)
+{
+  return static_cast<double>(value);
+}
+
+constexpr double autoPath = numberOf(schlieren::PathModel::Auto);
+constexpr double refracted = numberOf(schlieren::PathModel::Refracted);
+constexpr double leapfrog = numberOf(schlieren::Integrator::Leapfrog);
+constexpr double adaptive = numberOf(schlieren::Integrator::Adaptive);
+constexpr double quadratic = numberOf(schlieren::Interpolation::Quadratic);
+constexpr double cubic = numberOf(schlieren::Interpolation::Cubic);
+constexpr double sheet = numberOf(schlieren::FilmEstimator::Sheet);
+constexpr double single = numberOf(schlieren::Precision::Single);
+constexpr double twofold = numberOf(schlieren::Precision::Double);
+
+} // namespace
+
+#define SETTING(name, ...)                                                                      \
+  QualitySetting                                                                                \
+  {                                                                                             \
+#name, [](const AccuracySettings& settings) { return static_cast<double>(settings.name); }, \
+      [](AccuracySettings & settings, double value)                                             \
+    { settings.name = static_cast<decltype(settings.name)>(value); },                           \
+    {                                                                                           \
+      __VA_ARGS__                                                                               \
+    }                                                                                           \
+  }
+
+// clang-format off
+const std::array<QualitySetting, 11> qualitySettings{
+  //                            Interactive        Draft              Publication        Reference
+  SETTING(PathModel,            autoPath,          autoPath,          autoPath,          refracted),
+  SETTING(Integrator,           leapfrog,          leapfrog,          leapfrog,          adaptive),
+  SETTING(StepSize,             2,                 1,                 1,                 1),
+  SETTING(HomogeneityTolerance, 1e-3,              1e-4,              0,                 0),
+  SETTING(Interpolation,        quadratic,         quadratic,         quadratic,         cubic),
+  SETTING(SamplesPerPixel,      1,                 1,                 16,                64),
+  SETTING(FilmEstimator,        sheet,             sheet,             sheet,             sheet),
+  SETTING(Precision,            single,            single,            single,            twofold),
+  SETTING(AdaptiveTolerance,    1e-5,              1e-5,              1e-5,              1e-5),
+  SETTING(PathTolerance,        0.01,              0.01,              0.01,              0.01),
+  SETTING(MediumTolerance,      0.02,              0.01,              0.003,             0.001),
+};
+// clang-format on
+
+//------------------------------------------------------------------------------
+double interactiveStepSize()
+{
+  const auto* setting = std::find_if(qualitySettings.begin(), qualitySettings.end(),
+    [](const QualitySetting& each) { return std::string(each.Property) == "StepSize"; });
+  return setting->Values.front();
+}
+
+} // namespace filters

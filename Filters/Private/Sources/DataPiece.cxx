@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sources/DataPiece.h"
+
+#include "Input/DataParts.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace filters
+{
+
+bool meet(const schlieren::Box& a, const schlieren::Box& b)
+{
+  bool meet = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    meet = meet && a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
+  }
+  return meet;
+}
+
+void DataPiece::Samples::Add(Samples other)
+{
+  if (this->found.empty())
+  {
+    *this = std::move(other);
+    return;
+  }
+  for (std::size_t i = 0; i < other.found.size(); ++i)
+  {
+    if (other.found[i] && !this->found[i])
+    {
+      this->found[i] = 1;
+      this->values[i] = other.values[i];
+      for (std::size_t at = i; at < other.fields.size(); at += other.found.size())
+      {
+        this->fields[at] = other.fields[at];
+      }
+    }
+  }
+}
+
+// One bit for each point, and the values of those that are found alone: lattices reach far beyond the cells of a rank.
+void DataPiece::Samples::Put(std::vector<char>& message) const
+{
+  const std::size_t size = this->found.size();
+  std::vector<unsigned char> bits((size + 7) / 8);
+  std::vector<double> known;
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    if (this->found[i])
+    {
+      bits[i / 8] = static_cast<unsigned char>(bits[i / 8] | 1u << i % 8);
+      known.push_back(this->values[i]);
+    }
+  }
+  for (std::size_t i = 0; i < this->fields.size(); ++i)
+  {
+    if (this->found[i % size])
+    {
+      known.push_back(this->fields[i]);
+    }
+  }
+  put(static_cast<std::uint64_t>(size), message);
+  putAll(bits, message);
+  putAll(known, message);
+}
+
+DataPiece::Samples DataPiece::Samples::Get(Reader& message, std::size_t points, std::size_t fields)
+{
+  const auto size = static_cast<std::size_t>(message.Get<std::uint64_t>());
+  const auto bits = message.GetAll<std::vector<unsigned char>>();
+  const auto known = message.GetAll<std::vector<double>>();
+  Samples samples;
+  if (size == 0)
+  {
+    return samples;
+  }
+  if (size != points || bits.size() != (size + 7) / 8)
+  {
+    Reader::Fail();
+  }
+  samples.found.resize(size);
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    samples.found[i] = bits[i / 8] >> i % 8 & 1u;
+  }
+  const auto count =
+    static_cast<std::size_t>(std::count(samples.found.begin(), samples.found.end(), 1));
+  if (known.size() != count * (1 + fields))
+  {
+    Reader::Fail();
+  }
+  const double* next = known.data();
+  samples.values.resize(size);
+  samples.fields.assign(size * fields, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < size * (1 + fields); ++i)
+  {
+    if (samples.found[i % size])
+    {
+      (i < size ? samples.values[i] : samples.fields[i - size]) = *next++;
+    }
+  }
+  return samples;
+}
+
+} // namespace filters

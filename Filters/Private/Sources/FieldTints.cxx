@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sources/FieldTints.h"
+
+#include "Common/AvailableMemory.h"
+#include "Common/FieldFromImage.h"
+#include "Gas/RefractivityModels.h"
+#include "Input/RefractivitySource.h"
+#include "Input/RefractivityValues.h"
+#include "Sources/GridOfSource.h"
+#include "Sources/MediumMaker.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkPointData.h"
+#include "vtkPointDataToCellData.h"
+#include "vtkProbeFilter.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace filters
+{
+
+namespace
+{
+
+void requireFields(const MediumSettings& medium)
+{
+  if (medium.Fields.empty())
+  {
+    throw std::runtime_error(
+      "ColorByField is on, but Fields is empty, so no field gives its colour. "
+      "Name arrays in Fields, or switch ColorByField off.");
+  }
+  fieldMeanFrom(medium); // whether its lists belong together
+}
+
+/// Settings that find a single field, between 0 and 1, as if it were a refractivity. `ranges`: see forFieldImages().
+MediumSettings settingsOfField(
+  const MediumSettings& medium, std::size_t field, const std::vector<FieldMean::Range>& ranges)
+{
+  MediumSettings settings;
+  settings.IndexModel = MediumSettings::Curves;
+  settings.RefractivityScale = 1;
+  settings.Depth = medium.Depth;
+  settings.Symmetry = medium.Symmetry;
+  settings.SymmetryAxis = medium.SymmetryAxis;
+  std::copy_n(medium.SymmetryOrigin, 3, settings.SymmetryOrigin);
+  settings.Fields = { medium.Fields[field] };
+  if (medium.IndexModel == MediumSettings::Curves && !medium.TransferFunctions.empty())
+  {
+    settings.TransferFunctions = { medium.TransferFunctions[field] };
+  }
+  if (!medium.FieldRanges.empty())
+  {
+    settings.FieldRanges = { medium.FieldRanges[2 * field], medium.FieldRanges[2 * field + 1] };
+  }
+  else if (!ranges.empty() && ranges[field][0] < ranges[field][1])
+  {
+    settings.FieldRanges = { ranges[field][0], ranges[field][1] };
+  }
+  return settings;
+}
+
+/// The source of a single field.
+Source sourceOfField(
+  const MediumSettings& settings, vtkDataObject* input, const Source* like = nullptr)
+{
+  KnownArrays nothingIsOpen;
+  return chooseSource(settings, nothingIsOpen, input, like);
+}
+
+bool isSameGrid(const schlieren::Grid& a, const schlieren::Grid& b)
+{
+  bool isSame = a.dimensions == b.dimensions && a.direction == b.direction;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double tolerance = 1e-3 * a.spacing[axis];
+    isSame = isSame && std::abs(a.origin[axis] - b.origin[axis]) < tolerance &&
+      std::abs(a.spacing[axis] - b.spacing[axis]) * static_cast<double>(a.dimensions[axis]) <
+        tolerance;
+  }
+  return isSame;
+}
+
+/// The values and the mask of `image`, interpolated linearly where `grid` has its points.
+void probe(vtkImageData* image, vtkImageData* grid)
+{
+  vtkNew<vtkImageData> points;
+  points->CopyStructure(grid);
+  vtkNew<vtkProbeFilter> prober;
+  prober->SetInputData(points);
+  prober->SetSourceData(image);
+  prober->SetValidPointMaskArrayName("probed");
+  prober->Update();
+  vtkPointData* found = prober->GetOutput()->GetPointData();
+  vtkDataArray* inside = found->GetArray("probed");
+  auto* valid = vtkUnsignedCharArray::SafeDownCast(found->GetArray(maskName));
+  if (!inside || !valid)
+  {
+    throw std::runtime_error("A field could not be brought to the grid of the refractivity. Check "
+                             "that the arrays of Fields and of the index model overlap.");
+  }
+  for (vtkIdType i = 0; i < inside->GetNumberOfTuples(); ++i)
+  {
+    valid->SetValue(i, inside->GetComponent(i, 0) != 0 ? valid->GetValue(i) : 0);
+  }
+  image->ShallowCopy(prober->GetOutput());
+}
+
+/// forFieldImages() of other data.
+void forSampledFields(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
+  int threads, const std::function<void(std::size_t, vtkImageData*)>& take)
+{
+  std::string reportedBefore;
+  const auto source = maker.makeSourceOfCells(input, nullptr, reportedBefore, true);
+  std::vector<float> all;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
+    [&] { all = fieldsAtGrid(*source, WorkProgress(), refractivity); });
+  const vtkIdType points = refractivity->GetNumberOfPoints();
+  for (int field = 0; field < source->fields(); ++field)
+  {
+    vtkNew<vtkFloatArray> values;
+    values->SetName(arrayName);
+    setTuples(values, points);
+    std::copy_n(all.begin() + field * points, points, values->GetPointer(0));
+    const auto valid = newMask(points);
+    for (vtkIdType point = 0; point < points; ++point)
+    {
+      if (!std::isfinite(values->GetValue(point)))
+      {
+        values->SetValue(point, 0);
+        valid->SetValue(point, 0);
+      }
+    }
+    vtkNew<vtkImageData> image;
+    image->CopyStructure(refractivity);
+    image->GetPointData()->AddArray(values);
+    image->GetPointData()->AddArray(valid);
+    take(static_cast<std::size_t>(field), image);
+  }
+}
+
+} // namespace
+
+std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataObject* input)
+{
+  requireFields(medium);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const RangeOfField none{ { infinity, -infinity }, "" };
+  std::vector<RangeOfField> ranges(medium.Fields.size(), none);
+  for (std::size_t number = 0; number < ranges.size(); ++number)
+  {
+    try
+    {
+      const Source source = sourceOfField(settingsOfField(medium, number, {}), input);
+      ranges[number].range = std::get<FieldMean>(source.model).rangesIn(source.leaves).at(0);
+    }
+    catch (const ArraysMissing& problem)
+    {
+      ranges[number].lacks = problem.what();
+    }
+  }
+  return ranges;
+}
+
+std::vector<FieldValues> fieldValues(const MediumSettings& medium, vtkDataObject* input,
+  const Source& ofMedium, const std::vector<FieldMean::Range>& ranges)
+{
+  requireFields(medium);
+  std::vector<FieldValues> fields(medium.Fields.size());
+  for (std::size_t number = 0; number < fields.size(); ++number)
+  {
+    const MediumSettings settings = settingsOfField(medium, number, ranges);
+    FieldValues& field = fields[number];
+    try
+    {
+      field.source = sourceOfField(settings, input, &ofMedium);
+      if (ranges.empty())
+      {
+        std::get<FieldMean>(field.source.model).findRanges(field.source.leaves);
+      }
+    }
+    catch (const ArraysMissing&)
+    {
+      if (ranges.empty())
+      {
+        throw;
+      }
+      field.source.model = modelFrom(settings); // another part has it
+    }
+    if (!ranges.empty())
+    {
+      std::get<FieldMean>(field.source.model).setRanges({ ranges[number] });
+    }
+    const std::vector<Leaf> found = std::move(field.source.leaves);
+    field.source.leaves.clear();
+    for (const Leaf& leaf : ofMedium.leaves)
+    {
+      const auto same = std::find_if(
+        found.begin(), found.end(), [&](const Leaf& other) { return other.input == leaf.input; });
+      if (same != found.end())
+      {
+        field.source.leaves.push_back({ leaf.data, same->arrays, same->ofCells, leaf.input });
+        continue;
+      }
+      auto nowhere = vtkSmartPointer<vtkDoubleArray>::New();
+      setTuples(
+        nowhere, leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints());
+      nowhere->FillValue(std::numeric_limits<double>::quiet_NaN());
+      field.source.leaves.push_back({ leaf.data, { nowhere }, leaf.ofCells, leaf.input });
+      field.made.push_back(nowhere);
+    }
+  }
+  return fields;
+}
+
+void bringToCells(FieldValues& field)
+{
+  for (Leaf& leaf : field.source.leaves)
+  {
+    if (leaf.ofCells)
+    {
+      continue;
+    }
+    auto copy = vtkSmartPointer<vtkDataSet>::Take(leaf.data->NewInstance());
+    copy->CopyStructure(leaf.data);
+    copy->GetPointData()->SetScalars(leaf.arrays[0]);
+    vtkNew<vtkPointDataToCellData> toCells;
+    toCells->SetInputData(copy);
+    toCells->Update();
+    vtkSmartPointer<vtkDataArray> means = toCells->GetOutput()->GetCellData()->GetScalars();
+    leaf.arrays = { means };
+    leaf.ofCells = true;
+    field.made.push_back(means);
+  }
+}
+
+void forFieldImages(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
+  int threads, const std::function<void(std::size_t, vtkImageData*)>& take,
+  const std::vector<FieldMean::Range>& ranges)
+{
+  const MediumSettings& medium = maker.settings;
+  requireFields(medium);
+  const schlieren::Grid grid = gridFrom(refractivity);
+  if (!maker.keepsGrid(input))
+  {
+    forSampledFields(maker, input, refractivity, threads, take);
+    return;
+  }
+  for (std::size_t field = 0; field < medium.Fields.size(); ++field)
+  {
+    MediumMaker reader;
+    reader.settings = settingsOfField(medium, field, ranges);
+    std::copy_n(medium.SamplingBounds, 6, reader.settings.SamplingBounds);
+    reader.numberOfThreads = threads;
+    vtkNew<vtkImageData> values;
+    reader.convert(input, values, nullptr, Numbers::Singles);
+    if (!isSameGrid(grid, gridFrom(values)))
+    {
+      probe(values, refractivity);
+    }
+    take(field, values);
+  }
+}
+
+std::vector<float> fieldGradients(
+  MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity)
+{
+  const int threads = maker.threads();
+  const schlieren::Grid grid = gridFrom(refractivity);
+  const std::size_t count = maker.settings.Fields.size();
+  const auto points = static_cast<std::size_t>(refractivity->GetNumberOfPoints());
+  // And of one field at a time: numbers of an array, the field's own, and a mask; or of all of them.
+  constexpr std::size_t bytesOfField = sizeof(double) + sizeof(float) + 1;
+  requireMemory(static_cast<double>(points * (2 * count * sizeof(float) + bytesOfField)),
+    "The fields that color the image, on a grid of " + std::to_string(points) + " points,",
+    "Give fewer Fields or smaller SamplingDimensions.");
+  std::vector<float> gradients(count * points, 0);
+  forFieldImages(maker, input, refractivity, threads,
+    [&](std::size_t field, vtkImageData* values)
+    {
+      schlieren::gradientMagnitudes(grid,
+        vtkFloatArray::SafeDownCast(values->GetPointData()->GetArray(arrayName))->GetPointer(0),
+        vtkUnsignedCharArray::SafeDownCast(values->GetPointData()->GetArray(maskName))
+          ->GetPointer(0),
+        threads, static_cast<int>(count), static_cast<int>(field), gradients.data());
+    });
+  return gradients;
+}
+
+std::vector<std::array<float, 3>> fieldColors(const std::vector<double>& values, std::size_t fields)
+{
+  if (!values.empty() && values.size() != 3 * fields)
+  {
+    throw std::runtime_error("FieldColors holds " + std::to_string(values.size()) + " values for " +
+      std::to_string(fields) +
+      " fields. Give red, green and blue of each, or none for colours that are chosen.");
+  }
+  std::vector<std::array<float, 3>> colors(fields);
+  for (std::size_t field = 0; field < fields; ++field)
+  {
+    constexpr double goldenSection = 0.61803398874989485;
+    const double turns = static_cast<double>(field) * goldenSection;
+    double color[3];
+    vtkMath::HSVToRGB(turns - std::floor(turns), 1, 1, color, color + 1, color + 2);
+    const double* chosen = values.empty() ? color : values.data() + 3 * field;
+    std::transform(chosen, chosen + 3, colors[field].begin(),
+      [](double value) { return static_cast<float>(value); });
+  }
+  return colors;
+}
+
+} // namespace filters

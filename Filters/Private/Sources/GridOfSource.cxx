@@ -1,0 +1,358 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sources/GridOfSource.h"
+
+#include "Common/AvailableMemory.h"
+#include "Common/FieldFromImage.h"
+#include "Input/RefractivityValues.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkSMPTools.h"
+#include "vtkUnsignedCharArray.h"
+
+#include "Schlieren.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace filters
+{
+
+namespace
+{
+
+/// Layers of a lattice that are sampled at a time: the same ones whatever the number of threads, as a source may depend on them.
+constexpr int layersAtATime = 8;
+
+/// The points of a grid as a lattice of a source, and where in the grid each of its axes goes.
+struct LatticeOfGrid
+{
+  schlieren::Lattice lattice;
+  std::array<vtkIdType, 3>
+    strides{};         ///< in the grid, from a point of the lattice to the next one along each axis
+  vtkIdType first = 0; ///< in the grid, of the lattice's first point
+  int copies = 1;      ///< layers of the grid that one of the lattice stands for
+  vtkIdType copyStride = 0;
+  std::size_t slow = 2; ///< the axis across which it is worked off
+
+  LatticeOfGrid(const schlieren::MediumSource& source, vtkImageData* image)
+  {
+    const schlieren::Grid grid = gridFrom(image);
+    const std::array<double, 9> direction = source.direction();
+    vtkIdType stride = 1;
+    std::array<double, 3> origin{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      for (std::size_t row = 0; row < 3; ++row)
+      {
+        origin[axis] += direction[3 * row + axis] * grid.origin[row];
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      // The grid's axis in those of the source: along one of them, but for rounding.
+      std::array<double, 3> along{};
+      for (std::size_t own = 0; own < 3; ++own)
+      {
+        for (std::size_t row = 0; row < 3; ++row)
+        {
+          along[own] += direction[3 * row + own] * grid.direction[3 * row + axis];
+        }
+      }
+      const auto own =
+        static_cast<std::size_t>(std::max_element(along.begin(), along.end(),
+                                   [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+          along.begin());
+      const auto count = static_cast<int>(grid.dimensions[axis]);
+      const bool isReversed = along[own] < 0;
+      this->lattice.points[own] = count;
+      this->lattice.spacing[own] = grid.spacing[axis];
+      this->lattice.first[own] = origin[own] - (isReversed ? (count - 1) * grid.spacing[axis] : 0);
+      this->strides[own] = isReversed ? -stride : stride;
+      this->first += isReversed ? (count - 1) * stride : 0;
+      stride *= count;
+    }
+    if (source.isFlat())
+    {
+      this->copies = this->lattice.points[2];
+      this->copyStride = this->strides[2];
+      const schlieren::Box bounds = source.bounds();
+      this->lattice.points[2] = 1;
+      this->lattice.first[2] = 0.5 * (bounds.low[2] + bounds.high[2]);
+      this->lattice.spacing[2] = std::max(this->lattice.spacing[0], this->lattice.spacing[1]);
+    }
+    while (this->slow > 0 && this->lattice.points[this->slow] == 1)
+    {
+      --this->slow;
+    }
+  }
+
+  /// Calls work(part of the lattice, function from its points to those of the grid) for all parts, from several threads.
+  template <class Work>
+  void forParts(const WorkProgress& progress, const Work& work) const
+  {
+    const int layers = this->lattice.points[this->slow];
+    const int parts = (layers + layersAtATime - 1) / layersAtATime;
+    const int atOnce = 4 * vtkSMPTools::GetEstimatedNumberOfThreads();
+    for (int begin = 0; begin < parts; begin += atOnce)
+    {
+      const int end = std::min(parts, begin + atOnce);
+      vtkSMPTools::For(begin, end, 1,
+        [&](vtkIdType from, vtkIdType to)
+        {
+          for (vtkIdType part = from; part < to; ++part)
+          {
+            const int layer = static_cast<int>(part) * layersAtATime;
+            schlieren::Lattice some = this->lattice;
+            some.points[this->slow] = std::min(layersAtATime, layers - layer);
+            some.first[this->slow] += layer * some.spacing[this->slow];
+            work(some, this->first + layer * this->strides[this->slow]);
+          }
+        });
+      progress.reach(static_cast<double>(end) / parts);
+    }
+  }
+
+  /// Calls set(point of the part, point of the grid) for all of them.
+  template <class Set>
+  void forPoints(const schlieren::Lattice& part, vtkIdType begin, const Set& set) const
+  {
+    std::size_t point = 0;
+    for (int k = 0; k < part.points[2]; ++k)
+    {
+      for (int j = 0; j < part.points[1]; ++j)
+      {
+        for (int i = 0; i < part.points[0]; ++i, ++point)
+        {
+          const vtkIdType at =
+            begin + i * this->strides[0] + j * this->strides[1] + k * this->strides[2];
+          for (int copy = 0; copy < this->copies; ++copy)
+          {
+            set(point, at + copy * this->copyStride);
+          }
+        }
+      }
+    }
+  }
+};
+
+/// Where the walls of a source are in a grid: in and on bodies, and within the reach of a voxel of walls that have no inside.
+class WallsOfGrid
+{
+public:
+  WallsOfGrid(const schlieren::MediumSource& source, vtkImageData* grid)
+    : Bounds(source.bounds())
+    , Grid(grid)
+    , Places(static_cast<std::size_t>(grid->GetNumberOfPoints()))
+    , Near(this->Places.size())
+  {
+  }
+
+  /// `point`: of the grid; `distances` as the source has given them, of the same lattice.
+  void set(vtkIdType point, schlieren::Place place, const schlieren::Lattice& lattice,
+    std::size_t ofLattice, const std::vector<float>& distances)
+  {
+    const auto at = static_cast<std::size_t>(point);
+    this->Places[at] = place;
+    if (place == schlieren::Place::Gas && this->isWithin(lattice, ofLattice))
+    {
+      const float distance = std::abs(distances[ofLattice]);
+      this->Near[at] = distance <= rounding ? On : distance <= reachOfVoxel ? Beside : 0;
+    }
+  }
+
+  /// Whether light is to be stopped at a point, also where it has gas but is on the surface of a body, or near to a wall without
+  /// an inside. All points have to be set before.
+  bool isWall(vtkIdType point) const
+  {
+    const auto at = static_cast<std::size_t>(point);
+    if (this->Places[at] != schlieren::Place::Gas || this->Near[at] == 0)
+    {
+      return this->Places[at] == schlieren::Place::Wall;
+    }
+    const auto [besideWall, besideWindow] = this->neighboursOf(point);
+    return !besideWindow && (this->Near[at] == On || !besideWall);
+  }
+
+private:
+  enum Nearness : unsigned char
+  {
+    Beside = 1,
+    On = 2
+  };
+  static constexpr float rounding = 1e-3f; // of surfaces that go through points of the grid
+  /// From the middle of a voxel to its corner: no step to a neighbour, diagonal ones included, goes through a wall between
+  /// points that are farther from it.
+  static constexpr float reachOfVoxel = 0.8661f;
+
+  /// Whether it is not the end of the data that is near.
+  bool isWithin(const schlieren::Lattice& lattice, std::size_t point) const
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto count = static_cast<std::size_t>(lattice.points[axis]);
+      const double x =
+        lattice.first[axis] + static_cast<double>(point % count) * lattice.spacing[axis];
+      point /= count;
+      const double reach = reachOfVoxel * lattice.spacing[axis];
+      if (x - reach < this->Bounds.low[axis] || x + reach > this->Bounds.high[axis])
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether there are walls and windows next to a point.
+  std::array<bool, 2> neighboursOf(vtkIdType point) const
+  {
+    int n[3];
+    this->Grid->GetDimensions(n);
+    const std::array<int, 3> at{ static_cast<int>(point % n[0]),
+      static_cast<int>(point / n[0] % n[1]), static_cast<int>(point / n[0] / n[1]) };
+    std::array<bool, 2> found{};
+    for (int k = std::max(at[2] - 1, 0); k <= std::min(at[2] + 1, n[2] - 1); ++k)
+    {
+      for (int j = std::max(at[1] - 1, 0); j <= std::min(at[1] + 1, n[1] - 1); ++j)
+      {
+        for (int i = std::max(at[0] - 1, 0); i <= std::min(at[0] + 1, n[0] - 1); ++i)
+        {
+          const schlieren::Place place =
+            this->Places[static_cast<std::size_t>((vtkIdType{ k } * n[1] + j) * n[0] + i)];
+          found[0] = found[0] || place == schlieren::Place::Wall;
+          found[1] = found[1] || place == schlieren::Place::Window;
+        }
+      }
+    }
+    return found;
+  }
+
+  schlieren::Box Bounds;
+  vtkImageData* Grid;
+  std::vector<schlieren::Place> Places; // of each point
+  std::vector<unsigned char> Near;      // likewise, of gas near to where it ends
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void fillGrid(const schlieren::MediumSource& source, Numbers numbers, bool thinSurfaces,
+  const WorkProgress& progress, vtkImageData* grid)
+{
+  const LatticeOfGrid points(source, grid);
+  const vtkIdType count = grid->GetNumberOfPoints();
+  vtkNew<vtkDoubleArray> values;
+  setTuples(values, count);
+  const auto valid = newMask(count);
+  const auto outside = newMask(count);
+  outside->SetName(transparentName);
+  std::optional<WallsOfGrid> walls;
+  if (thinSurfaces)
+  {
+    walls.emplace(source, grid);
+  }
+  points.forParts(progress,
+    [&](const schlieren::Lattice& part, vtkIdType begin)
+    {
+      const auto size = static_cast<std::size_t>(part.size());
+      std::vector<double> sampled(size);
+      std::vector<schlieren::Place> places(size);
+      std::vector<float> distances(thinSurfaces ? size : 0);
+      source.sample(
+        part, sampled.data(), places.data(), distances.empty() ? nullptr : distances.data());
+      points.forPoints(part, begin,
+        [&](std::size_t i, vtkIdType at)
+        {
+          values->SetValue(at, sampled[i]);
+          valid->SetValue(at, places[i] == schlieren::Place::Gas ? 1 : 0);
+          outside->SetValue(at, places[i] == schlieren::Place::Window ? 1 : 0);
+          if (walls)
+          {
+            walls->set(at, places[i], part, i, distances);
+          }
+        });
+    });
+  if (walls)
+  {
+    for (vtkIdType at = 0; at < count; ++at)
+    {
+      if (walls->isWall(at))
+      {
+        valid->SetValue(at, 0);
+      }
+    }
+  }
+  setArrays(grid, { values }, Linear(), valid, numbers);
+  setOutside(outside, grid);
+}
+
+//------------------------------------------------------------------------------
+std::vector<float> fieldsAtGrid(
+  const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* grid)
+{
+  const LatticeOfGrid points(source, grid);
+  const auto count = static_cast<std::size_t>(grid->GetNumberOfPoints());
+  const auto fields = static_cast<std::size_t>(source.fields());
+  std::vector<float> all(fields * count);
+  points.forParts(progress,
+    [&](const schlieren::Lattice& part, vtkIdType begin)
+    {
+      const auto size = static_cast<std::size_t>(part.size());
+      std::vector<double> refractivity(size), values(fields * size);
+      std::vector<schlieren::Place> places(size);
+      source.sampleWithFields(part, refractivity.data(), places.data(), nullptr, values.data());
+      points.forPoints(part, begin,
+        [&](std::size_t i, vtkIdType at)
+        {
+          for (std::size_t field = 0; field < fields; ++field)
+          {
+            all[field * count + static_cast<std::size_t>(at)] =
+              static_cast<float>(values[field * size + i]);
+          }
+        });
+    });
+  return all;
+}
+
+//------------------------------------------------------------------------------
+bool maskWalls(
+  const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* image)
+{
+  const LatticeOfGrid points(source, image);
+  WallsOfGrid walls(source, image);
+  points.forParts(progress,
+    [&](const schlieren::Lattice& part, vtkIdType begin)
+    {
+      const auto size = static_cast<std::size_t>(part.size());
+      std::vector<double> refractivity(size);
+      std::vector<schlieren::Place> places(size);
+      std::vector<float> distances(size);
+      source.sample(part, refractivity.data(), places.data(), distances.data());
+      points.forPoints(part, begin,
+        [&](std::size_t i, vtkIdType at) { walls.set(at, places[i], part, i, distances); });
+    });
+  bool isAny = false;
+  vtkPointData* arrays = image->GetPointData();
+  for (vtkIdType at = 0; at < image->GetNumberOfPoints(); ++at)
+  {
+    if (walls.isWall(at))
+    {
+      isAny = true;
+      for (const char* name : { arrayName, maskName, transparentName })
+      {
+        if (vtkDataArray* array = arrays->GetArray(name))
+        {
+          array->SetComponent(at, 0, 0);
+        }
+      }
+    }
+  }
+  return isAny;
+}
+
+} // namespace filters

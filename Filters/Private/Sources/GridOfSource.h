@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Common/WorkProgress.h"
+#include "Input/RefractivitySource.h"
+
+#include <vector>
+
+class vtkImageData;
+
+namespace schlieren
+{
+class MediumSource;
+} // namespace schlieren
+
+namespace filters
+{
+
+/// Sets Refractivity and the masks of `grid`, whose axes are along axes of the source, in any order and to either side. Of a
+/// flat source the layers along its z are all the same. `thinSurfaces`: bodies may be thin; points on their surfaces, and within
+/// 0.87 voxels of those that have no inside, are masked. Several threads; throws Stopped and std::bad_alloc.
+void fillGrid(const schlieren::MediumSource& source, Numbers numbers, bool thinSurfaces,
+  const WorkProgress& progress, vtkImageData* grid);
+
+/// The values of the source's fields at the grid's points, field after field; NaN where a field has none.
+std::vector<float> fieldsAtGrid(
+  const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* grid);
+
+/// Masks the points of an image, which has its arrays already, at which a source of the same axes has a wall. Returns whether
+/// there are any.
+bool maskWalls(
+  const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* image);
+
+} // namespace filters

@@ -1,0 +1,492 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sources/ImagePiece.h"
+
+#include "Amr/AmrFaces.h"
+#include "Common/FieldFromImage.h"
+#include "Common/WeightedMedian.h"
+#include "Input/DataParts.h"
+#include "Input/FlatData.h"
+#include "Schlieren.h"
+#include "Walls/BodySurfaces.h"
+
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The spline has more detail than voxels of the image's spacing show, as in AmrSource.
+constexpr double cellBySpacing = 0.5;
+
+/// Of an index: so that no place is missed that is half of the way between two ranks' points.
+constexpr double rounding = 1e-6;
+
+schlieren::Place kindAt(const schlieren::Field& field, std::size_t point)
+{
+  const unsigned char valid = field.valid ? field.valid[point] : 1;
+  if (valid == schlieren::transparent)
+  {
+    return schlieren::Place::Window;
+  }
+  return valid != 0 && std::isfinite(valueAt(field, point)) ? schlieren::Place::Gas
+                                                            : schlieren::Place::Wall;
+}
+
+/// A place in the axes that `direction` leads from.
+Point turnedBack(const double* place, const std::array<double, 9>& direction)
+{
+  Point result;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    result[axis] =
+      direction[axis] * place[0] + direction[3 + axis] * place[1] + direction[6 + axis] * place[2];
+  }
+  return result;
+}
+
+double medianOf(std::vector<double> values)
+{
+  if (values.empty())
+  {
+    return nan;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+ImagePiece::Extents extentsOf(vtkImageData* whole)
+{
+  ImagePiece::Extents extents{};
+  whole->GetExtent(extents.whole.data());
+  extents.own = extents.whole;
+  return extents;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataObject> turnedBack(
+  vtkDataObject* bodies, const std::array<double, 9>& direction)
+{
+  if (!bodies || direction == schlieren::Grid{}.direction)
+  {
+    return bodies;
+  }
+  return changedBodies(bodies,
+    [&](vtkPolyData* surface)
+    {
+      vtkNew<vtkPoints> places;
+      places->SetDataTypeToDouble();
+      for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
+      {
+        double at[3];
+        surface->GetPoint(point, at);
+        places->InsertNextPoint(turnedBack(at, direction).data());
+      }
+      auto turned = vtkSmartPointer<vtkPolyData>::New();
+      turned->ShallowCopy(surface);
+      turned->SetPoints(places);
+      return turned;
+    });
+}
+
+ImagePiece::ImagePiece(vtkImageData* refractivity, vtkDataObject* bodies, int threads)
+  : ImagePiece(refractivity, extentsOf(refractivity), bodies, threads)
+{
+}
+
+ImagePiece::ImagePiece(
+  vtkImageData* refractivity, const Extents& extents, vtkDataObject* bodies, int threads)
+  : Median(nan)
+{
+  const schlieren::Field field = fieldFrom(refractivity);
+  this->Spacing = field.grid.spacing;
+  this->Direction = field.grid.direction;
+  const Point origin = turnedBack(refractivity->GetOrigin(), this->Direction);
+  int extent[6];
+  refractivity->GetExtent(extent);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    // From the image's origin, which all pieces have to the last bit.
+    this->Origin[axis] = origin[axis] + extents.whole[2 * axis] * this->Spacing[axis];
+    this->Whole[axis] = extents.whole[2 * axis + 1] + 1 - extents.whole[2 * axis];
+    this->First[axis] = extent[2 * axis] - extents.whole[2 * axis];
+    this->Points[axis] = extent[2 * axis + 1] + 1 - extent[2 * axis];
+    this->Own.begin[axis] = extents.own[2 * axis] - extent[2 * axis];
+    this->Own.end[axis] = extents.own[2 * axis + 1] + 1 - extent[2 * axis];
+  }
+  this->IsKnown = this->knownOf(field);
+  if (std::find(this->IsKnown.begin(), this->IsKnown.end(), 0) != this->IsKnown.end())
+  {
+    this->Kinds.resize(this->IsKnown.size(), schlieren::Place::Gas);
+    for (std::size_t at = 0; at < this->Kinds.size(); ++at)
+    {
+      this->Kinds[at] = kindAt(field, at);
+    }
+  }
+  if (bodies)
+  {
+    Point first;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      first[axis] = this->Origin[axis] + this->First[axis] * this->Spacing[axis];
+    }
+    std::vector<unsigned char> isInBody;
+    BodySurfaces(bodies).findInside({ first, this->Spacing, this->Points }, isInBody);
+    for (std::size_t at = 0; at < isInBody.size(); ++at)
+    {
+      this->IsKnown[at] = this->IsKnown[at] && !isInBody[at] ? 1 : 0;
+    }
+  }
+  forCells(this->Own.begin, this->Own.size(),
+    [&](int i, int j, int k)
+    {
+      const std::size_t at = this->all().index(i, j, k);
+      if (!this->IsKnown[at])
+      {
+        return;
+      }
+      ++this->KnownPoints;
+      const Counts inWhole{ this->First[0] + i, this->First[1] + j, this->First[2] + k };
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        if (inWhole[axis] == 0 || inWhole[axis] == this->Whole[axis] - 1)
+        {
+          const CellBox whole{ { 0, 0, 0 }, this->Whole };
+          this->Outer.push_back(
+            { static_cast<std::int64_t>(whole.index(inWhole[0], inWhole[1], inWhole[2])),
+              valueAt(field, at) });
+          break;
+        }
+      }
+    });
+  if (this->Outer.empty())
+  {
+    std::vector<double> known;
+    for (std::size_t at = 0; at < this->IsKnown.size(); ++at)
+    {
+      if (this->IsKnown[at])
+      {
+        known.push_back(valueAt(field, at));
+      }
+    }
+    this->Median = medianOf(std::move(known));
+  }
+  this->Splines.push_back(
+    std::make_unique<const ImageSpline>(field, this->IsKnown, this->Points, this->First, threads));
+}
+
+/// Of each point, whether the field has a value there.
+std::vector<unsigned char> ImagePiece::knownOf(const schlieren::Field& field) const
+{
+  std::vector<unsigned char> isKnown(volume(this->Points), 1);
+  for (std::size_t at = 0; at < isKnown.size(); ++at)
+  {
+    isKnown[at] = kindAt(field, at) == schlieren::Place::Gas ? 1 : 0;
+  }
+  return isKnown;
+}
+
+void ImagePiece::addField(vtkImageData* image, int threads)
+{
+  const schlieren::Field field = fieldFrom(image);
+  std::vector<unsigned char> isKnown = this->knownOf(field);
+  for (std::size_t at = 0; at < isKnown.size(); ++at)
+  {
+    isKnown[at] = isKnown[at] & this->IsKnown[at];
+  }
+  this->Splines.push_back(
+    std::make_unique<const ImageSpline>(field, isKnown, this->Points, this->First, threads));
+}
+
+schlieren::Box ImagePiece::bounds() const
+{
+  schlieren::Box box{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    // Of its own points, and half of the way to those of others.
+    const int first = this->First[axis] + this->Own.begin[axis];
+    const int last = this->First[axis] + this->Own.end[axis] - 1;
+    const double low = first > 0 ? first - 0.5 : 0;
+    const double high = last < this->Whole[axis] - 1 ? last + 0.5 : last;
+    box.low[axis] = this->Origin[axis] + low * this->Spacing[axis];
+    box.high[axis] = this->Origin[axis] + high * this->Spacing[axis];
+  }
+  return box;
+}
+
+double ImagePiece::ambientOf(std::vector<OuterValue> values)
+{
+  std::sort(values.begin(), values.end(),
+    [](const OuterValue& a, const OuterValue& b) { return a.point < b.point; });
+  values.erase(std::unique(values.begin(), values.end(),
+                 [](const OuterValue& a, const OuterValue& b) { return a.point == b.point; }),
+    values.end());
+  std::vector<double> all;
+  for (const OuterValue& one : values)
+  {
+    all.push_back(one.value);
+  }
+  return medianOf(std::move(all));
+}
+
+double ImagePiece::ambient() const
+{
+  return this->Outer.empty() ? this->Median : ambientOf(this->Outer);
+}
+
+schlieren::Place ImagePiece::kindOf(const Counts& point) const
+{
+  return this->Kinds.empty() ? schlieren::Place::Gas
+                             : this->Kinds[this->all().index(point[0], point[1], point[2])];
+}
+
+BoundaryFaces ImagePiece::faces() const
+{
+  std::array<double, 3> corner{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    corner[axis] = this->Origin[axis] - 0.5 * this->Spacing[axis];
+  }
+  AmrFaces faces(
+    corner, { { this->Spacing, this->Whole } },
+    [&](std::size_t, const Counts& point)
+    {
+      switch (this->kindOf(
+        { point[0] - this->First[0], point[1] - this->First[1], point[2] - this->First[2] }))
+      {
+        case schlieren::Place::Gas:
+          return CellState::Gas;
+        case schlieren::Place::Wall:
+          return CellState::Solid;
+        default:
+          return CellState::None;
+      }
+    },
+    Extent::Volume);
+  if (!this->Kinds.empty())
+  {
+    // Those that have all of their neighbours here.
+    CellBox inner = this->Own;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const bool isFirst = this->First[axis] == 0;
+      const bool isLast = this->First[axis] + this->Points[axis] == this->Whole[axis];
+      inner.begin[axis] = std::max(inner.begin[axis], isFirst ? 0 : 1);
+      inner.end[axis] = std::min(inner.end[axis], this->Points[axis] - (isLast ? 0 : 1));
+    }
+    forCells(inner.begin, inner.size(),
+      [&](int i, int j, int k)
+      {
+        if (const schlieren::Place kind = this->kindOf({ i, j, k }); kind != schlieren::Place::Gas)
+        {
+          faces.addAround(0, { this->First[0] + i, this->First[1] + j, this->First[2] + k },
+            kind == schlieren::Place::Wall);
+        }
+      });
+  }
+  return faces.take();
+}
+
+double ImagePiece::indexAt(double place, std::size_t axis) const
+{
+  const double inWhole = (place - this->Origin[axis]) / this->Spacing[axis];
+  return std::clamp(inWhole, 0., static_cast<double>(this->Whole[axis] - 1)) - this->First[axis];
+}
+
+double ImagePiece::indexWithin(double place, std::size_t axis) const
+{
+  return std::clamp(this->indexAt(place, axis), 0., static_cast<double>(this->Points[axis] - 1));
+}
+
+Counts ImagePiece::nearestPoint(const Point& place) const
+{
+  Counts nearest;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    nearest[axis] = static_cast<int>(std::lround(this->indexAt(place[axis], axis)));
+  }
+  return nearest;
+}
+
+bool ImagePiece::isGasAt(const Point& place) const
+{
+  return this->kindOf(this->nearestPoint(place)) == schlieren::Place::Gas;
+}
+
+ImageSpline::Range ImagePiece::rangeOf(std::size_t field, const schlieren::Box& box) const
+{
+  Counts first, last;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    first[axis] = static_cast<int>(std::floor(this->indexWithin(box.low[axis], axis)));
+    last[axis] = static_cast<int>(std::ceil(this->indexWithin(box.high[axis], axis)));
+  }
+  return this->Splines[field]->rangeIn(first, last);
+}
+
+void ImagePiece::sample(
+  std::size_t field, const schlieren::Lattice& lattice, double* values, unsigned char* hasGas) const
+{
+  std::array<std::vector<double>, 3> indices;
+  std::array<std::vector<int>, 3> nearest;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (int i = 0; i < lattice.points[axis]; ++i)
+    {
+      const double place = lattice.first[axis] + i * lattice.spacing[axis];
+      indices[axis].push_back(this->indexWithin(place, axis));
+      nearest[axis].push_back(static_cast<int>(std::lround(indices[axis].back())));
+    }
+  }
+  this->Splines[field]->sample(indices, values);
+  if (!hasGas)
+  {
+    return;
+  }
+  std::size_t point = 0;
+  for (const int k : nearest[2])
+  {
+    for (const int j : nearest[1])
+    {
+      for (const int i : nearest[0])
+      {
+        hasGas[point++] = this->kindOf({ i, j, k }) == schlieren::Place::Gas ? 1 : 0;
+      }
+    }
+  }
+}
+
+DataPiece::Summary ImagePiece::summary() const
+{
+  const schlieren::Box box = this->bounds();
+  return { this->KnownPoints, box, this->contentOf(box) };
+}
+
+void ImagePiece::putBoundary(std::int64_t, std::vector<char>& message) const
+{
+  const BoundaryFaces faces = this->faces();
+  put(BoundaryKind::OfImage, message);
+  put(this->Origin, message);
+  put(this->Spacing, message);
+  put(this->Direction, message);
+  putAll(faces.surface.points, message);
+  putAll(faces.surface.corners, message);
+  putAll(faces.hidesBehind, message);
+  const double ofFaces = 2. *
+    (static_cast<double>(this->Whole[0]) * this->Whole[1] +
+      static_cast<double>(this->Whole[1]) * this->Whole[2] +
+      static_cast<double>(this->Whole[2]) * this->Whole[0]);
+  const auto every = static_cast<std::int64_t>(std::ceil(ofFaces / mostOuterValues));
+  std::vector<OuterValue> values;
+  for (const OuterValue& outer : this->Outer)
+  {
+    const std::int64_t row = outer.point / this->Whole[0];
+    const std::int64_t sum =
+      outer.point % this->Whole[0] + row % this->Whole[1] + row / this->Whole[1];
+    if (sum % every == 0)
+    {
+      values.push_back(outer);
+    }
+  }
+  putAll(values, message);
+}
+
+CellTree::Content ImagePiece::contentOf(const schlieren::Box& box) const
+{
+  const schlieren::Box own = this->bounds();
+  schlieren::Box part{};
+  CellTree::Content content{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    part.low[axis] = std::clamp(box.low[axis], own.low[axis], own.high[axis]);
+    part.high[axis] = std::clamp(box.high[axis], own.low[axis], own.high[axis]);
+    content.cellSize[axis] = cellBySpacing * this->Spacing[axis];
+  }
+  const ImageSpline::Range range = this->rangeOf(0, part);
+  content.lowest = range.lowest;
+  content.highest = range.highest;
+  return content;
+}
+
+bool ImagePiece::holds(const Point& place) const
+{
+  // Half of the way to others' points, where they are the nearest ones, both may have it.
+  const Counts nearest = this->nearestPoint(place);
+  bool isOwn = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    isOwn = isOwn && nearest[axis] >= this->Own.begin[axis] && nearest[axis] < this->Own.end[axis];
+  }
+  return isOwn && this->kindOf(nearest) == schlieren::Place::Gas;
+}
+
+DataPiece::Samples ImagePiece::sample(const schlieren::Lattice& lattice) const
+{
+  // The part of the lattice that is nearest to its own points.
+  schlieren::Lattice part = lattice;
+  Counts begin{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto isBefore = [&](int point, double end)
+    { return this->indexAt(lattice.first[axis] + point * lattice.spacing[axis], axis) < end; };
+    int& first = begin[axis];
+    while (first < lattice.points[axis] && isBefore(first, this->Own.begin[axis] - 0.5))
+    {
+      ++first;
+    }
+    int end = first;
+    while (end < lattice.points[axis] && isBefore(end, this->Own.end[axis] - 0.5 + rounding))
+    {
+      ++end;
+    }
+    part.first[axis] += first * lattice.spacing[axis];
+    part.points[axis] = end - first;
+    if (part.points[axis] == 0)
+    {
+      return {};
+    }
+  }
+  const auto size = static_cast<std::size_t>(lattice.size());
+  Samples samples{ std::vector<unsigned char>(size, 0), std::vector<double>(size, 0.) };
+  std::vector<double> values(static_cast<std::size_t>(part.size()));
+  std::vector<unsigned char> hasGas(values.size());
+  this->sample(0, part, values.data(), hasGas.data());
+  const CellBox of{ { 0, 0, 0 }, lattice.points };
+  const auto forOwn = [&](const auto& visit)
+  {
+    std::size_t from = 0;
+    forCells(begin, part.points, [&](int i, int j, int k) { visit(from++, of.index(i, j, k)); });
+  };
+  forOwn(
+    [&](std::size_t from, std::size_t to)
+    {
+      samples.found[to] = hasGas[from];
+      samples.values[to] = values[from];
+    });
+  for (int field = 1; field <= this->fields(); ++field)
+  {
+    const std::size_t first = samples.fields.size();
+    samples.fields.resize(first + size, nan);
+    this->sample(static_cast<std::size_t>(field), part, values.data(), nullptr);
+    forOwn([&](std::size_t from, std::size_t to)
+      { samples.fields[first + to] = hasGas[from] ? values[from] : nan; });
+  }
+  return samples;
+}
+
+} // namespace filters

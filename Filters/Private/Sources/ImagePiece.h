@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Amr/AmrLevels.h"
+#include "Schlieren.h"
+#include "Sources/DataPiece.h"
+#include "Sources/ImageSpline.h"
+#include "Walls/BoundaryFaces.h"
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+class vtkDataObject;
+class vtkImageData;
+
+namespace filters
+{
+
+/**
+ * The points of an image, or those that one rank has of it, and what is between them: a spline. All places are in the image's
+ * own axes.
+ *
+ * Points that are no gas in the data are walls, or windows where the data's masks say so, as they stand: the cube around
+ * each, as in the grid of an image. Points inside closed bodies have no value of their own.
+ *
+ * Of an image that several ranks have, each needs `layers` of points of the others around its own. Then the splines of two
+ * ranks differ by less than single precision where they meet (what is changed k points away changes a coefficient by
+ * (3 - sqrt(8))^k; Unser, Aldroubi & Eden 1993).
+ */
+class ImagePiece : public DataPiece
+{
+public:
+  static constexpr int layers = 12;
+
+  /// Where a piece is in a whole image; indices of VTK, both ends included.
+  struct Extents
+  {
+    using Extent = std::array<int, 6>;
+    Extent whole;
+    Extent own; // without others' points
+  };
+
+  /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: in the image's own axes, see
+  /// turnedBack(); may be null. Throws std::runtime_error where they are no surfaces.
+  ImagePiece(
+    vtkImageData* refractivity, const Extents& extents, vtkDataObject* bodies, int threads);
+  /// All of an image.
+  ImagePiece(vtkImageData* refractivity, vtkDataObject* bodies, int threads);
+
+  /// One more field at the same points, as if it were a refractivity. It gets the next number, from 1 on.
+  void addField(vtkImageData* values, int threads);
+  int fields() const override { return static_cast<int>(this->Splines.size()) - 1; }
+
+  bool hasGas() const { return this->KnownPoints > 0; }
+  schlieren::Box bounds() const;
+  std::array<double, 3> spacing() const { return this->Spacing; }
+  std::array<double, 9> direction() const { return this->Direction; } // to the data's axes
+
+  /// N at a known point of its own on the faces of the whole image.
+  struct OuterValue
+  {
+    std::int64_t point; // in the whole image
+    double value;
+  };
+  /// N of the gas around the flow: the median over the faces, of each point once. NaN: there are none.
+  static double ambientOf(std::vector<OuterValue> values);
+  /// The same of a piece that is all of an image; where nothing is known on its faces, of all points.
+  double ambient() const;
+
+  /// The faces around its own points without gas.
+  BoundaryFaces faces() const;
+
+  bool isGasAt(const Point& place) const;
+  /// Of field 0, which is N, or another one.
+  ImageSpline::Range rangeOf(std::size_t field, const schlieren::Box& box) const;
+  /// At all points of a lattice, those that this piece does not hold, too. `hasGas`: whether there is gas; may be null.
+  void sample(std::size_t field, const schlieren::Lattice& lattice, double* values,
+    unsigned char* hasGas) const;
+
+  Summary summary() const override;
+  /// Its axes, the triangles of faces(), which of them hide something, and N on the faces of the whole image: at each
+  /// point, or of more than a million at each nth.
+  void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const override;
+  CellTree::Content contentOf(const schlieren::Box& box) const override;
+  bool holds(const Point& place) const override;
+  schlieren::MediumSource::FieldRange rangeOfField(
+    int field, const schlieren::Box& box) const override
+  {
+    const ImageSpline::Range range = this->rangeOf(static_cast<std::size_t>(field) + 1, box);
+    return { range.lowest, range.highest };
+  }
+  Samples sample(const schlieren::Lattice& lattice) const override;
+
+private:
+  std::vector<unsigned char> knownOf(const schlieren::Field& field) const;
+  /// Of the places of the whole image the nearest one; from its first point on.
+  double indexAt(double place, std::size_t axis) const;
+  double indexWithin(double place, std::size_t axis) const; // of the points that it has
+  Counts nearestPoint(const Point& place) const;
+  schlieren::Place kindOf(const Counts& point) const;
+  CellBox all() const { return { { 0, 0, 0 }, this->Points }; }
+
+  Counts Points;                         // of the refractivity that it has
+  Counts First;                          // the first of these, in the whole image
+  Counts Whole;                          // points of the whole image
+  CellBox Own;                           // points of its own, of those that it has
+  std::array<double, 3> Origin, Spacing; // of the whole image
+  std::array<double, 9> Direction;
+  std::vector<schlieren::Place> Kinds; // of each point in the data; empty: all gas
+  std::vector<unsigned char> IsKnown;  // of each point: gas, and in no body
+  std::int64_t KnownPoints = 0;        // of its own
+  std::vector<OuterValue> Outer;
+  double Median; // of all known points, where there is no outer value
+  std::vector<std::unique_ptr<const ImageSpline>> Splines;
+};
+
+/// Surfaces in the axes that `direction` leads from. Null: there are none.
+vtkSmartPointer<vtkDataObject> turnedBack(
+  vtkDataObject* bodies, const std::array<double, 9>& direction);
+
+} // namespace filters

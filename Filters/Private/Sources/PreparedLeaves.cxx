@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sources/PreparedLeaves.h"
+
+#include "Cells/CellMeans.h"
+#include "Cells/MeshArrays.h"
+#include "Cells/Polyhedra.h"
+#include "Common/AvailableMemory.h"
+#include "Input/FlatData.h"
+#include "Input/RefractivityValues.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkSMPTools.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <limits>
+
+namespace filters
+{
+
+namespace
+{
+
+vtkSmartPointer<vtkDataSet> withoutArrays(vtkDataSet* data)
+{
+  auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+  copy->CopyStructure(data);
+  return copy;
+}
+
+/// A leaf that holds nothing but N at its points (NaN where invalid) or in its cells, its other cells hidden.
+vtkSmartPointer<vtkDataSet> withValues(
+  const Leaf& leaf, int dimension, const Model& model, Tally& tally)
+{
+  vtkDataSet* data = leaf.data;
+  const vtkIdType cells = data->GetNumberOfCells();
+  auto valid = newMask(cells);
+  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
+  vtkSMPTools::For(0, cells,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
+        valid->SetValue(i, isHidden || dimensionOfCell(data, i) != dimension ? 0 : 1);
+      }
+    });
+
+  auto prepared = withoutArrays(data);
+  // What the shape of curved cells depends on.
+  prepared->GetPointData()->SetRationalWeights(data->GetPointData()->GetRationalWeights());
+  prepared->GetCellData()->SetHigherOrderDegrees(data->GetCellData()->GetHigherOrderDegrees());
+  if (leaf.ofCells)
+  {
+    const auto ofCells = convert<vtkDoubleArray>(leaf.arrays, model, valid, 0, tally);
+    ofCells->SetName(arrayName);
+    prepared->GetCellData()->SetScalars(ofCells);
+    vtkNew<vtkDoubleArray> ofPoints; // as yet without values
+    ofPoints->SetName(arrayName);
+    setTuples(ofPoints, data->GetNumberOfPoints());
+    ofPoints->Fill(0);
+    prepared->GetPointData()->SetScalars(ofPoints);
+  }
+  else
+  {
+    auto validPoints = newMask(data->GetNumberOfPoints());
+    hidePoints(data, validPoints);
+    prepared->GetPointData()->SetScalars(convert<vtkDoubleArray>(
+      leaf.arrays, model, validPoints, std::numeric_limits<double>::quiet_NaN(), tally));
+  }
+
+  vtkNew<vtkUnsignedCharArray> hidden;
+  hidden->SetName(vtkDataSetAttributes::GhostArrayName());
+  hidden->SetNumberOfValues(cells);
+  vtkSMPTools::For(0, cells,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        const int copy =
+          ghosts ? ghosts->GetValue(i) & static_cast<int>(vtkDataSetAttributes::DUPLICATECELL) : 0;
+        const int hides =
+          valid->GetValue(i) ? 0 : static_cast<int>(vtkDataSetAttributes::HIDDENCELL);
+        hidden->SetValue(i, static_cast<unsigned char>(copy | hides));
+      }
+    });
+  prepared->GetCellData()->AddArray(hidden);
+  return prepared;
+}
+
+} // namespace
+
+bool hasCells(vtkDataSet* data, int dimension)
+{
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    if (dimensionOfCell(data, i) == dimension)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, CellValues cellValues,
+  Tally& tally, std::shared_ptr<const SharedPoints>& shared,
+  const std::vector<const Source*>& others)
+{
+  const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
+  std::vector<vtkSmartPointer<vtkDataSet>> leaves;
+  std::vector<std::vector<bool>> kinds; // of each leaf, which of the others it has
+  for (std::size_t number = 0; number < source.leaves.size(); ++number)
+  {
+    const Leaf& leaf = source.leaves[number];
+    if (!hasCells(leaf.data, dimension))
+    {
+      continue;
+    }
+    leaves.push_back(withValues(leaf, dimension, source.model, tally));
+    for (std::size_t i = 0; i < others.size(); ++i)
+    {
+      kinds.resize(leaves.size());
+      // What stands for an array that is missing has no name.
+      kinds.back().push_back(others[i]->leaves[number].arrays[0]->GetName() != nullptr);
+    }
+  }
+  if (!shared)
+  {
+    shared = std::make_shared<SharedPoints>(leaves, dimension, kinds);
+  }
+  leaves = shared->joined(leaves);
+  for (vtkSmartPointer<vtkDataSet>& leaf : leaves)
+  {
+    if (leaf->GetCellData()->GetScalars())
+    {
+      bringToPoints(leaf, cellValues == CellValues::Known);
+    }
+    leaf = withoutPolyhedra(leaf);
+  }
+  return leaves;
+}
+
+} // namespace filters

@@ -1,0 +1,597 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sources/Revolution.h"
+
+#include "Input/FlatData.h"
+#include "Sources/SamplingGrid.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkCell.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace filters
+{
+
+namespace
+{
+
+/// How far points may be from the axis that lie on it, in parts of the plane's size.
+constexpr double axisTolerance = 1e-6;
+
+vtkBoundingBox boundsOf(const Source& source)
+{
+  vtkBoundingBox box;
+  for (const Leaf& leaf : source.leaves)
+  {
+    if (dimensionOf(leaf.data) == 2)
+    {
+      box.AddBounds(leaf.data->GetBounds());
+    }
+  }
+  return box;
+}
+
+/// How well the data fit one axis in their plane.
+struct Candidate
+{
+  int axis, radial;
+  double low, high; // distances from it; of data on its other side less than 0
+  double slope =
+    0; // of the first array across the axis, near it, by what it is anywhere: 0 where the axis is right
+  double change = 0; // of the array along the radius
+
+  double radius() const { return std::max(std::abs(this->low), std::abs(this->high)); }
+  bool touches(double tolerance) const
+  {
+    return this->low <= tolerance && this->high >= -tolerance;
+  }
+};
+
+/// Finds the slopes of the first array at the axis: from cells within the nearest few, in the first layers about it.
+void measure(const Source& source, const std::array<double, 3>& origin, Candidate& candidate)
+{
+  const auto radial = static_cast<std::size_t>(candidate.radial);
+  double near = 0, nearWeight = 0, all = 0, allWeight = 0, change = 0;
+  for (const Leaf& leaf : source.leaves)
+  {
+    if (leaf.ofCells)
+    {
+      continue; // see withValuesAtPoints()
+    }
+    vtkDataArray* values = leaf.arrays[0];
+    for (vtkIdType cell = 0; cell < leaf.data->GetNumberOfCells(); ++cell)
+    {
+      if (dimensionOfCell(leaf.data, cell) != 2)
+      {
+        continue;
+      }
+      vtkNew<vtkIdList> ids;
+      leaf.data->GetCellPoints(cell, ids);
+      double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, ofLowest = 0,
+             ofHighest = 0;
+      int countLow = 0, countHigh = 0;
+      for (int pass = 0; pass < 2; ++pass)
+      {
+        for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+        {
+          double x[3];
+          leaf.data->GetPoint(ids->GetId(i), x);
+          const double r = x[radial] - origin[radial];
+          if (pass == 0)
+          {
+            lowest = std::min(lowest, r);
+            highest = std::max(highest, r);
+            continue;
+          }
+          const double middle = 0.5 * (lowest + highest);
+          double& sum = r < middle ? ofLowest : ofHighest;
+          sum += values->GetComponent(ids->GetId(i), 0);
+          ++(r < middle ? countLow : countHigh);
+        }
+      }
+      if (countLow == 0 || countHigh == 0 || !(highest > lowest))
+      {
+        continue;
+      }
+      const double length = highest - lowest;
+      const double difference = std::abs(ofHighest / countHigh - ofLowest / countLow);
+      if (!std::isfinite(difference))
+      {
+        continue;
+      }
+      all += difference;
+      allWeight += length;
+      change += difference;
+      if (std::min(std::abs(lowest), std::abs(highest)) < 0.5 * length)
+      {
+        near += difference;
+        nearWeight += length;
+      }
+    }
+  }
+  const double mean = allWeight > 0 ? all / allWeight : 0;
+  candidate.slope = nearWeight > 0 && mean > 0 ? near / nearWeight / mean : 0;
+  candidate.change = change;
+}
+
+/// Values of cells have slopes between neighbours only: those of points are their means.
+Source withValuesAtPoints(const Source& source)
+{
+  Source result = source;
+  for (Leaf& leaf : result.leaves)
+  {
+    if (!leaf.ofCells)
+    {
+      continue;
+    }
+    const vtkIdType points = leaf.data->GetNumberOfPoints();
+    std::vector<double> sums(static_cast<std::size_t>(points), 0.);
+    std::vector<int> counts(static_cast<std::size_t>(points), 0);
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType cell = 0; cell < leaf.data->GetNumberOfCells(); ++cell)
+    {
+      leaf.data->GetCellPoints(cell, ids);
+      for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+      {
+        sums[static_cast<std::size_t>(ids->GetId(i))] += leaf.arrays[0]->GetComponent(cell, 0);
+        ++counts[static_cast<std::size_t>(ids->GetId(i))];
+      }
+    }
+    auto copy = vtkSmartPointer<vtkDataSet>::Take(leaf.data->NewInstance());
+    copy->CopyStructure(leaf.data);
+    vtkNew<vtkDoubleArray> means;
+    means->SetName(arrayName);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+    {
+      means->InsertNextValue(counts[i] > 0 ? sums[i] / counts[i] : 0);
+    }
+    copy->GetPointData()->AddArray(means);
+    leaf.data = copy;
+    leaf.ofCells = false;
+    leaf.arrays = { means };
+    result.made.emplace_back(copy);
+  }
+  return result;
+}
+
+/// Axes that the data do not lie on one side of, or are not centred about, are none.
+std::vector<Candidate> candidatesFor(
+  const vtkBoundingBox& box, int flat, const std::array<double, 3>& origin, double tolerance)
+{
+  constexpr double centred = 1e-3;
+  std::vector<Candidate> candidates;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int radial = 3 - axis - flat;
+    if (axis == flat)
+    {
+      continue;
+    }
+    const double from = origin[static_cast<std::size_t>(radial)];
+    const Candidate candidate{ axis, radial, box.GetBound(2 * radial) - from,
+      box.GetBound(2 * radial + 1) - from };
+    const bool isOnOneSide = candidate.low >= -tolerance || candidate.high <= tolerance;
+    if (isOnOneSide ||
+      std::abs(candidate.low + candidate.high) <= centred * (candidate.high - candidate.low))
+    {
+      candidates.push_back(candidate);
+    }
+  }
+  return candidates;
+}
+
+Candidate bestOf(std::vector<Candidate> candidates, const Source& source,
+  const std::array<double, 3>& origin, double tolerance)
+{
+  const auto touching = [&](const Candidate& one) { return one.touches(tolerance); };
+  if (std::any_of(candidates.begin(), candidates.end(), touching))
+  {
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), std::not_fn(touching)),
+      candidates.end());
+  }
+  if (candidates.size() < 2)
+  {
+    return candidates.at(0);
+  }
+  const Source atPoints = withValuesAtPoints(source);
+  for (Candidate& candidate : candidates)
+  {
+    measure(atPoints, origin, candidate);
+  }
+  // Nobody revolves a flow that does not change along the radius.
+  constexpr double little = 0.05;
+  for (const std::size_t one : { 0, 1 })
+  {
+    if (candidates[one].change < little * candidates[1 - one].change)
+    {
+      return candidates[1 - one];
+    }
+  }
+  constexpr double smooth = 0.5; // slopes at the axis that are as good as none
+  return candidates[0].slope < smooth || candidates[0].slope <= candidates[1].slope ? candidates[0]
+                                                                                    : candidates[1];
+}
+
+/// The image on the other side of the axis.
+vtkSmartPointer<vtkImageData> turnedOver(
+  vtkImageData* image, const Revolution& revolution, Remade& made)
+{
+  const int radial = revolution.radial;
+  int points[3], cells[3];
+  image->GetDimensions(points);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cells[axis] = std::max(1, points[axis] - 1);
+  }
+  double origin[3], spacing[3], bounds[6];
+  image->GetOrigin(origin);
+  image->GetSpacing(spacing);
+  image->GetBounds(bounds);
+  auto other = vtkSmartPointer<vtkImageData>::New();
+  double corner[3] = { bounds[0], bounds[2], bounds[4] };
+  corner[radial] = 2 * revolution.origin[static_cast<std::size_t>(radial)] - bounds[2 * radial + 1];
+  other->SetDimensions(points);
+  other->SetOrigin(corner);
+  other->SetSpacing(spacing);
+  const auto collect = [&](const int count[3], vtkIdList* ids)
+  {
+    for (int k = 0; k < count[2]; ++k)
+    {
+      for (int j = 0; j < count[1]; ++j)
+      {
+        for (int i = 0; i < count[0]; ++i)
+        {
+          int at[3] = { i, j, k };
+          at[radial] = count[radial] - 1 - at[radial];
+          ids->InsertNextId((vtkIdType{ at[2] } * count[1] + at[1]) * count[0] + at[0]);
+        }
+      }
+    }
+  };
+  collect(points, made.points);
+  collect(cells, made.cells);
+  return other;
+}
+
+/// Rows of points that are half a cell, or about that, from the axis: structured data without points on it. Of each point its
+/// neighbour in the row's cells, in order; empty: there are none.
+std::vector<std::array<vtkIdType, 2>> rowAtAxis(
+  vtkDataSet* data, const Revolution& revolution, double tolerance)
+{
+  constexpr double widest = 0.75; // of a cell
+  const std::array<int, 3> points = structureOf(data);
+  const auto radial = static_cast<std::size_t>(revolution.radial);
+  const double from = revolution.origin[radial];
+  std::vector<std::array<vtkIdType, 2>> row;
+  std::array<vtkIdType, 3> strides{ 1, points[0], vtkIdType{ points[0] } * points[1] };
+  for (std::size_t away = 0; away < 3; ++away)
+  {
+    for (std::size_t along = 0; along < 3; ++along)
+    {
+      if (away == along || points[away] < 2 || points[along] < 2)
+      {
+        continue;
+      }
+      for (const bool isLast : { false, true })
+      {
+        const vtkIdType first = isLast ? (points[away] - 1) * strides[away] : 0;
+        const vtkIdType inward = isLast ? -strides[away] : strides[away];
+        bool isRow = true;
+        for (int i = 0; i < points[along] && isRow; ++i)
+        {
+          double x[3], next[3];
+          data->GetPoint(first + i * strides[along], x);
+          data->GetPoint(first + i * strides[along] + inward, next);
+          const double r = std::abs(x[radial] - from);
+          isRow = r > tolerance && r <= widest * std::abs(next[radial] - x[radial]);
+        }
+        for (int i = 0; i + 1 < points[along] && isRow; ++i)
+        {
+          row.push_back({ first + i * strides[along], first + (i + 1) * strides[along] });
+        }
+        if (isRow)
+        {
+          return row;
+        }
+      }
+    }
+  }
+  return row;
+}
+
+/// Twice the area of a polygon in the plane; negative where its corners are in the other order.
+double areaOf(
+  vtkPoints* places, const std::vector<vtkIdType>& corners, const Revolution& revolution)
+{
+  const auto along = static_cast<std::size_t>(revolution.axis),
+             away = static_cast<std::size_t>(revolution.radial);
+  double area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    std::array<double, 3> a, b;
+    places->GetPoint(corners[i], a.data());
+    places->GetPoint(corners[(i + 1) % corners.size()], b.data());
+    area += a[along] * b[away] - a[away] * b[along];
+  }
+  return area;
+}
+
+/// A mesh of both sides of the axis, with points on it once.
+void addBothSides(const Leaf& leaf, const Revolution& revolution, double tolerance, Remade& made)
+{
+  vtkDataSet* data = leaf.data;
+  const auto radial = static_cast<std::size_t>(revolution.radial);
+  const double from = revolution.origin[radial];
+  const vtkIdType count = data->GetNumberOfPoints();
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  std::vector<vtkIdType> others(static_cast<std::size_t>(count));
+  std::vector<std::array<double, 3>> across;
+  for (vtkIdType point = 0; point < count; ++point)
+  {
+    std::array<double, 3> x;
+    data->GetPoint(point, x.data());
+    const bool isOnAxis = std::abs(x[radial] - from) <= tolerance;
+    x[radial] = isOnAxis ? from : x[radial];
+    places->InsertNextPoint(x.data());
+    made.points->InsertNextId(point);
+    others[static_cast<std::size_t>(point)] =
+      isOnAxis ? point : count + static_cast<vtkIdType>(across.size());
+    if (!isOnAxis)
+    {
+      x[radial] = 2 * from - x[radial];
+      across.push_back(x);
+    }
+  }
+  for (vtkIdType point = 0; point < count; ++point)
+  {
+    const vtkIdType other = others[static_cast<std::size_t>(point)];
+    if (other >= count)
+    {
+      places->InsertNextPoint(across[static_cast<std::size_t>(other - count)].data());
+      made.points->InsertNextId(point);
+    }
+  }
+  auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  mesh->SetPoints(places);
+  mesh->Allocate(2 * data->GetNumberOfCells());
+  vtkNew<vtkIdList> ids, notUsed;
+  vtkNew<vtkPoints> notUsedPlaces;
+  double area = 0; // of the first cell
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    if (dimensionOfCell(data, cell) != 2)
+    {
+      continue;
+    }
+    int type = data->GetCellType(cell);
+    data->GetCellPoints(cell, ids);
+    if (type == VTK_PIXEL)
+    {
+      const vtkIdType last = ids->GetId(3);
+      ids->SetId(3, ids->GetId(2));
+      ids->SetId(2, last);
+      type = VTK_QUAD;
+    }
+    const bool isPlain = type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_POLYGON;
+    if (!isPlain)
+    {
+      data->GetCell(cell)->Triangulate(0, ids, notUsedPlaces);
+    }
+    const vtkIdType size = isPlain ? ids->GetNumberOfIds() : 3;
+    for (vtkIdType begin = 0; begin + size <= ids->GetNumberOfIds(); begin += size)
+    {
+      const int ofPart = isPlain ? type : VTK_TRIANGLE;
+      const std::vector<vtkIdType> corners(ids->GetPointer(begin), ids->GetPointer(begin) + size);
+      area = area != 0 ? area : areaOf(places, corners, revolution);
+      mesh->InsertNextCell(ofPart, size, corners.data());
+      made.cells->InsertNextId(cell);
+      std::vector<vtkIdType> turned(corners.rbegin(), corners.rend());
+      for (vtkIdType& corner : turned)
+      {
+        corner = others[static_cast<std::size_t>(corner)];
+      }
+      mesh->InsertNextCell(ofPart, size, turned.data());
+      made.cells->InsertNextId(cell);
+    }
+  }
+  if (!leaf.ofCells) // what cells there hold is known no nearer to the axis
+  {
+    for (const std::array<vtkIdType, 2>& side : rowAtAxis(data, revolution, tolerance))
+    {
+      std::vector<vtkIdType> corners{ side[0], side[1], others[static_cast<std::size_t>(side[1])],
+        others[static_cast<std::size_t>(side[0])] };
+      if (areaOf(places, corners, revolution) * area < 0)
+      {
+        std::reverse(corners.begin(), corners.end());
+      }
+      mesh->InsertNextCell(VTK_QUAD, 4, corners.data());
+      made.cells->InsertNextId(0);
+    }
+  }
+  made.data = mesh;
+}
+
+} // namespace
+
+schlieren::Box Revolution::box() const
+{
+  schlieren::Box result{ this->origin, this->origin };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const bool isAlong = static_cast<int>(i) == this->axis;
+    result.low[i] = isAlong ? this->low : this->origin[i] - this->radius;
+    result.high[i] = isAlong ? this->high : this->origin[i] + this->radius;
+  }
+  return result;
+}
+
+Revolution revolutionOf(const Source& source)
+{
+  const MediumSettings& settings = source.choice.settings;
+  const int given = settings.SymmetryAxis - 1; // -1: none
+  const std::array<double, 3> origin = settings.symmetryOrigin();
+  if (!std::all_of(origin.begin(), origin.end(), [](double x) { return std::isfinite(x); }))
+  {
+    throw std::runtime_error(
+      "SymmetryOrigin holds a number that is not finite. Give a point of the axis.");
+  }
+  const int flat = flatAxisOf(source);
+  if (flat < 0)
+  {
+    throw std::runtime_error("Symmetry is Axisymmetric, but the input is 3-D: neither a plane "
+                             "through the axis nor a wedge of "
+                             "one cell. Set Symmetry to None, or take a plane (Slice) of it.");
+  }
+  if (source.image && !source.image->GetDirectionMatrix()->IsIdentity())
+  {
+    throw std::runtime_error(
+      "Symmetry is Axisymmetric, but the image has axes of its own. Use an image "
+      "along x, y and z.");
+  }
+  if (given == flat)
+  {
+    throw std::runtime_error("SymmetryAxis is " + std::string(1, "XYZ"[flat]) +
+      ", which is across the plane of the data. Choose one of the two in it, or Auto.");
+  }
+  const vtkBoundingBox box = boundsOf(source);
+  const double tolerance = axisTolerance * box.GetMaxLength();
+  const int chosen = given >= 0 ? given : source.axisOfWedge;
+  std::optional<Candidate> found;
+  if (chosen >= 0)
+  {
+    const int radial = 3 - chosen - flat;
+    const double from = origin[static_cast<std::size_t>(radial)];
+    found = Candidate{ chosen, radial, box.GetBound(2 * radial) - from,
+      box.GetBound(2 * radial + 1) - from };
+  }
+  else
+  {
+    const std::vector<Candidate> candidates = candidatesFor(box, flat, origin, tolerance);
+    if (candidates.empty())
+    {
+      throw std::runtime_error(
+        "Symmetry is Axisymmetric, but the plane of the data lies on both sides of each coordinate "
+        "axis. "
+        "Set SymmetryAxis to the axis, and SymmetryOrigin to a point of it.");
+    }
+    found = bestOf(candidates, source, origin, tolerance);
+  }
+  const bool isPositive = found->high > tolerance;
+  Revolution revolution{ found->axis, found->radial, flat, origin, box.GetBound(2 * found->axis),
+    box.GetBound(2 * found->axis + 1), isPositive ? found->high : -found->low,
+    !isPositive || found->low >= -tolerance, "" };
+  std::ostringstream text;
+  text << std::setprecision(4) << "The data are revolved around the "
+       << "xyz"[found->axis] << " axis (Symmetry)";
+  if (origin[static_cast<std::size_t>(found->radial)] != 0)
+  {
+    text << " at "
+         << "xyz"[found->radial] << " = " << origin[static_cast<std::size_t>(found->radial)];
+  }
+  text << ", up to a radius of " << revolution.radius << " data units.";
+  if (chosen < 0)
+  {
+    text << " SymmetryAxis can set another one.";
+  }
+  if (!revolution.isMirrored)
+  {
+    text << " They lie on both sides of it; those on the positive side are used.";
+  }
+  revolution.note = text.str();
+  return revolution;
+}
+
+void boxOf(const Revolution& revolution, vtkImageData* structure)
+{
+  const schlieren::Box box = revolution.box();
+  structure->Initialize();
+  structure->SetDimensions(2, 2, 2);
+  structure->SetOrigin(box.low.data());
+  structure->SetSpacing(
+    box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+}
+
+void gridOf(const Revolution& revolution, const Source& source, const int samplingDimensions[3],
+  const SamplingBox& box, vtkImageData* structure)
+{
+  std::array<int, 3> points = requireDimensions(samplingDimensions);
+  const schlieren::Box all = revolution.box();
+  const double bounds[6] = { all.low[0], all.high[0], all.low[1], all.high[1], all.low[2],
+    all.high[2] };
+  const std::array<double, 6> wanted = box.within(bounds);
+  double cells = 0;
+  for (const Leaf& leaf : source.leaves)
+  {
+    cells += static_cast<double>(leaf.data->GetNumberOfCells());
+  }
+  const double area = (revolution.high - revolution.low) * revolution.radius;
+  double edge = std::sqrt(area / std::max(1., cells)), volume = 1, spacing[3];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    volume *= wanted[2 * axis + 1] - wanted[2 * axis];
+  }
+  edge = std::max(edge, std::cbrt(volume / maxVoxels));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = wanted[2 * axis + 1] - wanted[2 * axis];
+    points[axis] = points[axis] > 0
+      ? points[axis]
+      : std::max(2, 1 + static_cast<int>(std::min(std::ceil(length / edge), 1e6)));
+    spacing[axis] = length / (points[axis] - 1);
+  }
+  requireFits(points);
+  structure->Initialize();
+  structure->SetDimensions(points.data());
+  structure->SetOrigin(wanted[0], wanted[2], wanted[4]);
+  structure->SetSpacing(spacing);
+}
+
+Source mirrored(const Source& source, const Revolution& revolution)
+{
+  Source result = source;
+  result.image = nullptr; // a leaf like others
+  if (!revolution.isMirrored)
+  {
+    return result;
+  }
+  const double tolerance = axisTolerance * boundsOf(source).GetMaxLength();
+  result.leaves.clear();
+  for (const Leaf& leaf : source.leaves)
+  {
+    Remade made;
+    auto* image = vtkImageData::SafeDownCast(leaf.data);
+    if (image && leaf.ofCells)
+    {
+      result.leaves.push_back(leaf);
+      made.data = turnedOver(image, revolution, made);
+    }
+    else
+    {
+      addBothSides(leaf, revolution, tolerance, made);
+    }
+    result.leaves.push_back(made.leafOf(leaf));
+    result.made.emplace_back(made.data);
+  }
+  return result;
+}
+
+} // namespace filters

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Sources/Revolution.h"
+
+#include "Schlieren.h"
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace filters
+{
+
+/// The refractivity of a body of revolution, of which another source knows a section: the plane of its axis and both sides of
+/// it. At places (x, y, z) it is what the section has at (x, r), interpolated between rows of equal r.
+class RevolvedSource : public schlieren::MediumSource
+{
+public:
+  RevolvedSource(
+    std::shared_ptr<const schlieren::MediumSource> section, const Revolution& revolution);
+
+  schlieren::Box bounds() const override { return this->Of.box(); }
+  double ambient() const override { return this->Section->ambient(); }
+  std::array<double, 3> voxelShape() const override;
+  Content contentOf(const schlieren::Box& box) const override;
+  void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
+    float* distances) const override
+  {
+    this->sampleWithFields(lattice, refractivity, places, distances, nullptr);
+  }
+  bool dependsOnLattice() const override { return true; } // rows are as far apart as its points
+  int fields() const override { return this->Section->fields(); }
+  FieldRange rangeOfField(int field, const schlieren::Box& box) const override
+  {
+    return this->Section->rangeOfField(field, this->sectionOf(box));
+  }
+  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
+    schlieren::Place* places, float* distances, double* values) const override;
+
+private:
+  struct Rows;
+
+  schlieren::Box sectionOf(const schlieren::Box& box) const;
+  Rows rowsFor(const schlieren::Lattice& lattice, double spacing, double nearest, double farthest,
+    bool hasValues) const;
+
+  std::shared_ptr<const schlieren::MediumSource> Section;
+  Revolution Of;
+  std::size_t Along, Away; // the section's own axes along the axis of revolution, and across it
+  schlieren::Box BoundsOfSection;
+};
+
+} // namespace filters

@@ -1,0 +1,378 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The meshes that datasets become whose points are one, and the values of these.
+#include "Sources/SharedPoints.h"
+
+#include "Cells/CellMeans.h"
+#include "Cells/MeshArrays.h"
+#include "Input/RefractivitySource.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+using Leaves = std::vector<vtkSmartPointer<vtkDataSet>>;
+
+/// How much values may jump between cells that have their points for themselves before the cells' means say more than the
+/// means at the points: squares, summed up over the mesh, of those of the differences within cells.
+constexpr double largeJumps = 0.05;
+
+/// A hash of what a cell's points are, in whichever order.
+std::uint64_t hashOfPoints(
+  const MeshArrays& mesh, vtkIdType cell, const std::vector<std::int32_t>& numbers)
+{
+  std::uint64_t sum = 0;
+  mesh.forPoints(cell,
+    [&](vtkIdType point)
+    {
+      std::uint64_t bits = static_cast<std::uint64_t>(numbers[static_cast<std::size_t>(point)]) + 1;
+      bits = (bits ^ (bits >> 31)) * 0x7fb5d329728ea185u; // P. Evensen's mixer
+      bits = (bits ^ (bits >> 27)) * 0x81dadef4bc2dd44du;
+      sum += bits ^ (bits >> 33);
+    });
+  return sum;
+}
+
+/// What the shape of curved cells depends on, where the first dataset has it: of others that have it, too.
+void copyShapes(const std::vector<std::size_t>& group,
+  const std::vector<std::vector<std::int32_t>>& numbers,
+  const std::vector<std::vector<unsigned char>>& isLeftOut, const Leaves& leaves,
+  vtkUnstructuredGrid* mesh)
+{
+  const auto newLike = [](vtkDataArray* array, vtkIdType count)
+  {
+    auto made = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+    made->SetName(array->GetName());
+    made->SetNumberOfComponents(array->GetNumberOfComponents());
+    made->SetNumberOfTuples(count);
+    made->Fill(1);
+    return made;
+  };
+  vtkDataArray* weights = leaves[group[0]]->GetPointData()->GetRationalWeights();
+  vtkDataArray* degrees = leaves[group[0]]->GetCellData()->GetHigherOrderDegrees();
+  vtkSmartPointer<vtkDataArray> ofPoints, ofCells;
+  if (weights)
+  {
+    ofPoints = newLike(weights, mesh->GetNumberOfPoints());
+    mesh->GetPointData()->SetRationalWeights(ofPoints);
+  }
+  if (degrees)
+  {
+    ofCells = newLike(degrees, mesh->GetNumberOfCells());
+    mesh->GetCellData()->SetHigherOrderDegrees(ofCells);
+  }
+  vtkIdType next = 0;
+  for (std::size_t i = 0; i < group.size(); ++i)
+  {
+    vtkDataSet* leaf = leaves[group[i]];
+    vtkDataArray* pointsOfLeaf = leaf->GetPointData()->GetRationalWeights();
+    vtkDataArray* cellsOfLeaf = leaf->GetCellData()->GetHigherOrderDegrees();
+    for (std::size_t point = 0; ofPoints && pointsOfLeaf && point < numbers[i].size(); ++point)
+    {
+      ofPoints->SetTuple(numbers[i][point], static_cast<vtkIdType>(point), pointsOfLeaf);
+    }
+    for (vtkIdType cell = 0; cell < leaf->GetNumberOfCells(); ++cell)
+    {
+      if (isLeftOut[i].empty() || !isLeftOut[i][static_cast<std::size_t>(cell)])
+      {
+        if (ofCells && cellsOfLeaf)
+        {
+          ofCells->SetTuple(next, cell, cellsOfLeaf);
+        }
+        ++next;
+      }
+    }
+  }
+}
+
+} // namespace
+
+/// Makes the mesh.
+void SharedPoints::addGroup(const Leaves& leaves, Group group)
+{
+  std::vector<MeshArrays> meshes;
+  meshes.reserve(group.leaves.size());
+  for (const std::size_t leaf : group.leaves)
+  {
+    meshes.emplace_back(leaves[leaf]);
+  }
+  // Cells that are there twice, copies of each other.
+  std::vector<unsigned char> points(static_cast<std::size_t>(group.points), 0); // how many are one
+  for (const std::vector<std::int32_t>& numbers : group.numbers)
+  {
+    for (const std::int32_t number : numbers)
+    {
+      unsigned char& count = points[static_cast<std::size_t>(number)];
+      count = static_cast<unsigned char>(std::min(count + 1, 2));
+    }
+  }
+  struct Best
+  {
+    std::size_t leaf;
+    vtkIdType cell;
+    int rank; // 2: visible, 1: a copy, 0: hidden
+  };
+  std::unordered_map<std::uint64_t, Best> known;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+  {
+    const MeshArrays& mesh = meshes[i];
+    group.isLeftOut.emplace_back();
+    group.cells += mesh.cells();
+    for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
+    {
+      bool areAllShared = true;
+      mesh.forPoints(cell,
+        [&](vtkIdType point)
+        {
+          const std::int32_t number = group.numbers[i][static_cast<std::size_t>(point)];
+          areAllShared = areAllShared && points[static_cast<std::size_t>(number)] > 1;
+        });
+      if (!areAllShared)
+      {
+        continue;
+      }
+      const int rank = mesh.isVisible(cell) ? (mesh.isCopy(cell) ? 1 : 2) : 0;
+      const auto [place, isNew] =
+        known.try_emplace(hashOfPoints(mesh, cell, group.numbers[i]), Best{ i, cell, rank });
+      if (!isNew)
+      {
+        const bool isBetter = rank > place->second.rank;
+        const std::size_t leaf = isBetter ? place->second.leaf : i;
+        const vtkIdType out = isBetter ? place->second.cell : cell;
+        std::vector<unsigned char>& of = group.isLeftOut[leaf];
+        of.resize(static_cast<std::size_t>(meshes[leaf].cells()), 0);
+        of[static_cast<std::size_t>(out)] = 1;
+        --group.cells;
+        if (isBetter)
+        {
+          place->second = { i, cell, rank };
+        }
+      }
+    }
+  }
+
+  group.mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  places->SetNumberOfPoints(group.points);
+  group.mesh->SetPoints(places);
+  group.mesh->AllocateEstimate(group.cells, 8);
+  group.mesh->GetCells()->Use32BitStorage();
+  std::vector<unsigned char> isKnown(points.size(), 0);
+  std::vector<unsigned char> cellsOfPoints; // of a leaf's points: at most two
+  std::size_t used = 0, alone = 0;
+  vtkNew<vtkIdList> ids;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+  {
+    const MeshArrays& mesh = meshes[i];
+    const std::vector<std::int32_t>& numbers = group.numbers[i];
+    for (vtkIdType point = 0; point < mesh.points(); ++point)
+    {
+      const auto number = static_cast<std::size_t>(numbers[static_cast<std::size_t>(point)]);
+      if (!isKnown[number])
+      {
+        isKnown[number] = 1;
+        Point x;
+        mesh.coordinates(point, x.data());
+        places->SetPoint(static_cast<vtkIdType>(number), x.data());
+      }
+    }
+    cellsOfPoints.assign(static_cast<std::size_t>(mesh.points()), 0);
+    auto* polyhedra = vtkUnstructuredGrid::SafeDownCast(leaves[group.leaves[i]]);
+    for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
+    {
+      if (!group.isLeftOut[i].empty() && group.isLeftOut[i][static_cast<std::size_t>(cell)])
+      {
+        continue;
+      }
+      ids->Reset();
+      mesh.forPoints(cell,
+        [&](vtkIdType point)
+        {
+          const auto at = static_cast<std::size_t>(point);
+          ids->InsertNextId(numbers[at]);
+          cellsOfPoints[at] = static_cast<unsigned char>(std::min(cellsOfPoints[at] + 1, 2));
+        });
+      if (mesh.type(cell) == VTK_POLYHEDRON)
+      {
+        polyhedra->GetFaceStream(
+          cell, ids); // faces, and for each its points' number and the points
+        vtkIdType next = 1;
+        for (vtkIdType face = 0; face < ids->GetId(0); ++face)
+        {
+          const vtkIdType end = next + 1 + ids->GetId(next);
+          for (++next; next < end; ++next)
+          {
+            ids->SetId(next, numbers[static_cast<std::size_t>(ids->GetId(next))]);
+          }
+        }
+      }
+      group.mesh->InsertNextCell(mesh.type(cell), ids);
+    }
+    for (std::size_t point = 0; point < cellsOfPoints.size(); ++point)
+    {
+      used += cellsOfPoints[point] > 0 ? 1 : 0;
+      alone += cellsOfPoints[point] == 1 && points[static_cast<std::size_t>(numbers[point])] > 1;
+    }
+  }
+  group.areAllApart = 2 * alone > used;
+  this->Groups.push_back(std::move(group));
+}
+
+vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Leaves& leaves)
+{
+  bool areAllOfCells = true;
+  for (const std::size_t leaf : group.leaves)
+  {
+    areAllOfCells = areAllOfCells && leaves[leaf]->GetCellData()->GetScalars();
+  }
+  const auto points = static_cast<std::size_t>(group.points);
+  std::vector<double> sums(points, 0), others(points, std::numeric_limits<double>::quiet_NaN());
+  std::vector<std::uint32_t> counts(points, 0);
+  auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  mesh->CopyStructure(group.mesh);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(group.cells);
+  vtkNew<vtkDoubleArray> ofCells, ofPoints;
+  ofCells->SetNumberOfValues(group.cells);
+  double within = 0; // squares of the differences within cells
+  vtkIdType next = 0;
+  for (std::size_t i = 0; i < group.leaves.size(); ++i)
+  {
+    vtkDataSet* leaf = leaves[group.leaves[i]];
+    vtkDataArray* cellValues = leaf->GetCellData()->GetScalars();
+    if (cellValues && !areAllOfCells)
+    {
+      bringToPoints(leaf, false);
+      cellValues = nullptr;
+    }
+    const MeshArrays from(leaf);
+    vtkUnsignedCharArray* hidden = leaf->GetCellGhostArray();
+    std::vector<unsigned char> isUsed(static_cast<std::size_t>(from.points()), 0);
+    for (vtkIdType cell = 0; cell < from.cells(); ++cell)
+    {
+      if (!group.isLeftOut[i].empty() && group.isLeftOut[i][static_cast<std::size_t>(cell)])
+      {
+        continue;
+      }
+      unsigned char ghost = hidden ? hidden->GetValue(cell) : 0;
+      double sum = 0, squares = 0;
+      int count = 0;
+      from.forPoints(cell,
+        [&](vtkIdType point)
+        {
+          const double value = from.values()[point];
+          sum += value;
+          ++count;
+        });
+      const double mean = sum / count;
+      if (!areAllOfCells && !std::isfinite(sum))
+      {
+        ghost |= vtkDataSetAttributes::HIDDENCELL; // others may have values at its points
+      }
+      else if (!areAllOfCells && from.isVisible(cell))
+      {
+        from.forPoints(cell,
+          [&](vtkIdType point)
+          {
+            const auto at = static_cast<std::size_t>(point);
+            const double value = from.values()[point];
+            isUsed[at] = 1;
+            squares += (value - mean) * (value - mean);
+          });
+        within += squares;
+      }
+      ofCells->SetValue(next, cellValues ? cellValues->GetComponent(cell, 0) : mean);
+      ghosts->SetValue(next, ghost);
+      ++next;
+    }
+    for (std::size_t point = 0; point < isUsed.size(); ++point)
+    {
+      const auto number = static_cast<std::size_t>(group.numbers[i][point]);
+      const double value = from.values()[point];
+      if (isUsed[point])
+      {
+        sums[number] += value;
+        ++counts[number];
+      }
+      else if (std::isfinite(value))
+      {
+        others[number] = value;
+      }
+    }
+  }
+  ofPoints->SetName(arrayName);
+  ofPoints->SetNumberOfValues(group.points);
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    ofPoints->SetValue(static_cast<vtkIdType>(i), counts[i] > 0 ? sums[i] / counts[i] : others[i]);
+  }
+  double between = 0; // of the differences from cell to cell
+  for (std::size_t i = 0; i < group.leaves.size() && group.areAllApart && !areAllOfCells; ++i)
+  {
+    const MeshArrays from(leaves[group.leaves[i]]);
+    for (vtkIdType point = 0; point < from.points(); ++point)
+    {
+      const auto number =
+        static_cast<std::size_t>(group.numbers[i][static_cast<std::size_t>(point)]);
+      const double jump = from.values()[point] - sums[number] / counts[number];
+      between += std::isfinite(jump) ? jump * jump : 0;
+    }
+  }
+  copyShapes(group.leaves, group.numbers, group.isLeftOut, leaves, mesh);
+  mesh->GetPointData()->SetScalars(ofPoints);
+  mesh->GetCellData()->AddArray(ghosts);
+  if (areAllOfCells || between > largeJumps * within)
+  {
+    ofCells->SetName(ofPoints->GetName());
+    mesh->GetCellData()->SetScalars(ofCells);
+  }
+  return mesh;
+}
+
+Leaves SharedPoints::joined(const Leaves& leaves) const
+{
+  std::vector<const Group*> groups(leaves.size(), nullptr);
+  for (const Group& group : this->Groups)
+  {
+    for (const std::size_t leaf : group.leaves)
+    {
+      groups[leaf] = &group;
+    }
+  }
+  Leaves result;
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
+  {
+    if (!groups[leaf])
+    {
+      result.push_back(leaves[leaf]);
+    }
+    else if (groups[leaf]->leaves[0] == leaf)
+    {
+      result.push_back(joinedOf(*groups[leaf], leaves));
+    }
+  }
+  return result;
+}
+
+} // namespace filters

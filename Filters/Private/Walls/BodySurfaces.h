@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Common/Triangles.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkDataObject;
+
+namespace filters
+{
+
+/// Bodies in the gas that are given by their surfaces (vtkPolyData, or a composite of them).
+class BodySurfaces
+{
+public:
+  /// Throws std::runtime_error where they are no surfaces.
+  explicit BodySurfaces(vtkDataObject* bodies);
+  BodySurfaces(const BodySurfaces&) = delete;
+  BodySurfaces& operator=(const BodySurfaces&) = delete;
+
+  /// Normals of closed parts point outward, if their triangles are all turned alike. Parts that enclose nothing are not closed.
+  const Triangles& surface() const { return this->Surface; }
+  const TriangleTree& tree() const { return this->Tree; }
+  bool isOfClosed(std::int32_t triangle) const
+  {
+    return this->Parts[static_cast<std::size_t>(triangle)] >= 0;
+  }
+
+  /// Sets isInside[...] of those points of a lattice that a closed part holds: those with an odd number of
+  /// crossings before them along x (Nooruddin & Turk 2003). Parts may overlap or enclose each other.
+  void findInside(const schlieren::Lattice& lattice, std::vector<unsigned char>& isInside) const;
+  bool isInside(const Point& place) const;
+
+private:
+  Triangles Surface;
+  std::int32_t NumberOfParts = 0;  // that are closed
+  std::vector<std::int32_t> Parts; // of each triangle; -1: of an open one
+  TriangleTree Tree;
+};
+
+} // namespace filters

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Cells/MeshArrays.h"
+#include "Common/Triangles.h"
+#include "Common/WorkProgress.h"
+
+#include "vtkType.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+class vtkDataSet;
+
+namespace filters
+{
+
+/// What a value is made of: those at points of a leaf, with weights. One with the weight 1, but for points that are
+/// not the leaf's own, on the faces of curved cells.
+struct Contribution
+{
+  static constexpr std::uint32_t ofSeveral = 0xffffffff; // see BoundaryOfMeshes
+  std::uint32_t leaf;
+  vtkIdType point;
+  double weight;
+};
+
+/// Of a cell.
+enum class State : unsigned char
+{
+  None,
+  Hidden,
+  Visible
+};
+
+/// Polygons that bound visible cells, or hidden ones.
+struct Faces
+{
+  std::vector<Point> points;
+  std::vector<std::size_t> firstContributions{ 0 }; // of each point's value, and the end
+  std::vector<Contribution> contributions;
+  std::vector<std::int32_t> corners;      // of all faces, one after the other
+  std::vector<std::size_t> starts{ 0 };   // and the end
+  std::vector<Point> owners;              // the middle of the cell
+  std::vector<State> states;              // of the cell
+  std::vector<unsigned char> hidesBehind; // known from within the leaf
+  std::vector<unsigned char> areParts;    // of the face of a curved cell
+
+  std::size_t size() const { return this->owners.size(); }
+  /// Its contributions have been added.
+  std::int32_t addPoint(const Point& x)
+  {
+    this->points.push_back(x);
+    this->firstContributions.push_back(this->contributions.size());
+    return static_cast<std::int32_t>(this->points.size() - 1);
+  }
+  /// The face whose corners have been added.
+  void finish(const Point& owner, State state, bool hides, bool isPart = false)
+  {
+    this->starts.push_back(this->corners.size());
+    this->owners.push_back(owner);
+    this->states.push_back(state);
+    this->hidesBehind.push_back(hides ? 1 : 0);
+    this->areParts.push_back(isPart ? 1 : 0);
+  }
+};
+
+/// The surface of the visible cells of each leaf, and of the hidden ones. See boundaryOf(). With Copies::Neighbours, that
+/// part of it which belongs to cells that are no copies.
+Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress,
+  Copies copies = Copies::Used);
+
+} // namespace filters
