@@ -352,9 +352,6 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     { "Reconstruction", nullptr, [](F* f) { f->SetReconstruction(R::LINEAR_IN_CELLS); } },
     { "DoublePrecision", nullptr, [](F* f) { f->SetPrecision(F::DOUBLE); } },
   };
-  vtkNew<vtkRefractiveIndex> all;
-  std::ostringstream printed;
-  all->PrintSettings(printed, vtkIndent());
   for (const auto& [name, from, to] : changes)
   {
     SCOPED_TRACE(name);
@@ -373,13 +370,13 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     to(alone);
     EXPECT_EQ(beside, imageOf(alone));
   }
-  // What is printed is what there is: no property without a line above.
-  std::istringstream lines(printed.str());
-  for (std::string line; std::getline(lines, line);)
-  {
-    const std::string name = line.substr(0, line.find(':'));
-    const bool isKnown = std::any_of(std::begin(changes), std::end(changes),
-      [&](const auto& change) { return name == change.name; });
-    EXPECT_TRUE(isKnown) << name;
-  }
+  // No property without a line above, but the choice of arrays, which has several.
+  MediumSettings::visit(
+    [&](const std::string& name, auto)
+    {
+      const bool isKnown = name == "Arrays" ||
+        std::any_of(std::begin(changes), std::end(changes),
+          [&](const auto& change) { return name == change.name; });
+      EXPECT_TRUE(isKnown) << name;
+    });
 }

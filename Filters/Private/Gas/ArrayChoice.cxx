@@ -294,6 +294,15 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
   {
     settings.DensityScale = scaleOf(S::DensityArray, given.DensityScale);
   }
+  // What is not read makes no difference.
+  const std::vector<std::size_t> read = arraysOfModel(settings.IndexModel);
+  for (std::size_t index = 0; index < settings.Arrays.size(); ++index)
+  {
+    if (index != S::MaskArray && std::find(read.begin(), read.end(), index) == read.end())
+    {
+      settings.Arrays[index] = {};
+    }
+  }
   choice.message = inWords(settings);
   return choice;
 }
