@@ -182,7 +182,7 @@ public:
   int count() const; ///< media that are there now
 
 private:
-  friend class Bench;
+  friend class MediumCache;
   struct Entries;
   std::unique_ptr<Entries> entries_;
 };
@@ -219,7 +219,6 @@ public:
   const Work& work() const;
 
 private:
-  struct Unfinished;
   struct Stages;
   std::unique_ptr<Stages> stages_;
 };

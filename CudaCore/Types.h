@@ -42,7 +42,7 @@ enum class PathModel
   Refracted ///< the ray bends
 };
 
-/// How a refracted ray takes its steps. A straight one always looks at their midpoints. Where the index changes by more
+/// Chooses how a refracted ray takes its steps. A straight one always looks at their midpoints. Where the index changes by more
 /// than a twentieth in a step, as at faces of glass, steps are adaptive but with Euler.
 enum class Integrator
 {
@@ -89,7 +89,7 @@ struct LightSource
 enum class FilmEstimator
 {
   Sheet, ///< the quadrilaterals between neighbouring rays carry the light, folds added up
-  Photon ///< each ray's light is shared by the four pixels around where it lands
+  Photon ///< divides each ray's light between the four pixels around where it lands
 };
 
 enum class NoiseFilter

@@ -15,12 +15,77 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <tuple>
 
 namespace schlieren
 {
 
-/// The rays of a view, pass by pass, and what has been learnt from them. They are kept until others are wanted;
-/// so is a pass that has been traced in part.
+/// Where the light of cached rays came from. What does not matter to it has its default.
+struct LightKey
+{
+  bool isOfCamera = false;
+  std::optional<double> distance;
+  SourceShape shape = SourceShape::Point;
+  double width = 0, length = 0; ///< of an extended source, as the next two
+  double angle = 0;
+  double film = 0;
+  ExitFaces faces = noFaces;
+
+  auto tie() const
+  {
+    return std::tie(
+      isOfCamera, distance, shape, width, length, angle, film, faces.refract, faces.ratio);
+  }
+
+  static LightKey of(const Scene& scene, const Frame& frame, double film, const ExitFaces& faces)
+  {
+    LightKey key;
+    key.faces = faces;
+    key.isOfCamera = schlieren::isOfCamera(scene.cutoff);
+    if (key.isOfCamera)
+    {
+      return key;
+    }
+    key.distance = frame.pupil > 0 ? std::nullopt : scene.source.distance;
+    key.shape = scene.source.shape;
+    if (key.shape != SourceShape::Point)
+    {
+      key.width = scene.source.width;
+      key.film = film;
+    }
+    if (key.shape == SourceShape::Slit)
+    {
+      key.length = scene.source.length;
+      key.angle = scene.knifeEdgeAngle;
+    }
+    return key;
+  }
+};
+
+/// What cached rays were traced with, the medium apart.
+struct RaysKey
+{
+  Frame frame;
+  int width, height;
+  RaySettings settings;
+  double homogeneityTolerance;
+  std::uint32_t seed;
+  Device device;
+  std::optional<std::uint64_t> gradients; ///< version of those that were gathered
+  LightKey light;
+
+  auto tie() const
+  {
+    return std::tuple_cat(light.tie(),
+      std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry, frame.exit,
+        frame.pupil, frame.focus, width, height, settings.kernel.path, settings.kernel.integrator,
+        settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance,
+        seed, device, gradients));
+  }
+};
+
+/// Keeps the rays of a view, pass by pass, and what has been learnt from them, until others are wanted; also a pass whose
+/// tracing is unfinished.
 class RayCache
 {
 public:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene needs of each stage, and what cached results depend on.
+// What a scene needs of each stage.
 #pragma once
 
 #include "Film/Development.h"
@@ -11,100 +11,10 @@
 #include "Rays/March/MakeTask.h"
 #include "Schlieren.h"
 
-#include <array>
 #include <cstdint>
-#include <optional>
-#include <tuple>
 
 namespace schlieren
 {
-
-/// What a cached medium was built from.
-struct MediumKey
-{
-  std::array<std::int64_t, 3> dimensions;
-  Vector origin;
-  Vector spacing;
-  std::array<double, 9> direction;
-  std::uint64_t version;
-  const void* samples;
-  double offset;
-  std::optional<double> ambient;
-  Interpolation interpolation;
-  Precision precision;
-  double tolerance; ///< of a source, as the next; else 0
-  std::size_t memory;
-
-  auto tie() const
-  {
-    return std::tie(dimensions, origin, spacing, direction, version, samples, offset, ambient,
-      interpolation, precision, tolerance, memory);
-  }
-};
-
-/// Where the light of cached rays came from. What does not matter to it has its default.
-struct LightKey
-{
-  bool isOfCamera = false;
-  std::optional<double> distance;
-  SourceShape shape = SourceShape::Point;
-  double width = 0, length = 0; ///< of an extended source, as the next two
-  double angle = 0;
-  double film = 0;
-  ExitFaces faces = noFaces;
-
-  auto tie() const
-  {
-    return std::tie(
-      isOfCamera, distance, shape, width, length, angle, film, faces.refract, faces.ratio);
-  }
-
-  static LightKey of(const Scene& scene, const Frame& frame, double film, const ExitFaces& faces)
-  {
-    LightKey key;
-    key.faces = faces;
-    key.isOfCamera = schlieren::isOfCamera(scene.cutoff);
-    if (key.isOfCamera)
-    {
-      return key;
-    }
-    key.distance = frame.pupil > 0 ? std::nullopt : scene.source.distance;
-    key.shape = scene.source.shape;
-    if (key.shape != SourceShape::Point)
-    {
-      key.width = scene.source.width;
-      key.film = film;
-    }
-    if (key.shape == SourceShape::Slit)
-    {
-      key.length = scene.source.length;
-      key.angle = scene.knifeEdgeAngle;
-    }
-    return key;
-  }
-};
-
-/// What cached rays were traced with, the medium apart.
-struct RaysKey
-{
-  Frame frame;
-  int width, height;
-  RaySettings settings;
-  double homogeneityTolerance;
-  std::uint32_t seed;
-  Device device;
-  std::optional<std::uint64_t> gradients; ///< version of those that were gathered
-  LightKey light;
-
-  auto tie() const
-  {
-    return std::tuple_cat(light.tie(),
-      std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry, frame.exit,
-        frame.pupil, frame.focus, width, height, settings.kernel.path, settings.kernel.integrator,
-        settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance,
-        seed, device, gradients));
-  }
-};
 
 /// The most that nu may change in a step of Integrator::Leapfrog or Rk4 of one voxel or less, which keep |p| = 1 + nu to a
 /// few thousandths then.
@@ -150,7 +60,7 @@ std::int64_t marginFor(
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces);
 
-/// The part of a source's medium that a view looks at, with the margin around the image.
+/// Finds what a view sees of a source's medium, with the margin around the image.
 Column columnOf(const Scene& scene, const Light& light, const Frame& frame);
 
 FilmSettings filmSettingsOf(const Scene& scene);

@@ -17,7 +17,7 @@ namespace schlieren
 namespace
 {
 
-/// One thread's part of the films.
+/// The rows of the films that one thread writes.
 template <int planes>
 class Bands
 {

@@ -22,7 +22,7 @@ struct Image
   PixelArray<float> color;      ///< 3 per pixel, linear; empty where nothing colours
   PixelArray<float> background; ///< per pixel, of Cutoff::Background: the same without the flow
   /// 2 per pixel, data units, likewise: the place of the pattern that is seen, less the one seen without the
-  /// flow. What is seen has moved the other way.
+  /// flow. What is seen has moved in the opposite direction.
   PixelArray<float> backgroundDisplacement;
   /// 2 per pixel: direction cosines along u and v, in what light leaves the data into. This and the next two are those of
   /// the ray through the pixel's centre, from the middle of the light source; where that ends in a solid, the mean of

@@ -25,7 +25,7 @@ struct FilmSize
 
 /// Splatting (FilmEstimator::Photon): distributes the light of a ray over the four pixels around. A `Deposit` takes it plane by
 /// plane:
-///   emitted(plane, light)                 before it is shared;
+///   emitted(plane, light)                 before it is divided;
 ///   pixel(plane, column, row, light)      on the film;
 ///   block(plane, column, row, parts)      of 2 x 2 pixels, some of which may be outside;
 ///   outside(plane, light)                 that falls on no pixel.

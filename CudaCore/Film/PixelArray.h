@@ -11,8 +11,8 @@
 namespace schlieren
 {
 
-/// Numbers for each pixel. Like a std::vector, but not filled with zeros before the first value is
-/// written, and its memory can be handed on without a copy.
+/// Holds numbers for each pixel. It resembles std::vector, but does not write zeros before the first value, and hands its
+/// memory on without a copy.
 template <class Value>
 class PixelArray
 {

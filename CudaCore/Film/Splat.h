@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// How a ray's light is shared among pixels (cloud in cell, Birdsall & Fuss 1969), in fixed point: sums of
+// Divides a ray's light between pixels (cloud in cell, Birdsall & Fuss 1969), in fixed point: sums of
 // integers are exact, so an image does not depend on the order in which threads add to it.
 #pragma once
 

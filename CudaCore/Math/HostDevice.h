@@ -6,8 +6,8 @@
 #ifdef __CUDACC__
 #define SCHLIEREN_HD inline __host__ __device__
 #elif defined(SCHLIEREN_INLINE_ALL)
-// In files that are compiled for instructions which not every processor has: a function that they share
-// with others must leave no copy behind that the linker could choose for all.
+// In files that are compiled for instructions which not every processor has: a function that is also in
+// others must leave no copy behind that the linker could choose for all.
 #define SCHLIEREN_HD inline __attribute__((always_inline))
 #else
 #define SCHLIEREN_HD inline

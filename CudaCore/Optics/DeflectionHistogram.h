@@ -15,7 +15,7 @@ namespace schlieren
 
 /// Counts the rays of an image by their deflection, pass by pass. Its range is the smallest power of two
 /// above all components: so bins merge two by two where it has to grow, and the counts are the same
-/// whichever way passes come.
+/// however passes come.
 class DeflectionHistogram
 {
 public:

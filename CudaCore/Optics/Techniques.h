@@ -49,8 +49,8 @@ enum class Coloring
 struct Technique
 {
   Cutoff cutoff;
-  /// The k |eps| that automatic k makes of strong deflections: 1/2 where light can change both ways from the middle,
-  /// else 1. 0: k plays no part.
+  /// The k |eps| that automatic k makes of strong deflections: 1/2 where light can become more or less than in the middle,
+  /// else 1. 0: k is not used.
   double fullScale;
   bool hasEdge;    ///< a straight one, with an angle, an offset and another side
   bool hasFringes; ///< of the optical path, over a carrier

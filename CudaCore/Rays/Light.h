@@ -116,7 +116,7 @@ std::int64_t maxMargin(const View& view);
 /// Where in its pixel the ray of pass `pass` starts, relative to the centre, in [-1/2, 1/2).
 /// Pass 0 is the centre; later passes follow the two-dimensional golden-ratio sequence R2 (Roberts
 /// 2018, "The unreasonable effectiveness of quasirandom sequences"), begun elsewhere for each seed.
-/// All pixels of a pass share the offset: a pass is a lattice, and bilinear splats of an undisturbed
+/// The offset is the same in all pixels of a pass: a pass is a lattice, and bilinear splats of an undisturbed
 /// lattice add up to an exactly even film, so undisturbed light carries no sampling noise.
 PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed);
 

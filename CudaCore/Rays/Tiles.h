@@ -10,7 +10,7 @@
 namespace schlieren
 {
 
-/// Squares of pixels that a thread takes at once: their rays share what they read of the medium. Row by row.
+/// Squares of pixels that a thread takes at once: their rays read the same samples of the medium. Row by row.
 constexpr std::int64_t tileEdge = 16;
 inline std::int64_t tilesAlong(const Pass& pass)
 {
@@ -30,7 +30,7 @@ struct Tiles
   std::int64_t count() const { return (std::max(first, end) - first + step - 1) / step; }
 };
 
-/// Which of the tiles first ... end - 1 one of `processes` traces: every nth one, whatever the range is.
+/// Which of the tiles first ... end - 1 one of `processes` ranks traces: every nth one, whatever the range is.
 inline Tiles tilesOfProcess(
   std::int64_t first, std::int64_t end, std::int64_t process, std::int64_t processes)
 {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Medium/Tree/MediumTree.h"
+#include "Schlieren.h"
 
 #include <algorithm>
 #include <atomic>

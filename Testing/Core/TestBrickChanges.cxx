@@ -38,7 +38,7 @@ TEST(BrickChanges, CoefficientsOfAPartMakeTheSameSpline)
     const std::vector<double> box = randomSamples(shape);
     for (std::int32_t part = 0; part < (shape == BrickShape::Layer ? 4 : 8); ++part)
     {
-      const std::vector<double> ofPart = coefficientsOfPart(box.data(), part, shape);
+      const std::vector<double> ofPart = coefficientsOfChild(box.data(), part, shape);
       ASSERT_EQ(ofPart.size(), box.size());
       for (int n = 0; n < 500; ++n)
       {
@@ -64,7 +64,7 @@ TEST(BrickChanges, AreWhatGradientsChangeBy)
   constexpr std::array<double, 3> voxel{ 0.1, 0.2, 0.1 };
   const std::vector<double> box = randomSamples(BrickShape::Cube);
   Brick<double> made;
-  made.samples = coefficientsOfPart(box.data(), 5, BrickShape::Cube);
+  made.samples = coefficientsOfChild(box.data(), 5, BrickShape::Cube);
   for (const double change : changesOf(made, 5, box.data(), 0., BrickShape::Cube, voxel))
   {
     EXPECT_EQ(change, 0);

@@ -5,6 +5,7 @@
 #include "Fields.h"
 #include "Medium/HomogeneityMap.h"
 #include "Optics/DeflectionHistogram.h"
+#include "Rays/Cpu/CpuTracer.h"
 #include "Rays/Cuda/CudaTracer.h"
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include "Image/RealOptics.h"
 #include "Image/RgbImages.h"
 #include "Image/SceneFromSettings.h"
+#include "Sources/MediumMaker.h"
 
 #include "vtkPiecewiseFunction.h"
 

@@ -25,9 +25,6 @@ inline double gladstoneDaleRefractivity(double constant, double density)
   return constant * density;
 }
 
-/// Wavelength of the helium-neon laser in vacuum, metres: at which constants are compared.
-constexpr double heliumNeonWavelength = 632.99e-9;
-
 /// Refractivity of a gas as a function of s = (1 um / vacuum wavelength)^2, at one density:
 /// N = powers[0] + powers[1] s + powers[2] s^2 + powers[3] s^3 + sum strength / (resonance - s).
 struct Dispersion
@@ -57,12 +54,6 @@ struct Gas
   /// Whether K is known to depend on wavelength; else it is that of the one wavelength measured.
   constexpr bool disperses() const { return shortestWavelength < longestWavelength; }
 
-  /// Whether `wavelengthMetres` lies among those measured.
-  constexpr bool isMeasuredAt(double wavelengthMetres) const
-  {
-    return shortestWavelength <= wavelengthMetres && wavelengthMetres <= longestWavelength;
-  }
-
   /// K in m^3/kg. Formulas with resonances in the ultraviolet only go flat towards the infrared and
   /// are continued up to 1.7 um where measurements end earlier. Otherwise K keeps the value of the
   /// nearest wavelength that was measured. NaN for a wavelength that is not positive.
@@ -77,7 +68,7 @@ const Gas* findGas(std::string_view nameOrFormula);
 
 // Mixtures
 
-/// A gas as a part of a mixture.
+/// A gas in a mixture.
 struct Component
 {
   double constant; ///< Gladstone-Dale K, m^3/kg
@@ -147,7 +138,7 @@ double waterVapourFraction(
 /// Davis made A for little vapour: pure steam at 100 C and 1 atm gets 1.009 but has Z = 0.985.
 double compressibility(double temperatureKelvin, double pressurePascal, double waterFraction);
 
-/// Air at one wavelength and one content of carbon dioxide: what all cells of a field share.
+/// Air at one wavelength and one content of carbon dioxide: the same for all cells of a field.
 ///
 /// Ciddor's eq. 5, N = (rho_a / rho_axs) N_axs + (rho_w / rho_ws) N_ws, holds densities of the dry
 /// part and of the vapour (eq. 4: rho = p M x / Z R T), and those of the two states for which N_axs
@@ -168,7 +159,7 @@ struct MoistAir
     double temperatureKelvin, double pressurePascal, double relativeHumidity) const;
 };
 
-/// Refractivity of moist air, for a single state. Fields share a MoistAir.
+/// Refractivity of moist air, for a single state. For a field, make one MoistAir.
 double ciddorRefractivity(double temperatureKelvin, double pressurePascal, double relativeHumidity,
   double co2PartsPerMillion, double wavelengthMetres);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The boxes that the medium consists of, as rays see them. An image is one leaf; other data are an octree over
+// The leaves that the medium consists of, as rays see them. An image is one leaf; other data are an octree over
 // root cells, whose leaves are bricks of samples, each at a spacing of its own.
 //
 //   index coordinates   of the whole medium: MediumView::last is its far corner

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What the tracer requests of data that are no regular grid: meshes, AMR, several blocks. The medium's tree
-// (MediumTree) queries it box by box, from several threads at once.
+// (MediumTree) queries it node by node, from several threads at once.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace schlieren
 {
 
-/// What there is at a place; the values are those of Field::valid.
+/// What there is at a point; the values are those of Field::valid.
 enum class Place : unsigned char
 {
   Wall = 0,  ///< of a body: stops light
@@ -61,8 +61,8 @@ public:
   /// By rows, the rotation from its axes to those of the data, whose images are to be made.
   virtual std::array<double, 9> direction() const { return { 1, 0, 0, 0, 1, 0, 0, 0, 1 }; }
 
-  /// What is known of a box without looking at single places. It may say less than there is to say, never
-  /// something wrong: a wider range, smaller cells, more kinds of places.
+  /// What is known of a box without looking at single points. It may say less than there is to say, never
+  /// something wrong: a wider range, smaller cells, more kinds of points.
   struct Content
   {
     double lowest, highest; ///< N of all data in the box; lowest > highest: it has no data
@@ -86,13 +86,13 @@ public:
   /// requested of sources with makers(), so that the medium does not depend on where the data are.
   virtual bool dependsOnLattice() const { return false; }
 
-  /// Processes that have the data together and make bricks of them; null: this one has all. Each has a source that answers
+  /// Ranks that have the data together and make bricks of them; null: this one has all. Each has a source that answers
   /// for what has been prepared, and contentOf(bounds()) at any time.
   virtual const BrickMakers* makers() const { return nullptr; }
-  /// Until the next call, contentOf() and rangeOfField() answer for these boxes. All processes call it, with the same boxes,
+  /// Until the next call, contentOf() and rangeOfField() answer for these boxes. All ranks call it, with the same boxes,
   /// as the next one.
   virtual void prepareContents(const std::vector<Box>& /*boxes*/) const {}
-  /// The same of sample() and every nth lattice: in process number 0 of n the first one, and so on.
+  /// The same of sample() and every nth lattice: on rank 0 of n the first one, and so on.
   virtual void prepareSamples(const std::vector<Lattice>& /*lattices*/) const {}
 
   /// Further fields, whose gradients rays may gather.

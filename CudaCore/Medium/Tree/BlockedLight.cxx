@@ -18,7 +18,7 @@ namespace
 constexpr double pixelsOfSpacing = 2;
 constexpr double fewestPoints = 48, mostPoints = 1024; // along each axis
 
-/// Faces that two boxes share are in both, whatever rounding does; index coordinates, by their size.
+/// Faces between two boxes are in both, whatever rounding does; index coordinates, by their size.
 constexpr double rounding = 1e-9;
 
 bool meets(const StraightRay& ray, const Box& box)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// One box of the medium's tree: what is in it, and its samples.
+// One node of the medium's tree: what is in it, and its samples.
 #pragma once
 
 #include "Medium/Samples/Interpolation.h"
@@ -17,14 +17,14 @@
 namespace schlieren
 {
 
-/// A box of the tree, see Leaves.h.
+/// Numbers a node of the tree, see Leaves.h.
 struct NodePlace
 {
   int level;                      ///< below 0: larger than the domain is wide
-  std::array<std::int32_t, 3> at; ///< in boxes of that level
+  std::array<std::int32_t, 3> at; ///< in nodes of that level
 };
 
-/// One of its eight parts, counted x fastest.
+/// One of its eight children, counted x fastest.
 inline NodePlace childOf(const NodePlace& place, std::int32_t child)
 {
   return { place.level + 1,
@@ -32,17 +32,17 @@ inline NodePlace childOf(const NodePlace& place, std::int32_t child)
       2 * place.at[2] + (child >> 2) } };
 }
 
-/// Which part of the box that it is a part of.
+/// Which of its parent's children it is.
 inline std::int32_t partOf(const NodePlace& place, BrickShape shape)
 {
   const std::int32_t ofLayer = (place.at[0] & 1) | (place.at[1] & 1) << 1;
   return shape == BrickShape::Layer ? ofLayer : ofLayer | (place.at[2] & 1) << 2;
 }
 
-/// What a box needs to become finer. All of nu or of a deflection, which have the same size.
+/// Says by how much a node is too coarse. All of nu or of a deflection, which have the same size.
 struct BrickFacts
 {
-  /// Of a ray's deflection over the box, because the samples are as far apart as they are; 0 along an axis on
+  /// Of a ray's deflection over the node, because the samples are as far apart as they are; 0 along an axis on
   /// which the cells are no finer than the samples.
   std::array<double, 3> error{ 0, 0, 0 };
   /// Whether the cells are finer than the samples along an axis, so that the error can be less.
@@ -78,7 +78,7 @@ struct Brick
   BrickFacts facts;
   FieldBrick fields;
 
-  /// For another process of the same program on the same kind of processor.
+  /// For another rank of the same program on the same kind of processor.
   std::vector<char> toBytes() const;
   /// Throws Error where they are not those of a brick with so many samples and fields.
   static Brick fromBytes(
@@ -108,7 +108,7 @@ struct BrickRules
   double ambient;
   double largestNu; ///< what is far below it is set to 0
   Interpolation interpolation;
-  std::uint32_t bytesOfReal = 0; ///< where processes share the work
+  std::uint32_t bytesOfReal = 0; ///< where ranks divide the work
 };
 
 /// Makes bricks of a source, each without knowledge of any other.
@@ -124,8 +124,8 @@ public:
 
   /// Where the source has makers, the bricks that they make; otherwise none.
   std::vector<Brick<Real>> makeTogether(const std::vector<BrickRequest>& requests) const;
-  /// In each of `processes` that have the source's data together, at the same time: those bricks that it makes of them, each as
-  /// Brick::toBytes(). Empty where another one does.
+  /// In each of `processes` ranks that have the source's data together, at the same time: those bricks that it makes of them,
+  /// each as Brick::toBytes(). Empty where another one does.
   std::vector<std::vector<char>> makeShare(const std::vector<BrickRequest>& requests,
     std::size_t process, std::size_t processes, int threads) const;
 

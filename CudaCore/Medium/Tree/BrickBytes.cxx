@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Bricks on their way to another process.
+// Writes bricks as bytes for another rank.
 #include "Medium/Tree/Brick.h"
 
 #include "Medium/Tree/CountedBytes.h"

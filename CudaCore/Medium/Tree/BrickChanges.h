@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the samples of a box's part change about those of the box: so much was wrong with them, whatever the reason
+// What the samples of a node's child change about those of the node: so much was wrong with them, whatever the reason
 // (cells that are finer than voxels, walls, sheets between two values).
 #pragma once
 
@@ -25,12 +25,12 @@ inline constexpr double errorByChange = 1. / 3;
 inline constexpr double errorByCells = 2;
 
 /**
- * The coefficients of a box (samples with an apron of one) become those of one of its parts, which has voxels of half
+ * The coefficients of a node (samples with an apron of one) become those of one of its children, which has voxels of half
  * the size. Of quadratic splines exactly: each has 3/4 of the nearest one and 1/4 of the next (Chaikin 1974); of linear
- * interpolation at the samples. `part`: number of the part, x fastest.
+ * interpolation at the samples. `child`: its number, x fastest.
  */
 template <class Real>
-std::vector<Real> coefficientsOfPart(const Real* of, std::int32_t part, BrickShape shape)
+std::vector<Real> coefficientsOfChild(const Real* of, std::int32_t child, BrickShape shape)
 {
   constexpr int n = BrickMaker<Real>::edge + 2;
   const int layers = shape == BrickShape::Layer ? 1 : n;
@@ -40,11 +40,11 @@ std::vector<Real> coefficientsOfPart(const Real* of, std::int32_t part, BrickSha
   const std::array<int, 3> strides{ 1, n, n * n };
   for (std::size_t axis = 0; axis < (layers == 1 ? 2u : 3u); ++axis)
   {
-    const int first = (part >> axis & 1) * BrickMaker<Real>::edge;
+    const int first = (child >> axis & 1) * BrickMaker<Real>::edge;
     const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
     for (int i = 0; i < n; ++i)
     {
-      const int at = first + i - 1;     // in the box, counted in voxels of the part
+      const int at = first + i - 1;     // in the node, counted in voxels of the child
       const int nearest = (at + 2) / 2; // counted from the apron on
       const int other = nearest + (at % 2 != 0 ? 1 : -1); // an odd one is nearer to the next
       for (int p = 0; p < size[a]; ++p)
@@ -64,12 +64,12 @@ std::vector<Real> coefficientsOfPart(const Real* of, std::int32_t part, BrickSha
 }
 
 /**
- * How much the deflection of a ray over a part of a box has changed, by axis, when the part got samples of its own, at
- * most. Where there are walls, by the gradients that gas has a part in.
- * `box`: the coefficients of the whole box, relative to `offset`.
+ * How much the deflection of a ray over a child of a node has changed, by axis, when the child got samples of its own, at
+ * most. Where there are walls, by the gradients that gas contributes to.
+ * `parent`: the coefficients of the node, relative to `offset`.
  */
 template <class Real>
-std::array<double, 3> changesOf(const Brick<Real>& made, std::int32_t part, const Real* box,
+std::array<double, 3> changesOf(const Brick<Real>& made, std::int32_t child, const Real* parent,
   Real offset, BrickShape shape, const std::array<double, 3>& voxel)
 {
   constexpr int n = BrickMaker<Real>::edge + 2;
@@ -78,7 +78,7 @@ std::array<double, 3> changesOf(const Brick<Real>& made, std::int32_t part, cons
   {
     return changes;
   }
-  std::vector<Real> difference = coefficientsOfPart(box, part, shape);
+  std::vector<Real> difference = coefficientsOfChild(parent, child, shape);
   const Real shift = offset - made.offset;
   for (std::size_t i = 0; i < difference.size(); ++i)
   {

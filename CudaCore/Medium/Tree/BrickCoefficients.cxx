@@ -26,7 +26,7 @@ double beyondSamples(const double* at, std::ptrdiff_t stride, double coefficient
 }
 
 /// The second difference at a sample, as far as it is not the foot of a front: where it is flat on one side, or bent the
-/// other way. There the spline would overshoot, by up to 7 % of a jump over one cell. At the maximum of a smooth field
+/// opposite direction. There the spline would overshoot, by up to 7 % of a jump over one cell. At the maximum of a smooth field
 /// it is bent likewise beside it, or steep (maxima are found by such minima of curvatures in Colella & Sekora 2008).
 double smoothBend(const double* at, std::ptrdiff_t stride)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What decides how fine a box of the medium's tree needs to be: of N, and of the fields whose gradients rays gather.
+// Decides how fine a node of the medium's tree needs to be: of N, and of the fields whose gradients rays gather.
 #pragma once
 
 #include "Medium/Samples/Leaves.h"
@@ -15,7 +15,7 @@
 namespace schlieren
 {
 
-/// A range of nu within a box, as the deflection that it may make there. A variation over the whole box makes
+/// Converts a range of nu within a node to the deflection that it may make there. A variation over the whole node makes
 /// one as large as itself, one over a sixteenth of it, along the ray, 16 times as much.
 inline constexpr double deflectionByRange = 8;
 

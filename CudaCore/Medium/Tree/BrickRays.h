@@ -23,7 +23,7 @@ struct Column
   Vec3<double> u, v;   ///< of the image, unit vectors, along the source's axes
   double middle[2];    ///< image coordinates, data units
   double halfWidth[2]; ///< along u and v, data units
-  double finest; ///< no voxel needs to be smaller: data units, the pixel's size or a part of it
+  double finest; ///< no voxel needs to be smaller: data units, the pixel's size or a fraction of it
   double pupil =
     0; ///< from the image's plane, along w = u x v, data units; 0: all lines are along w
   double plane =

@@ -15,10 +15,10 @@
 namespace schlieren
 {
 
-/// A lattice around a box.
+/// A lattice around a node.
 struct BrickSamples
 {
-  int margin;                       ///< points beyond the box
+  int margin;                       ///< points beyond the node
   int n;                            ///< points along each axis
   int layers;                       ///< along z; 1: there is no margin either
   std::array<int, 3> begin, end;    ///< those that are within the domain

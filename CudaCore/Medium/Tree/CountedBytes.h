@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Values of bricks on their way to another process: how many there are, and these.
+// Writes the values of bricks for another rank: how many there are, and these.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// One box of the medium's tree: the gradients of the fields that rays gather there.
+// One node of the medium's tree: the gradients of the fields that rays gather there.
 #pragma once
 
 #include "Medium/Samples/Leaves.h"
@@ -13,7 +13,7 @@
 namespace schlieren
 {
 
-/// What a box needs to become finer because of its fields. All of what a ray gathers of them, of all together.
+/// Says by how much a node is too coarse for its fields. All of what a ray gathers of them, of all together.
 struct FieldFacts
 {
   /// Because the samples are as far apart as they are; 0 along an axis on which the cells are no finer.
@@ -32,13 +32,13 @@ struct FieldBrick
   FieldFacts facts;
 };
 
-/// Values of fields at n^3 points around a box, or at n^2 of one layer.
+/// Values of fields at n^3 points around a node, or at n^2 of one layer.
 struct FieldSamples
 {
   std::array<double, 3> voxel;
   BrickShape shape = BrickShape::Cube;
   int n = 0;
-  int margin = 0;             ///< points beyond the box, more than the apron of what is made
+  int margin = 0;             ///< points beyond the node, more than the apron of what is made
   std::vector<double> values; ///< field after field
 };
 

@@ -114,7 +114,7 @@ template <class Real>
 void MediumTree<Real>::forgetBelow(std::int32_t at)
 {
   std::int32_t& children = nodes_[static_cast<std::size_t>(at)].children;
-  for (std::int32_t child = 0; children >= 0 && child < parts(); ++child)
+  for (std::int32_t child = 0; children >= 0 && child < childCount(); ++child)
   {
     forgetBelow(children + child);
   }
@@ -160,7 +160,7 @@ bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
     return hasAny;
   }
   bool hasChanged = false;
-  for (std::int32_t child = 0; isInner && child < parts(); ++child)
+  for (std::int32_t child = 0; isInner && child < childCount(); ++child)
   {
     hasChanged = forgetUnneeded(node.children + child, view) || hasChanged;
   }

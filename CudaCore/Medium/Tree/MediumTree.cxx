@@ -202,7 +202,7 @@ void MediumTree<Real>::number(std::int32_t at, std::int32_t& code)
   const std::size_t first = children_.size();
   code = static_cast<std::int32_t>(first / 8);
   children_.resize(first + 8, -1); // where nothing depends on z, rays take the lower four
-  for (std::int32_t child = 0; child < parts(); ++child)
+  for (std::int32_t child = 0; child < childCount(); ++child)
   {
     std::int32_t ofChild = 0;
     number(node.children + child, ofChild);
@@ -224,7 +224,7 @@ void MediumTree<Real>::arrange()
     if (const std::int32_t children = arranged[n].children; children >= 0)
     {
       arranged[n].children = static_cast<std::int32_t>(arranged.size());
-      for (std::int32_t child = 0; child < parts(); ++child)
+      for (std::int32_t child = 0; child < childCount(); ++child)
       {
         arranged.push_back(nodes_[static_cast<std::size_t>(children + child)]);
         if (hasFields)
@@ -323,7 +323,7 @@ SlopeBlocks MediumTree<Real>::slopes() const
   for (const std::int32_t at : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(at)];
-    for (std::int32_t octant = 0; node.brick > 0 && octant < parts(); ++octant)
+    for (std::int32_t octant = 0; node.brick > 0 && octant < childCount(); ++octant)
     {
       const Vec3<float>& slope = node.facts.slopeOf[static_cast<std::size_t>(octant)];
       if (slope.x == 0 && slope.y == 0 && slope.z == 0)

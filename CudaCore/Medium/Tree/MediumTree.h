@@ -97,7 +97,7 @@ public:
   double largestN() const { return largestN_; }
   /// Largest |d nu / d index| of all leaves, axis by axis.
   Vec3<double> slope() const { return slope_; }
-  SlopeBlocks slopes() const; ///< box by box
+  SlopeBlocks slopes() const; ///< node by node
   using Statistics = MediumStatistics;
   Statistics statistics() const { return statistics_; }
 
@@ -105,7 +105,7 @@ private:
   struct Node
   {
     NodePlace place;
-    std::int32_t children = -1; ///< the first of parts() nodes, x fastest; -1: a leaf
+    std::int32_t children = -1; ///< the first of childCount() nodes, x fastest; -1: a leaf
     bool isKnown = false;       ///< otherwise a leaf that no view has needed
     bool isCoarse = false;      ///< a leaf with one value for all that needs samples
     bool isWrong = false;       ///< its error is too large beside those of others along a ray
@@ -157,7 +157,7 @@ private:
   class View;
 
   /// Of a node that is divided.
-  std::int32_t parts() const { return shape() == BrickShape::Layer ? 4 : 8; }
+  std::int32_t childCount() const { return shape() == BrickShape::Layer ? 4 : 8; }
   void makeBrick(std::size_t request);
   void makeRoots();
   void findBlockedLight();

@@ -142,7 +142,7 @@ public:
     return urgency;
   }
 
-  /// Whether walls are where they should be, but for such a part of a pixel. Voxels must not be much larger than
+  /// Whether walls are where they should be, but for such a fraction of a pixel. Voxels must not be much larger than
   /// pixels for that to be known; between planes and distances from them there is only the rounding of these.
   bool showsWalls(const Node& node, double pixels) const
   {
@@ -181,7 +181,7 @@ public:
     return { perLength * allowed().deflection, perLength * allowed().gathered };
   }
 
-  /// What is negligible to a leaf that is made, or made again, or to the parts of one that is divided: nothing where too much
+  /// What is negligible to a leaf that is made, or made again, or to the children of one that is divided: nothing where too much
   /// has been neglected along rays; and what a leaf has, it keeps when it lacks something else.
   Negligible negligibleTo(const Node& node, const NodeFields& fields, bool divides) const
   {
@@ -230,7 +230,7 @@ private:
     return allows(level, 0, finest) || allows(level, 1, finest) || allows(level, 2, finest);
   }
 
-  /// The size of a pixel where a node is nearest to the pupil, or beside that a small part of it, data units.
+  /// The size of a pixel where a node is nearest to the pupil, or beside that a small fraction of it, data units.
   double pixelAt(const NodePlace& place) const
   {
     if (!(column_.pupil > 0))

@@ -24,7 +24,7 @@ namespace
 /// Of the memory, for what turns out to be worse than what was divided before.
 constexpr std::size_t partsOfReserve = 16;
 
-/// Bricks that are made before they are put into the tree; of those that several processes make, by each one.
+/// Bricks that are made before they are put into the tree; of those that ranks make together, by each one.
 constexpr std::size_t bricksAtOnce = 512;
 constexpr std::size_t bricksOfMaker = 64;
 
@@ -211,9 +211,9 @@ std::size_t MediumTree<Real>::costOf(const Task& task) const
     (nodeFields_.empty() ? 0 : gradients_.bytesOfBrick() + sizeof(NodeFields));
   if (node.place.level < -1)
   {
-    return parts() * (sizeof(Node) + sizeof(Leaf<Real>));
+    return childCount() * (sizeof(Node) + sizeof(Leaf<Real>));
   }
-  return task.divides ? parts() * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
+  return task.divides ? childCount() * (ofOne + sizeof(Node) + sizeof(Leaf<Real>)) : ofOne;
 }
 
 /// Finds the tasks of the next round: those that memory suffices for. Returns whether it has thrown something away
@@ -316,7 +316,7 @@ void MediumTree<Real>::findBricks(const View& view)
     const Node& node = nodes_[static_cast<std::size_t>(task.node)];
     const NodePlace& place = node.place;
     const Negligible negligible = view.negligibleTo(node, fieldsOf(task.node), task.divides);
-    for (std::int32_t child = 0; child < (task.divides ? parts() : 1); ++child)
+    for (std::int32_t child = 0; child < (task.divides ? childCount() : 1); ++child)
     {
       const NodePlace ofOne = task.divides ? childOf(place, child) : place;
       if (!task.divides || view.sees(ofOne))
@@ -332,7 +332,7 @@ void MediumTree<Real>::findBricks(const View& view)
   work_.requests = std::move(requests);
 }
 
-/// A brick with what is wrong with it, also what comparison with the box shows that it is a part of.
+/// A brick with what is wrong with it, also what comparison with its parent shows.
 template <class Real>
 void MediumTree<Real>::makeBrick(std::size_t request)
 {
@@ -387,7 +387,7 @@ void MediumTree<Real>::keepBricks(const View& view)
     const auto at = static_cast<std::size_t>(task.node);
     nodes_[at].children = firstChild;
     const NodePlace place = nodes_[at].place;
-    for (std::int32_t child = 0; child < parts(); ++child)
+    for (std::int32_t child = 0; child < childCount(); ++child)
     {
       addNode(childOf(place, child));
       if (view.sees(nodes_.back().place))

@@ -11,7 +11,7 @@
 namespace schlieren
 {
 
-/// The boxes of level 0, which the domain is made of.
+/// Divides the domain into nodes of level 0.
 struct Division
 {
   std::array<std::int32_t, 3> cells; ///< one along z where nothing depends on it
@@ -19,7 +19,7 @@ struct Division
 };
 
 /// Divides the bounds of a source. Of data much longer than wide most may be empty (blocks far from each other), which
-/// larger boxes hold. Throws Error where the bounds are no box.
+/// larger nodes hold. Throws Error where the bounds have no extent along an axis.
 Division divisionOf(const MediumSource& source);
 
 /// The root cells along each axis.
@@ -29,7 +29,7 @@ std::array<std::int32_t, 3> rootCellsOf(const Division& division);
 /// Throws Error.
 Grid gridOf(const MediumSource& source);
 
-/// The grid that a source is divided into at first: it covers its bounds. Throws Error where these are no box.
+/// The grid that a source is divided into at first: it covers its bounds. Throws Error where these have no extent.
 Grid coarsestGrid(const MediumSource& source);
 
 } // namespace schlieren

@@ -60,6 +60,29 @@ struct BlockOfLeaves
     }
   }
 
+  /// Begins at other leaves, counted in leaves of `newSize`, and keeps what is known of those that it already had.
+  SCHLIEREN_HD void beginAt(Whole newSize, const Whole (&begins)[3])
+  {
+    const BlockOfLeaves before = *this;
+    clear();
+    size = newSize;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      at[axis] = begins[axis];
+    }
+    for (int i = 0; before.size == size && i < 8; ++i)
+    {
+      const Whole old[3] = { begins[0] + (i & 1) - before.at[0],
+        begins[1] + (i >> 1 & 1) - before.at[1], begins[2] + (i >> 2) - before.at[2] };
+      if ((old[0] & ~Whole(1)) == 0 && (old[1] & ~Whole(1)) == 0 && (old[2] & ~Whole(1)) == 0)
+      {
+        const auto number = (old[2] * 2 + old[1]) * 2 + old[0];
+        value[i] = before.value[number];
+        brick[i] = before.brick[number];
+      }
+    }
+  }
+
   /// `x`: in local coordinates of the first leaf.
   SCHLIEREN_HD void find(const MediumView<Number>& medium, const Vec3<Real>& x, Place& place) const
   {
@@ -105,44 +128,24 @@ struct RaysInBlock
   Real finer; ///< the new local coordinates by the old ones
 };
 
-/// Puts the rays that are under way into a block with all leaves that they look at. Returns whether there is one.
-/// `reach`: local coordinates that a step may lead to at most.
+/// Finds where a block begins that has the leaves which rays look at, counted in leaves. Returns false where rays are too far
+/// from each other for one block. `one`: one of the rays that go.
 template <class Real>
-SCHLIEREN_NOINLINE bool takeBlock(const MediumView<NumberOf<Real>>& medium,
-  const NumberOf<Real> (&perLength)[3][lanesOf<Real>], const NumberOf<Real>& reach,
-  LeavesOfPack<Real>& in, BlockOfLeaves<Real>& block, RaysInBlock<Real>& rays)
+SCHLIEREN_HD bool findCorner(const LeavesOfPack<Real>& in, const RaysInBlock<Real>& rays,
+  const typename LeavesOfPack<Real>::Mask& goes, int one, int logSize,
+  typename LeavesOfPack<Real>::Whole (&begins)[3])
 {
-  using Leaves = LeavesOfPack<Real>;
   using Number = NumberOf<Real>;
-  using Mask = typename Leaves::Mask;
-  using Whole = typename Leaves::Whole;
+  using Mask = typename LeavesOfPack<Real>::Mask;
+  using Whole = typename LeavesOfPack<Real>::Whole;
   constexpr int lanes = lanesOf<Real>;
-  constexpr int edge = BlockOfLeaves<Real>::edge;
-  const Mask goes = rays.isUnderWay > 0;
-  const unsigned bits = bitsOf(goes);
-  if (bits == 0)
-  {
-    return false;
-  }
-  Number voxels[lanes], along[3][lanes];
-  toArray(in.voxel, voxels);
+  Number along[3][lanes];
   toArrays(rays.along, along);
-  const int one = __builtin_ctz(bits);
-  const Number voxel = voxels[one];
-  if (any(goes & (in.voxel != voxel)))
-  {
-    return false;
-  }
-  const auto size = static_cast<Whole>(edge * static_cast<double>(voxel) * in.perUnit);
-  const int logSize = __builtin_ctzll(static_cast<unsigned long long>(size));
-
-  // Where it begins: the rays' leaves, counted from that of one of them.
-  Whole begins[3];
   for (int axis = 0; axis < 3; ++axis)
   {
     const Real& x = axis == 0 ? rays.x.x : axis == 1 ? rays.x.y : rays.x.z;
     constexpr Number far = 4;
-    const Real within = (x + Number(0.5)) * (Number(1) / edge);
+    const Real within = (x + Number(0.5)) * (Number(1) / BlockOfLeaves<Real>::edge);
     const Mask cells = (in.first[axis] >> logSize) +
       (__builtin_convertvector(within + far, Mask) - static_cast<Whole>(far));
     Whole all[lanes];
@@ -157,37 +160,19 @@ SCHLIEREN_NOINLINE bool takeBlock(const MediumView<NumberOf<Real>>& medium,
     const bool isUpper = !any(goes & (from != 0)) && along[axis][one] < 0;
     begins[axis] = all[one] - (someBelow || isUpper ? 1 : 0);
   }
+  return true;
+}
 
-  // What is known of it already.
-  const BlockOfLeaves<Real> before = block;
-  block.clear();
-  block.size = size;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    block.at[axis] = begins[axis];
-  }
-  for (int i = 0; before.size == size && i < 8; ++i)
-  {
-    const Whole at[3] = { begins[0] + (i & 1) - before.at[0],
-      begins[1] + (i >> 1 & 1) - before.at[1], begins[2] + (i >> 2) - before.at[2] };
-    if ((at[0] & ~Whole(1)) == 0 && (at[1] & ~Whole(1)) == 0 && (at[2] & ~Whole(1)) == 0)
-    {
-      const auto old = (at[2] * 2 + at[1]) * 2 + at[0];
-      block.value[i] = before.value[old];
-      block.brick[i] = before.brick[old];
-    }
-  }
-
-  // The rays, in its local coordinates.
-  typename Leaves::There there;
-  there.voxel = voxel;
-  there.perIndex = 1 / voxel;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    there.first[axis] = begins[axis] * size + size / (2 * edge);
-  }
+/// Moves the rays that go into a block, and returns where they look, in its local coordinates.
+template <class Real>
+SCHLIEREN_HD Vec3<Real> moveInto(const typename LeavesOfPack<Real>::There& there,
+  const NumberOf<Real> (&perLength)[3][lanesOf<Real>],
+  const typename LeavesOfPack<Real>::Mask& goes, LeavesOfPack<Real>& in, RaysInBlock<Real>& rays)
+{
+  using Mask = typename LeavesOfPack<Real>::Mask;
+  constexpr int lanes = lanesOf<Real>;
   const Vec3<Real> places = in.toLocalOf(there, rays.x);
-  Number lengths[lanes];
+  NumberOf<Real> lengths[lanes];
   toArray(goes ? rays.length : Real{}, lengths);
   for (int i = 0; i < lanes; ++i)
   {
@@ -203,11 +188,22 @@ SCHLIEREN_NOINLINE bool takeBlock(const MediumView<NumberOf<Real>>& medium,
   rays.start.y = goes ? start.y : rays.start.y;
   rays.start.z = goes ? start.z : rays.start.z;
   rays.length = goes ? Real{} : rays.length;
+  return places;
+}
 
-  // The leaves that are looked at.
+/// Reads the leaves that rays look at and that a block does not know. Returns whether all consist of samples and are as large
+/// as the block's.
+template <class Real>
+SCHLIEREN_HD bool readLeaves(const MediumView<NumberOf<Real>>& medium, const LeavesOfPack<Real>& in,
+  const typename LeavesOfPack<Real>::Mask& goes, const Vec3<Real>& places,
+  BlockOfLeaves<Real>& block)
+{
+  using Number = NumberOf<Real>;
+  using Whole = typename LeavesOfPack<Real>::Whole;
+  constexpr int edge = BlockOfLeaves<Real>::edge;
   typename BlockOfLeaves<Real>::Place place;
   block.find(medium, places, place);
-  std::int32_t leaves[lanes];
+  std::int32_t leaves[lanesOf<Real>];
   std::memcpy(leaves, &place.leaf, sizeof(leaves));
   bool areAllGood = true;
   for (unsigned left = bitsOf(goes & place.isUnknown); left != 0; left &= left - 1)
@@ -217,18 +213,21 @@ SCHLIEREN_NOINLINE bool takeBlock(const MediumView<NumberOf<Real>>& medium,
     {
       continue; // found for another ray
     }
-    const Whole at[3] = { begins[0] + (i & 1), begins[1] + (i >> 1 & 1), begins[2] + (i >> 2) };
+    const Whole at[3] = { block.at[0] + (i & 1), block.at[1] + (i >> 1 & 1),
+      block.at[2] + (i >> 2) };
     double middle[3];
     for (int axis = 0; axis < 3; ++axis)
     {
-      middle[axis] = (static_cast<double>(at[axis]) + 0.5) * static_cast<double>(size) * in.unit;
+      middle[axis] =
+        (static_cast<double>(at[axis]) + 0.5) * static_cast<double>(block.size) * in.unit;
     }
     const Leaf<Number>& leaf = medium.leaves[medium.finder.at({ middle[0], middle[1], middle[2] })];
     bool isGood = leaf.kind == Leaf<Number>::Samples;
     for (int axis = 0; axis < 3; ++axis)
     {
       isGood = isGood &&
-        static_cast<Whole>(leaf.first[axis] * in.perUnit) == at[axis] * size + size / (2 * edge);
+        static_cast<Whole>(leaf.first[axis] * in.perUnit) ==
+          at[axis] * block.size + block.size / (2 * edge);
     }
     if (!isGood)
     {
@@ -238,6 +237,17 @@ SCHLIEREN_NOINLINE bool takeBlock(const MediumView<NumberOf<Real>>& medium,
     block.value[i] = leaf.offset;
     block.brick[i] = leaf.brick;
   }
+  return areAllGood;
+}
+
+/// Sets where the domain ends for rays in a block, and whether a step may lead there.
+template <class Real>
+SCHLIEREN_HD void findEnds(const MediumView<NumberOf<Real>>& medium,
+  const typename LeavesOfPack<Real>::There& there, const NumberOf<Real>& reach,
+  const LeavesOfPack<Real>& in, RaysInBlock<Real>& rays)
+{
+  using Number = NumberOf<Real>;
+  constexpr int edge = BlockOfLeaves<Real>::edge;
   const auto scale = static_cast<double>(there.perIndex) * in.unit;
   Number low[3], high[3];
   const double last[3] = { medium.last.x, medium.last.y, medium.last.z };
@@ -252,6 +262,53 @@ SCHLIEREN_NOINLINE bool takeBlock(const MediumView<NumberOf<Real>>& medium,
   }
   rays.low = { Real{} + low[0], Real{} + low[1], Real{} + low[2] };
   rays.high = { Real{} + high[0], Real{} + high[1], Real{} + high[2] };
+}
+
+/// Puts the rays that are under way into a block with all leaves that they look at. Returns whether there is one.
+/// `reach`: local coordinates that a step may lead to at most.
+template <class Real>
+SCHLIEREN_NOINLINE bool takeBlock(const MediumView<NumberOf<Real>>& medium,
+  const NumberOf<Real> (&perLength)[3][lanesOf<Real>], const NumberOf<Real>& reach,
+  LeavesOfPack<Real>& in, BlockOfLeaves<Real>& block, RaysInBlock<Real>& rays)
+{
+  using Leaves = LeavesOfPack<Real>;
+  using Number = NumberOf<Real>;
+  using Mask = typename Leaves::Mask;
+  using Whole = typename Leaves::Whole;
+  constexpr int edge = BlockOfLeaves<Real>::edge;
+  const Mask goes = rays.isUnderWay > 0;
+  const unsigned bits = bitsOf(goes);
+  if (bits == 0)
+  {
+    return false;
+  }
+  Number voxels[lanesOf<Real>];
+  toArray(in.voxel, voxels);
+  const int one = __builtin_ctz(bits);
+  const Number voxel = voxels[one];
+  if (any(goes & (in.voxel != voxel)))
+  {
+    return false;
+  }
+  const auto size = static_cast<Whole>(edge * static_cast<double>(voxel) * in.perUnit);
+  const int logSize = __builtin_ctzll(static_cast<unsigned long long>(size));
+  Whole begins[3];
+  if (!findCorner(in, rays, goes, one, logSize, begins))
+  {
+    return false;
+  }
+  block.beginAt(size, begins);
+
+  typename Leaves::There there;
+  there.voxel = voxel;
+  there.perIndex = 1 / voxel;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    there.first[axis] = begins[axis] * size + size / (2 * edge);
+  }
+  const Vec3<Real> places = moveInto(there, perLength, goes, in, rays);
+  const bool areAllGood = readLeaves(medium, in, goes, places, block);
+  findEnds(medium, there, reach, in, rays);
   return areAllGood;
 }
 

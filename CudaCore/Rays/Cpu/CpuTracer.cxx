@@ -20,7 +20,7 @@ namespace
 {
 
 /// One ray, or a rectangle of pixels whose rays a kernel takes side by side: near each other, they look at
-/// the same part of the medium.
+/// the same samples of the medium.
 template <int Lanes>
 struct Block
 {

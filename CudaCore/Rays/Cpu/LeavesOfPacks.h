@@ -37,7 +37,7 @@ struct LeavesOfPack
   double unit, perUnit;    ///< of `first`, in index coordinates
   Mask number;             ///< of the leaf
   Mask first[3];
-  Real perIndex, voxel;  ///< local by index coordinates, and the other way round
+  Real perIndex, voxel;  ///< local by index coordinates, and the reverse
   Real value, usualStep; ///< see LeavesInPacks
   Real isConstant, isNearEdge, isNearEnd;
 

@@ -11,8 +11,8 @@
 namespace schlieren
 {
 
-// A warp traces the rays of 8 x 4 pixels, a block those of 16 x 8: near each other, they look at the same
-// part of the medium.
+// A warp traces the rays of 8 x 4 pixels, a block those of 16 x 8: near each other, they look at the
+// same samples of the medium.
 constexpr int warpColumns = 8, warpRows = 4;
 constexpr int warpsAlong = 2, warpsUp = 2;
 constexpr int blockColumns = warpsAlong * warpColumns;

@@ -10,7 +10,7 @@
 //   order            of its error in the step
 //   samplesBeyond    whether it looks at more, or at other places, than the step's middle
 //   advance          takes one step; `sample(position)` is the medium there
-// and the adaptive one its own way of choosing steps (Adaptive below).
+// and the adaptive one its own choice of steps (Adaptive below).
 #pragma once
 
 #include "Medium/Samples/Interpolation.h"

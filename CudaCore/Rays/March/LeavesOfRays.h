@@ -315,7 +315,7 @@ SCHLIEREN_HD Place placeIn(
 }
 
 /// Whether a step meets a wall before or after its middle, `distance` from where gas ends. Distances change no faster
-/// than places, so it is looked at more closely only while some part of it may be in the wall: what is missed at a
+/// than places, so it is looked at more closely only while some of it may be in the wall: what is missed at a
 /// sharp edge is less than an eighth of a step long. `half`: from the middle to the step's end, local coordinates.
 template <class Number>
 SCHLIEREN_HD bool meetsWallBesideMiddle(const MediumView<Number>& medium, const Leaf<Number>& leaf,

@@ -350,13 +350,6 @@ struct March
     return step;
   }
 
-  /// Whether some rays may leave the domain with a step.
-  SCHLIEREN_HD bool maySomeLeave(const Ray<Real>& now, const Real& step) const
-  {
-    return someNearEnd &&
-      any((insetOf(Path::ahead(now, light, step), domainLow, domainHigh) < 0) & (cruise > 0));
-  }
-
   /// The medium at places of which some are in other leaves than the rays.
   SCHLIEREN_HD Sample<Real> sampleElsewhere(const Vec3<Real>& at) const
   {
@@ -587,7 +580,7 @@ struct March
     return wholeSteps(all, left);
   }
 
-  /// Whether there is nothing in the rays' way but the medium's samples.
+  /// Whether rays meet nothing but the medium's samples.
   SCHLIEREN_HD bool isPlain() const
   {
     return !someConstant && !someNearEdge && task.map.levels == nullptr &&

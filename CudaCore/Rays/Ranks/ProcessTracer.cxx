@@ -22,7 +22,7 @@ namespace schlieren
 namespace
 {
 
-/// For how long processes trace before the first one looks whether it is to stop.
+/// For how long ranks trace before the first one looks whether it is to stop.
 constexpr double secondsAtOnce = 0.05;
 
 double secondsSince(std::chrono::steady_clock::time_point start)
@@ -49,7 +49,7 @@ RaysHead headOf(const std::vector<char>& answer, std::size_t rays, TracedPass& t
   return head;
 }
 
-/// Puts the rays of a process's tiles into their places.
+/// Puts the rays of a rank's tiles where they belong in the pass.
 void putTiles(
   const std::vector<char>& answer, const Pass& pass, const Tiles& tiles, TracedPass& traced)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rays of one image traced by several processes: one has the medium and the image (ProcessTracer), the others have
+// Rays of one image traced by several ranks: one has the medium and the image (ProcessTracer), the others have
 // RayWorkers. These get what rays need of the medium, as a GPU does, and send back what rays hand on: 40 bytes a ray, and
 // 4 for each field that it gathers. Whoever traces a tile, its rays are the same to the last bit.
 #pragma once

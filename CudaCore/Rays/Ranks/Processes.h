@@ -11,7 +11,7 @@
 namespace schlieren
 {
 
-/// Other processes of the same program, on the same kind of processor, which do what this one requests.
+/// The other ranks: processes of the same program, on the same kind of processor, which do what this one requests.
 class Processes
 {
 public:
@@ -24,7 +24,7 @@ public:
   virtual int others() const = 0;
 
   /// Sends one request to all of them, calls `meanwhile` here, and returns their answers, in a fixed order. Throws what
-  /// has gone wrong in any process, once all have answered. Called by one thread.
+  /// has gone wrong on any rank, once all have answered. Called by one thread.
   virtual std::vector<std::vector<char>> request(
     const std::vector<char>& message, const std::function<void()>& meanwhile) = 0;
 

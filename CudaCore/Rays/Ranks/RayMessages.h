@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a ProcessTracer and the RayWorkers of other processes send each other.
+// What a ProcessTracer and the RayWorkers of other ranks send each other.
 #pragma once
 
 #include "Rays/Cpu/CpuTracer.h"
@@ -84,7 +84,7 @@ template <class Real>
 struct TraceMessage
 {
   TraceHead head{ RayWorker::Trace, sizeof(Real) };
-  std::int64_t first = 0, end = 0; ///< tiles of all processes
+  std::int64_t first = 0, end = 0; ///< tiles of all ranks
   Device device = Device::Cpu;
   Simd simd = Simd::None; ///< of the CPU
   Pass pass{};
@@ -151,7 +151,7 @@ inline Pass passOfBands(const Pass& pass, const Tiles& bands)
     std::max<std::int64_t>(0, std::min(pass.rows, bands.end * bandRows) - bands.first * bandRows);
   return ofBands;
 }
-/// What of so many bands one process traces: a device is busiest with consecutive ones.
+/// Which of the bands first ... end - 1 one rank traces: a device is busiest with consecutive ones.
 inline Tiles bandsOfProcess(
   std::int64_t first, std::int64_t end, std::int64_t process, std::int64_t processes)
 {

@@ -9,11 +9,11 @@
 namespace schlieren
 {
 
-/// Traces rays for the ProcessTracer of another process.
+/// Traces rays for the ProcessTracer of another rank.
 class RayWorker
 {
 public:
-  /// Of so many processes this is that one; the ProcessTracer's own is number 0.
+  /// `process`: the rank, of so many; that of the ProcessTracer is 0.
   RayWorker(int process, int processes);
   ~RayWorker();
 

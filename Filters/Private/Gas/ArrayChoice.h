@@ -50,8 +50,8 @@ std::vector<FlowArray> getArrays(Reader& message);
 /// What is used of data.
 struct MediumChoice
 {
-  MediumSettings
-    settings; ///< with nothing left open: IndexModel, arrays, factors of units and fractions
+  /// With nothing left open (IndexModel, arrays, factors of units and fractions), and without arrays that are not read.
+  MediumSettings settings;
   bool isScaleKnown = false; ///< by the user or by the unit in a name
   std::string message;       ///< in words
   std::string note;          ///< what was not understood of the names, mostly empty

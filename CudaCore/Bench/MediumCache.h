@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The media of benches: made once, used until another one is wanted, and by several benches where these may.
+#pragma once
+
+#include "Medium/HomogeneityMap.h"
+#include "Medium/Medium.h"
+#include "Rays/Cuda/CudaTracer.h"
+#include "Rays/Ranks/ProcessTracer.h"
+#include "Schlieren.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <variant>
+
+namespace schlieren
+{
+
+/// What a cached medium was built from.
+struct MediumKey
+{
+  std::array<std::int64_t, 3> dimensions;
+  Vector origin;
+  Vector spacing;
+  std::array<double, 9> direction;
+  std::uint64_t version;
+  const void* samples;
+  double offset;
+  std::optional<double> ambient;
+  Interpolation interpolation;
+  Precision precision;
+  double tolerance; ///< of a source, as the next; else 0
+  std::size_t memory;
+
+  static MediumKey of(const Field& field, const Scene& scene);
+
+  auto tie() const
+  {
+    return std::tie(dimensions, origin, spacing, direction, version, samples, offset, ambient,
+      interpolation, precision, tolerance, memory);
+  }
+};
+
+/// A medium, and what has been made of it to trace rays.
+template <class Real>
+class MediumOnDevices
+{
+public:
+  explicit MediumOnDevices(Medium<Real> ofField)
+    : medium(std::move(ofField))
+  {
+  }
+
+  std::atomic<bool> isInUse{ false };
+  Medium<Real> medium;
+  std::int64_t changes = 0; ///< of its voxels
+
+  /// On the device, once rays have been traced there. Throws DeviceError.
+  CudaTracer<Real>& cudaTracer();
+  ProcessTracer<Real>& processTracer();
+  void leaveDevice() { cuda_.reset(); }
+
+  /// The map of cubes in which nu varies by no more than a tolerance.
+  const HomogeneityMap<Real>* mapFor(double tolerance, Interpolation interpolation, int threads);
+  double mapTolerance() const { return mapTolerance_; } ///< of the last map
+
+  /// Makes the voxels of a source that a view needs and that are not there. False where they do not fit. `isShared`: other
+  /// benches keep theirs.
+  bool refineFor(const Column& column, bool isShared, const Monitor& monitor);
+
+private:
+  std::unique_ptr<CudaTracer<Real>> cuda_;
+  std::unique_ptr<ProcessTracer<Real>> together_;
+  std::unique_ptr<HomogeneityMap<Real>> map_; ///< once something was to be skipped
+  double mapTolerance_ = 0;                   ///< of nu
+};
+
+/// The medium of a bench.
+template <class Real>
+struct MediumOfBench
+{
+  static constexpr std::int64_t noChange = -1;
+
+  std::shared_ptr<MediumOnDevices<Real>> shared;
+  std::int64_t changesSeen = noChange; ///< those that the bench's rays are of
+};
+
+class MediumCache
+{
+public:
+  /// `work`: counts the media that are made.
+  explicit MediumCache(Work& work)
+    : work_(work)
+  {
+  }
+
+  /// From the next medium on, it is one of these; null: of none.
+  void setMedia(std::shared_ptr<SharedMedia> media) { media_ = std::move(media); }
+
+  /// Whether the medium of a field is there.
+  bool holds(const Field& field, const Scene& scene) const;
+  /// The medium of a field. What was there before it is freed first: two media at once might not fit.
+  template <class Real>
+  MediumOfBench<Real>& mediumOf(const Field& field, const Scene& scene);
+  /// Replaces a medium by one for this bench alone. Where that fails there is none.
+  template <class Real>
+  void remake(MediumOfBench<Real>& current, const Field& field, const Scene& scene);
+
+  /// Gives the device's memory back.
+  void leaveDevice();
+
+private:
+  template <class Real>
+  std::shared_ptr<MediumOnDevices<Real>> make(const Field& field, const Scene& scene);
+
+  Work& work_;
+  std::shared_ptr<SharedMedia> media_; ///< may be null
+  std::optional<MediumKey> key_;
+  std::variant<std::monostate, MediumOfBench<float>, MediumOfBench<double>> medium_;
+};
+
+/// The medium of a field, in which its bench is at work as long as this is there. Where another bench is at work in it,
+/// one is made for this bench alone.
+template <class Real>
+class MediumInUse
+{
+public:
+  MediumInUse(MediumCache& cache, const Field& field, const Scene& scene);
+  ~MediumInUse() { release(); }
+  MediumInUse(const MediumInUse&) = delete;
+  MediumInUse& operator=(const MediumInUse&) = delete;
+
+  MediumOnDevices<Real>& onDevices() const { return *current_.shared; }
+  const Medium<Real>& medium() const { return onDevices().medium; }
+
+  /// Makes the voxels of a source that a view needs and that are not there.
+  void refine(const Column& column, const Monitor& monitor);
+
+  /// Whether the medium has changed since the last call.
+  bool seesChange();
+
+private:
+  bool acquire();
+  void release();
+  void useOwn();
+  bool refineOnce(const Column& column, const Monitor& monitor);
+
+  MediumCache& cache_;
+  const Field& field_;
+  const Scene& scene_;
+  MediumOfBench<Real>& current_;
+  bool isMine_ = false;
+};
+
+} // namespace schlieren

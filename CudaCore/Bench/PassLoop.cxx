@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bench/PassLoop.h"
+
+#include "Rays/Cpu/CpuTracer.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace schlieren
+{
+
+template <class Real>
+PassLoop<Real>::PassLoop(const RaysOfImage<Real>& ofImage, UnfinishedImage& request,
+  const Watch& watch, RayCache& rays, CutoffMaker& cutoffs, Processes* processes, Work& work)
+  : ofImage_(ofImage)
+  , request_(request)
+  , watch_(watch)
+  , rays_(rays)
+  , cutoffs_(cutoffs)
+  , processes_(processes)
+  , work_(work)
+{
+  const View& view = request.scene.view;
+  const std::int64_t around = rays.margin();
+  pass_ = { -around, -around, view.width + 2 * around, view.height + 2 * around, { 0, 0 } };
+}
+
+template <class Real>
+bool PassLoop<Real>::run()
+{
+  bool continues = completeUndisturbed(watch_.monitor());
+  while (continues && request_.image->passes() < request_.scene.samplesPerPixel)
+  {
+    // What has taken more than a call is shown before the next pass hides it.
+    if (watch_.mayPause() && request_.hasBeenSilent && request_.isNewImageThere())
+    {
+      break;
+    }
+    continues = addPass();
+    if (!continues || watch_.isPaused())
+    {
+      break;
+    }
+  }
+  return continues;
+}
+
+template <class Real>
+bool PassLoop<Real>::addPass()
+{
+  const Scene& scene = request_.scene;
+  ProgressiveImage& image = *request_.image;
+  const std::int64_t number = image.passes();
+  Monitor monitor = monitorOfPass(number);
+  aimPass(pass_, number, scene, ofImage_.task.light);
+  const double tracedBefore = request_.traceSeconds;
+  const TracedPass* traced = rays_.raysOf(number, pass_, request_.device,
+    request_.field.gradients.count, request_.keepsRays ? scene.memoryBudget : 0,
+    [&](TracedPass& place, bool isWantedOnHost) { return trace(place, isWantedOnHost, monitor); });
+  const bool hasTraced = request_.traceSeconds > tracedBefore;
+  if (traced == nullptr || watch_.isAborted() || (hasTraced && watch_.isPaused()))
+  {
+    return false;
+  }
+  request_.momentumDrift = std::max(request_.momentumDrift, traced->worstDrift);
+  const TracedRays rays{ pass_, traced->exits.data(), traced->gathered.data() };
+  rays_.request(*traced, rays, number, scene, ofImage_.errors);
+  if (!image.isBegun())
+  {
+    begin(rays);
+  }
+  monitor.progress = {};
+  return image.add(*traced, pass_, rays_.holds(*traced) ? Rays::Stay : Rays::Go, monitor) &&
+    completeUndisturbed(monitor);
+}
+
+template <class Real>
+Monitor PassLoop<Real>::monitorOfPass(std::int64_t number) const
+{
+  Monitor monitor = watch_.monitor();
+  if (monitor.progress)
+  {
+    monitor.progress = [this, number](double fraction)
+    {
+      const double done = (static_cast<double>(number) + fraction) / request_.scene.samplesPerPixel;
+      watch_.monitor().progress(request_.progressOfVoxels + (1 - request_.progressOfVoxels) * done);
+    };
+  }
+  return monitor;
+}
+
+template <class Real>
+bool PassLoop<Real>::completeUndisturbed(const Monitor& monitor)
+{
+  return !watch_.mayPause() || request_.image->completeUndisturbed(monitor);
+}
+
+template <class Real>
+void PassLoop<Real>::begin(const TracedRays& rays)
+{
+  const Scene& scene = request_.scene;
+  if (techniqueOf(scene.cutoff).hasK())
+  {
+    request_.kScale = scene.kScale
+      ? *scene.kScale
+      : automaticK(rays_.strongDeflection(), techniqueOf(scene.cutoff).fullScale);
+  }
+  const View& view = scene.view;
+  const std::int64_t margin = ofImage_.margin;
+  request_.image->begin(
+    { cutoffs_.cutoffOf(scene, request_.kScale, ofImage_.pixelSize), ofImage_.projection, margin,
+      (view.width + 2 * margin) * (view.height + 2 * margin) *
+        passesToHold(scene.samplesPerPixel) },
+    rays_.tintOf(rays, request_.field, scene));
+}
+
+template <class Real>
+bool PassLoop<Real>::trace(TracedPass& traced, bool isWantedOnHost, const Monitor& monitor)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const std::int64_t countedBefore = traced.tilesDone > 0 ? traced.crossed : 0;
+  const RayTask<Real>& task = ofImage_.task;
+  const int threads = request_.scene.threads;
+  bool isTraced = false;
+  if (request_.device == Device::Cuda)
+  {
+    isTraced = traceOnCuda(traced, isWantedOnHost, monitor);
+  }
+  else if (processes_)
+  {
+    isTraced = ofImage_.medium.processTracer().trace(
+      task, pass_, versions(), *processes_, traced, threads, monitor);
+  }
+  else
+  {
+    isTraced = traceOnCpu(task, pass_, traced, threads, monitor);
+  }
+  request_.traceSeconds +=
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (isTraced || request_.device == Device::Cpu)
+  {
+    work_.raysTraced += traced.crossed - countedBefore;
+  }
+  return isTraced;
+}
+
+template <class Real>
+bool PassLoop<Real>::traceOnCuda(TracedPass& traced, bool isWantedOnHost, const Monitor& monitor)
+{
+  using Exits = typename CudaTracer<Real>::Exits;
+  const Exits exits = isWantedOnHost ? Exits::OnHost : Exits::OnDevice;
+  CudaTracer<Real>& tracer = ofImage_.medium.cudaTracer();
+  return processes_ && ProcessTracer<Real>::haveCuda(*processes_)
+    ? ofImage_.medium.processTracer().traceOnCuda(
+        tracer, exits, ofImage_.task, pass_, versions(), *processes_, traced, monitor)
+    : tracer.trace(ofImage_.task, pass_, versions(), exits, traced, monitor);
+}
+
+template <class Real>
+TaskVersions PassLoop<Real>::versions() const
+{
+  return { request_.field.gradients.version, ofImage_.medium.mapTolerance() };
+}
+
+template class PassLoop<float>;
+template class PassLoop<double>;
+
+} // namespace schlieren

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Bench/CutoffMaker.h"
+#include "Bench/MediumCache.h"
+#include "Bench/RayCache.h"
+#include "Bench/UnfinishedImage.h"
+#include "Bench/Watch.h"
+#include "Optics/AutomaticK.h"
+#include "Rays/March/RayTask.h"
+#include "Schlieren.h"
+
+#include <cstdint>
+
+namespace schlieren
+{
+
+/// The rays of an image: what they are traced by, and where they start.
+template <class Real>
+struct RaysOfImage
+{
+  MediumOnDevices<Real>& medium;
+  RayTask<Real> task;
+  std::int64_t margin; ///< pixels around the image from which light may be bent into it
+  DeflectionErrors errors;
+  Projection projection; ///< of the film
+  double pixelSize;      ///< data units
+};
+
+/// Traces and exposes the passes of an image until all are on the film or the monitor stops it.
+template <class Real>
+class PassLoop
+{
+public:
+  /// All stay with their owner. `processes`: null where there are no others.
+  PassLoop(const RaysOfImage<Real>& ofImage, UnfinishedImage& request, const Watch& watch,
+    RayCache& rays, CutoffMaker& cutoffs, Processes* processes, Work& work);
+
+  /// False if aborted or paused before all of a pass was on the film.
+  bool run();
+
+private:
+  /// Adds the next pass. False if aborted or paused before all of it is on the film.
+  bool addPass();
+  Monitor monitorOfPass(std::int64_t number) const;
+  /// Makes what a camera sees without the flow have as many passes, where it may be shown before the end.
+  bool completeUndisturbed(const Monitor& monitor);
+  /// Makes the cutoff, by what the rays of the first pass have shown.
+  void begin(const TracedRays& rays);
+
+  /// Traces a pass, or resumes it. False if aborted or paused.
+  bool trace(TracedPass& traced, bool isWantedOnHost, const Monitor& monitor);
+  bool traceOnCuda(TracedPass& traced, bool isWantedOnHost, const Monitor& monitor);
+  TaskVersions versions() const;
+
+  const RaysOfImage<Real>& ofImage_;
+  UnfinishedImage& request_;
+  const Watch& watch_;
+  RayCache& rays_;
+  CutoffMaker& cutoffs_;
+  Processes* processes_;
+  Work& work_;
+  Pass pass_; ///< the next one
+};
+
+} // namespace schlieren

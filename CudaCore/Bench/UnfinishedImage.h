@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Bench/StageSettings.h"
+#include "Film/ProgressiveImage.h"
+#include "Rays/March/DisplacementBound.h"
+#include "Schlieren.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace schlieren
+{
+
+/// An image that has been requested, and as much of it as there is.
+struct UnfinishedImage
+{
+  UnfinishedImage(const Field& ofField, const Scene& ofScene)
+    : field(ofField)
+    , scene(ofScene)
+    , image(std::in_place, filmSettingsOf(ofScene))
+  {
+  }
+
+  const Field field;
+  const Scene scene;
+  Device device = Device::Cpu;
+  std::string deviceNote;
+  bool keepsRays = true;                 ///< as far as the budget of memory goes
+  std::optional<ProgressiveImage> image; ///< always there
+  std::optional<DisplacementBound> bound;
+  double kScale = 0;
+  double momentumDrift = 0;
+  double traceSeconds = 0;
+  double progressOfVoxels =
+    0;                    ///< of the image's progress, what making the medium's voxels has taken
+  std::int64_t shown = 0; ///< passes of the last image that was handed out
+  bool hasBeenSilent = false; ///< the last call handed none out
+
+  /// Discards the passes of a medium that has changed since.
+  void beginAnew()
+  {
+    image.emplace(filmSettingsOf(scene));
+    bound.reset();
+    shown = 0;
+  }
+
+  /// Whether there is an image that has not been handed out.
+  bool isNewImageThere() const { return image->isWhole() && image->passes() > shown; }
+};
+
+} // namespace schlieren
