@@ -238,13 +238,38 @@ private:
   std::vector<unsigned char> Near;      // likewise, of gas near to where it ends
 };
 
+/// Samples a source at the points of a grid: calls set(point, refractivity, place) for all of them, from several threads.
+/// `walls`: may be null.
+template <class Set>
+void sampleAt(const LatticeOfGrid& points, const schlieren::MediumSource& source,
+  const WorkProgress& progress, WallsOfGrid* walls, const Set& set)
+{
+  points.forParts(progress,
+    [&](const schlieren::Lattice& part, vtkIdType begin)
+    {
+      const auto size = static_cast<std::size_t>(part.size());
+      std::vector<double> refractivity(size);
+      std::vector<schlieren::Place> places(size);
+      std::vector<float> distances(walls ? size : 0);
+      source.sample(part, refractivity.data(), places.data(), walls ? distances.data() : nullptr);
+      points.forPoints(part, begin,
+        [&](std::size_t i, vtkIdType at)
+        {
+          set(at, refractivity[i], places[i]);
+          if (walls)
+          {
+            walls->set(at, places[i], part, i, distances);
+          }
+        });
+    });
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
 void fillGrid(const schlieren::MediumSource& source, Numbers numbers, bool thinSurfaces,
   const WorkProgress& progress, vtkImageData* grid)
 {
-  const LatticeOfGrid points(source, grid);
   const vtkIdType count = grid->GetNumberOfPoints();
   vtkNew<vtkDoubleArray> values;
   setTuples(values, count);
@@ -256,26 +281,12 @@ void fillGrid(const schlieren::MediumSource& source, Numbers numbers, bool thinS
   {
     walls.emplace(source, grid);
   }
-  points.forParts(progress,
-    [&](const schlieren::Lattice& part, vtkIdType begin)
+  sampleAt(LatticeOfGrid(source, grid), source, progress, walls ? &*walls : nullptr,
+    [&](vtkIdType at, double refractivity, schlieren::Place place)
     {
-      const auto size = static_cast<std::size_t>(part.size());
-      std::vector<double> sampled(size);
-      std::vector<schlieren::Place> places(size);
-      std::vector<float> distances(thinSurfaces ? size : 0);
-      source.sample(
-        part, sampled.data(), places.data(), distances.empty() ? nullptr : distances.data());
-      points.forPoints(part, begin,
-        [&](std::size_t i, vtkIdType at)
-        {
-          values->SetValue(at, sampled[i]);
-          valid->SetValue(at, places[i] == schlieren::Place::Gas ? 1 : 0);
-          outside->SetValue(at, places[i] == schlieren::Place::Window ? 1 : 0);
-          if (walls)
-          {
-            walls->set(at, places[i], part, i, distances);
-          }
-        });
+      values->SetValue(at, refractivity);
+      valid->SetValue(at, place == schlieren::Place::Gas ? 1 : 0);
+      outside->SetValue(at, place == schlieren::Place::Window ? 1 : 0);
     });
   if (walls)
   {
@@ -323,19 +334,9 @@ std::vector<float> fieldsAtGrid(
 bool maskWalls(
   const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* image)
 {
-  const LatticeOfGrid points(source, image);
   WallsOfGrid walls(source, image);
-  points.forParts(progress,
-    [&](const schlieren::Lattice& part, vtkIdType begin)
-    {
-      const auto size = static_cast<std::size_t>(part.size());
-      std::vector<double> refractivity(size);
-      std::vector<schlieren::Place> places(size);
-      std::vector<float> distances(size);
-      source.sample(part, refractivity.data(), places.data(), distances.data());
-      points.forPoints(part, begin,
-        [&](std::size_t i, vtkIdType at) { walls.set(at, places[i], part, i, distances); });
-    });
+  sampleAt(LatticeOfGrid(source, image), source, progress, &walls,
+    [](vtkIdType, double, schlieren::Place) {});
   bool isAny = false;
   vtkPointData* arrays = image->GetPointData();
   for (vtkIdType at = 0; at < image->GetNumberOfPoints(); ++at)

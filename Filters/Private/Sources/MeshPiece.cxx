@@ -84,7 +84,6 @@ void MeshPiece::putBoundary(std::int64_t cellsOfAll, std::vector<char>& message)
   putAll(faces.starts, message);
   putAll(faces.owners, message);
   putAll(faces.states, message);
-  putAll(faces.hidesBehind, message);
   putAll(faces.areParts, message);
   this->putBoundaryValues(message);
 }

@@ -41,7 +41,6 @@ void BoundaryOfMeshes::add(Reader& reader)
   more.starts = reader.GetAll<std::vector<std::size_t>>();
   more.owners = reader.GetAll<std::vector<Point>>();
   more.states = reader.GetAll<std::vector<State>>();
-  more.hidesBehind = reader.GetAll<std::vector<unsigned char>>();
   more.areParts = reader.GetAll<std::vector<unsigned char>>();
   const auto firstPoint = static_cast<std::int32_t>(faces.points.size());
   const std::size_t firstCorner = faces.corners.size();
@@ -61,8 +60,6 @@ void BoundaryOfMeshes::add(Reader& reader)
   }
   faces.owners.insert(faces.owners.end(), more.owners.begin(), more.owners.end());
   faces.states.insert(faces.states.end(), more.states.begin(), more.states.end());
-  faces.hidesBehind.insert(
-    faces.hidesBehind.end(), more.hidesBehind.begin(), more.hidesBehind.end());
   faces.areParts.insert(faces.areParts.end(), more.areParts.begin(), more.areParts.end());
 }
 

@@ -48,8 +48,7 @@ Faces withoutSidesAcrossZ(const Faces& all)
     if (std::any_of(begin, end, [&](std::int32_t corner) { return zOf(corner) != zOf(*begin); }))
     {
       faces.corners.insert(faces.corners.end(), begin, end);
-      faces.finish(
-        all.owners[face], all.states[face], all.hidesBehind[face] != 0, all.areParts[face] != 0);
+      faces.finish(all.owners[face], all.states[face], all.areParts[face] != 0);
     }
   }
   return faces;
@@ -203,7 +202,6 @@ std::vector<Kept> withoutPairs(const Faces& faces, double rounding, std::vector<
     const Point outward = sidesOf(faces, first->face, rounding).outward;
     bool isVisible[2] = { false, false }, isHidden[2] = { false, false };
     std::size_t owner[2] = { 0, 0 };
-    bool hides = false;
     for (; first != end; ++first)
     {
       const Sides sides = sidesOf(faces, first->face, rounding);
@@ -212,7 +210,6 @@ std::vector<Kept> withoutPairs(const Faces& faces, double rounding, std::vector<
       {
         isVisible[side] = true;
         owner[side] = first->face;
-        hides = hides || faces.hidesBehind[first->face];
       }
       else
       {
@@ -222,7 +219,7 @@ std::vector<Kept> withoutPairs(const Faces& faces, double rounding, std::vector<
     if (isVisible[0] != isVisible[1])
     {
       const int side = isVisible[0] ? 0 : 1;
-      kept.push_back(keptOf(faces, owner[side], rounding, hides || isHidden[1 - side]));
+      kept.push_back(keptOf(faces, owner[side], rounding, isHidden[1 - side]));
     }
     else if (isVisible[0])
     {

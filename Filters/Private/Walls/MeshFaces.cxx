@@ -3,13 +3,14 @@
 #include "Walls/MeshFaces.h"
 
 #include "Common/CellTypes.h"
+#include "Input/CoincidentPoints.h"
 #include "Input/FlatData.h"
 #include "Input/RefractivityValues.h"
-#include "Walls/CurvedFaces.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkExtractCells.h"
+#include "vtkGenericCell.h"
 #include "vtkGeometryFilter.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
@@ -23,8 +24,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 namespace filters
@@ -61,9 +65,16 @@ std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress
   return states;
 }
 
-/// `is3d`: whether all cells are 3-D. (VTK says that hidden ones of structured data have no dimension.)
-std::vector<State> statesOf(vtkDataSet* data, bool is3d, const WorkProgress& progress)
+/// Whether all cells are boxes of a 3-D grid.
+bool isStructured(vtkDataSet* data)
 {
+  const std::array<int, 3> points = structureOf(data);
+  return std::min({ points[0], points[1], points[2] }) > 1;
+}
+
+std::vector<State> statesOf(vtkDataSet* data, const WorkProgress& progress)
+{
+  const bool is3d = isStructured(data); // VTK says that hidden cells of such have no dimension
   const std::vector<State> ofPoints = statesOfPoints(data, progress.part(0, 0.3));
   std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfCells()));
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
@@ -90,99 +101,21 @@ std::vector<State> statesOf(vtkDataSet* data, bool is3d, const WorkProgress& pro
   return states;
 }
 
-/// Whose faces are not wanted.
-class LeftOut
+/// The mean of its points.
+Point middleOf(vtkDataSet* data, vtkIdType cell)
 {
-public:
-  LeftOut(vtkDataSet* data, Copies copies)
-    : Ghosts(copies == Copies::Neighbours ? data->GetCellGhostArray() : nullptr)
+  vtkNew<vtkIdList> ids;
+  data->GetCellPoints(cell, ids);
+  Point middle{ 0, 0, 0 };
+  for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
   {
+    Point x;
+    data->GetPoint(ids->GetId(i), x.data());
+    middle = middle + (1. / static_cast<double>(ids->GetNumberOfIds())) * x;
   }
-  bool operator()(vtkIdType cell) const
-  {
-    return this->Ghosts &&
-      (this->Ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0;
-  }
-
-private:
-  vtkUnsignedCharArray* Ghosts;
-};
-
-void addStructured(vtkDataSet* data, std::uint32_t leaf, const std::array<int, 3>& dimensions,
-  Copies copies, const WorkProgress& progress, Faces& faces)
-{
-  const LeftOut isLeftOut(data, copies);
-  const std::vector<State> states = statesOf(data, true, progress);
-  const bool areAllVisible =
-    std::all_of(states.begin(), states.end(), [](State state) { return state == State::Visible; });
-  const std::array<vtkIdType, 3> points = { dimensions[0], dimensions[1], dimensions[2] };
-  const std::array<vtkIdType, 3> cells = { points[0] - 1, points[1] - 1, points[2] - 1 };
-  const std::array<vtkIdType, 3> pointStep = { 1, points[0], points[0] * points[1] };
-  const std::array<vtkIdType, 3> cellStep = { 1, cells[0], cells[0] * cells[1] };
-  std::vector<std::int32_t> numbers(static_cast<std::size_t>(data->GetNumberOfPoints()), -1);
-  const auto number = [&](vtkIdType id)
-  {
-    std::int32_t& known = numbers[static_cast<std::size_t>(id)];
-    if (known < 0)
-    {
-      Point x;
-      data->GetPoint(id, x.data());
-      faces.contributions.push_back({ leaf, id, 1 });
-      known = faces.addPoint(x);
-    }
-    return known;
-  };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const auto add =
-      [&](vtkIdType low, vtkIdType i, vtkIdType j, bool ownsLow, State state, bool hides)
-    {
-      const vtkIdType first = low * pointStep[axis] + i * pointStep[u] + j * pointStep[v];
-      for (const vtkIdType id :
-        { first, first + pointStep[u], first + pointStep[u] + pointStep[v], first + pointStep[v] })
-      {
-        faces.corners.push_back(number(id));
-      }
-      Point owner{ 0, 0, 0 };
-      const vtkIdType corner = first - (ownsLow ? pointStep[axis] : 0);
-      for (vtkIdType part = 0; part < 8; ++part)
-      {
-        Point x;
-        data->GetPoint(corner + (part & 1) * pointStep[0] + (part >> 1 & 1) * pointStep[1] +
-            (part >> 2) * pointStep[2],
-          x.data());
-        owner = owner + 0.125 * x;
-      }
-      faces.finish(owner, state, hides);
-    };
-    const vtkIdType step = areAllVisible ? cells[axis] : 1; // nothing happens in between
-    for (vtkIdType at = 0; at <= cells[axis]; at += step)
-    {
-      for (vtkIdType j = 0; j < cells[v]; ++j)
-      {
-        for (vtkIdType i = 0; i < cells[u]; ++i)
-        {
-          const vtkIdType cell = at * cellStep[axis] + i * cellStep[u] + j * cellStep[v];
-          const State low =
-            at > 0 ? states[static_cast<std::size_t>(cell - cellStep[axis])] : State::None;
-          const State high =
-            at < cells[axis] ? states[static_cast<std::size_t>(cell)] : State::None;
-          if (low != high)
-          {
-            const bool ownsLow = low > high; // what is visible owns the face, else what is there
-            if (!isLeftOut(ownsLow ? cell - cellStep[axis] : cell))
-            {
-              add(at, i, j, ownsLow, std::max(low, high), std::min(low, high) == State::Hidden);
-            }
-          }
-        }
-      }
-    }
-  }
+  return middle;
 }
 
-/// An array of the numbers of points or cells.
 vtkSmartPointer<vtkIdTypeArray> numbersOf(vtkIdType count, const char* name)
 {
   auto numbers = vtkSmartPointer<vtkIdTypeArray>::New();
@@ -190,6 +123,39 @@ vtkSmartPointer<vtkIdTypeArray> numbersOf(vtkIdType count, const char* name)
   numbers->SetNumberOfValues(count);
   std::iota(numbers->GetPointer(0), numbers->GetPointer(0) + count, vtkIdType{ 0 });
   return numbers;
+}
+
+/// The surface of these cells, which are not curved, with the numbers of its cells and points in the dataset.
+vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataSet* data, const std::vector<vtkIdType>& chosen)
+{
+  auto cells = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+  cells->CopyStructure(data);
+  cells->GetPointData()->Initialize();
+  cells->GetCellData()->Initialize();
+  vtkNew<vtkGeometryFilter> surface;
+  surface->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  surface->SetOriginalCellIdsName(ownersName);
+  surface->SetOriginalPointIdsName(originsName);
+  if (chosen.size() == static_cast<std::size_t>(cells->GetNumberOfCells()))
+  {
+    surface->PassThroughCellIdsOn();
+    surface->PassThroughPointIdsOn();
+    surface->SetInputData(cells);
+  }
+  else
+  {
+    // Of data with hidden cells, vtkGeometryFilter (9.2) lacks the faces towards these, and overruns arrays where they are
+    // structured.
+    cells->GetPointData()->AddArray(numbersOf(data->GetNumberOfPoints(), originsName));
+    cells->GetCellData()->AddArray(numbersOf(data->GetNumberOfCells(), ownersName));
+    vtkNew<vtkExtractCells> extract;
+    extract->SetInputData(cells);
+    extract->SetCellIds(chosen.data(), static_cast<vtkIdType>(chosen.size()));
+    extract->AssumeSortedAndUniqueIdsOn();
+    surface->SetInputConnection(extract->GetOutputPort());
+  }
+  surface->Update();
+  return surface->GetOutput();
 }
 
 /// Faces by their cells and points. VTK finds them with several threads, in another order each time.
@@ -220,33 +186,11 @@ std::vector<vtkIdType> orderOf(
   return order;
 }
 
-/// The surface of these cells, which are not curved.
+template <class IsLeftOut>
 void addPlainCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkIdType>& chosen,
-  State state, const LeftOut& isLeftOut, Faces& faces)
+  State state, const IsLeftOut& isLeftOut, Faces& faces)
 {
-  auto cells = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
-  cells->CopyStructure(data);
-  cells->GetPointData()->AddArray(numbersOf(data->GetNumberOfPoints(), originsName));
-  cells->GetCellData()->AddArray(numbersOf(data->GetNumberOfCells(), ownersName));
-  vtkNew<vtkGeometryFilter> surface;
-  if (cells->IsA("vtkUnstructuredGrid") &&
-    chosen.size() == static_cast<std::size_t>(cells->GetNumberOfCells()))
-  {
-    surface->SetInputData(cells);
-  }
-  else
-  {
-    vtkNew<vtkIdList> list;
-    list->SetNumberOfIds(static_cast<vtkIdType>(chosen.size()));
-    std::copy(chosen.begin(), chosen.end(), list->GetPointer(0));
-    vtkNew<vtkExtractCells> extract;
-    extract->SetInputData(cells);
-    extract->SetCellList(list);
-    surface->SetInputConnection(extract->GetOutputPort());
-  }
-  surface->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  surface->Update();
-  vtkPolyData* polygons = surface->GetOutput();
+  const vtkSmartPointer<vtkPolyData> polygons = surfaceOf(data, chosen);
   auto* owners =
     vtkIdTypeArray::SafeDownCast(polygons->GetCellData()->GetAbstractArray(ownersName));
   auto* origins =
@@ -273,21 +217,231 @@ void addPlainCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkId
       }
       faces.corners.push_back(number);
     }
-    Point owner{ 0, 0, 0 };
-    data->GetCellPoints(owners->GetValue(face), ids);
-    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
-    {
-      Point x;
-      data->GetPoint(ids->GetId(i), x.data());
-      owner = owner + (1. / static_cast<double>(ids->GetNumberOfIds())) * x;
-    }
-    faces.finish(owner, state, false);
+    faces.finish(middleOf(data, owners->GetValue(face)), state);
   }
 }
 
+constexpr int divisions = 4; // of an edge of a curved cell
+
+/// Of a face; its corners and more, in any order.
+using Key = std::array<vtkIdType, 5>;
+
+struct CurvedFace
+{
+  vtkIdType cell;
+  int number;  // in the cell
+  Key corners; // points of the leaf; -1: no further ones
+};
+
+/// The faces of curved cells, and places on them.
+class CellFaces
+{
+public:
+  explicit CellFaces(vtkDataSet* data)
+    : Data(data)
+  {
+  }
+
+  void addTo(vtkIdType cell, std::vector<CurvedFace>& faces)
+  {
+    this->select(cell);
+    for (int number = 0; number < this->Cell->GetNumberOfFaces(); ++number)
+    {
+      vtkCell* face = this->Cell->GetFace(number);
+      CurvedFace curved{ cell, number, { -1, -1, -1, -1, -1 } };
+      for (int i = 0; i < std::min(4, face->GetNumberOfEdges()); ++i)
+      {
+        curved.corners[static_cast<std::size_t>(i)] = face->GetPointId(i);
+      }
+      faces.push_back(curved);
+    }
+  }
+  vtkCell* face(const CurvedFace& curved)
+  {
+    this->select(curved.cell);
+    return this->Cell->GetFace(curved.number);
+  }
+  Point place(vtkCell* face, double r, double s)
+  {
+    const double parametric[3] = { r, s, 0 };
+    this->Weights.resize(static_cast<std::size_t>(face->GetNumberOfPoints()));
+    face->InterpolateFunctions(parametric, this->Weights.data());
+    Point place{ 0, 0, 0 };
+    for (std::size_t i = 0; i < this->Weights.size(); ++i)
+    {
+      Point x;
+      this->Data->GetPoint(face->GetPointId(static_cast<int>(i)), x.data());
+      place = place + this->Weights[i] * x;
+    }
+    return place;
+  }
+  /// Of the points of the face at the last place.
+  const std::vector<double>& weights() const { return this->Weights; }
+
+private:
+  void select(vtkIdType cell)
+  {
+    if (this->Number != cell)
+    {
+      this->Data->GetCell(cell, this->Cell);
+      this->Number = cell;
+    }
+  }
+
+  vtkDataSet* Data;
+  vtkNew<vtkGenericCell> Cell;
+  vtkIdType Number = -1;
+  std::vector<double> Weights;
+};
+
+/// Takes away the faces that two cells have: those with the same key.
+void removePairs(const std::vector<Key>& keysOfFaces, std::vector<CurvedFace>& faces)
+{
+  std::vector<std::pair<Key, std::size_t>> keys;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    keys.emplace_back(keysOfFaces[i], i);
+    std::sort(keys.back().first.begin(), keys.back().first.end());
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<CurvedFace> left;
+  for (auto first = keys.begin(); first != keys.end();)
+  {
+    const auto end =
+      std::find_if(first, keys.end(), [&](const auto& key) { return key.first != first->first; });
+    if (end - first != 2)
+    {
+      std::for_each(first, end, [&](const auto& key) { left.push_back(faces[key.second]); });
+    }
+    first = end;
+  }
+  faces = std::move(left);
+}
+
+/// Which places the corners and the middle of each face are: the same where points are there twice.
+std::vector<Key> placesOf(vtkDataSet* data, CellFaces& cells, const std::vector<CurvedFace>& faces)
+{
+  std::vector<Point> points;
+  std::vector<double> edges; // the smallest at each
+  const auto add = [&](const Point& place)
+  {
+    points.push_back(place);
+    edges.push_back(std::numeric_limits<double>::infinity());
+    return static_cast<vtkIdType>(points.size() - 1);
+  };
+  std::unordered_map<vtkIdType, vtkIdType> numbers;
+  std::vector<Key> keys;
+  for (const CurvedFace& face : faces)
+  {
+    Key& key = keys.emplace_back(face.corners);
+    const std::size_t count = face.corners[3] < 0 ? 3 : 4;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const auto [found, isNew] = numbers.emplace(face.corners[i], 0);
+      if (isNew)
+      {
+        Point x;
+        data->GetPoint(face.corners[i], x.data());
+        found->second = add(x);
+      }
+      key[i] = found->second;
+    }
+    const double at = count == 3 ? 1. / 3 : 0.5;
+    key[4] = add(cells.place(cells.face(face), at, at));
+    const auto placeOf = [](vtkIdType point) { return static_cast<std::size_t>(point); };
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::size_t one = placeOf(key[i]), other = placeOf(key[(i + 1) % count]);
+      const double edge = norm(points[one] - points[other]);
+      for (const std::size_t end : { one, other, placeOf(key[4]) })
+      {
+        edges[end] = edge > 0 ? std::min(edges[end], edge) : edges[end];
+      }
+    }
+  }
+  const std::vector<std::int32_t> merged =
+    coincidentPoints(points, mergingTolerances(points, edges, relativeRounding(points)));
+  for (Key& key : keys)
+  {
+    for (vtkIdType& point : key)
+    {
+      point = point < 0 ? point : merged[static_cast<std::size_t>(point)];
+    }
+  }
+  return keys;
+}
+
+/// The faces that only one of these cells has, which are curved, divided into parts.
+template <class IsLeftOut>
+void addCurvedCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkIdType>& chosen,
+  State state, const IsLeftOut& isLeftOut, Faces& faces)
+{
+  CellFaces cells(data);
+  std::vector<CurvedFace> curved;
+  for (const vtkIdType cell : chosen)
+  {
+    cells.addTo(cell, curved);
+  }
+  std::vector<Key> keys;
+  std::transform(curved.begin(), curved.end(), std::back_inserter(keys),
+    [](const CurvedFace& face) { return face.corners; });
+  removePairs(keys, curved);
+  removePairs(placesOf(data, cells, curved), curved);
+
+  for (const CurvedFace& one : curved)
+  {
+    if (isLeftOut(one.cell))
+    {
+      continue;
+    }
+    const Point owner = middleOf(data, one.cell);
+    vtkCell* face = cells.face(one);
+    const bool isTriangle = one.corners[3] < 0;
+    // Row by row; those of triangles become shorter.
+    std::array<std::array<std::int32_t, divisions + 1>, divisions + 1> numbers;
+    for (std::size_t j = 0; j <= divisions; ++j)
+    {
+      for (std::size_t i = 0; i + (isTriangle ? j : 0) <= divisions; ++i)
+      {
+        const Point x =
+          cells.place(face, static_cast<double>(i) / divisions, static_cast<double>(j) / divisions);
+        for (std::size_t k = 0; k < cells.weights().size(); ++k)
+        {
+          if (cells.weights()[k] != 0)
+          {
+            faces.contributions.push_back(
+              { leaf, face->GetPointId(static_cast<int>(k)), cells.weights()[k] });
+          }
+        }
+        numbers[j][i] = faces.addPoint(x);
+      }
+    }
+    const auto add = [&](std::initializer_list<std::int32_t> corners)
+    {
+      faces.corners.insert(faces.corners.end(), corners);
+      faces.finish(owner, state, true);
+    };
+    for (std::size_t j = 0; j < divisions; ++j)
+    {
+      for (std::size_t i = 0; i + (isTriangle ? j : 0) < divisions; ++i)
+      {
+        if (!isTriangle)
+        {
+          add({ numbers[j][i], numbers[j][i + 1], numbers[j + 1][i + 1], numbers[j + 1][i] });
+          continue;
+        }
+        add({ numbers[j][i], numbers[j][i + 1], numbers[j + 1][i] });
+        if (i + j + 1 < divisions)
+        {
+          add({ numbers[j][i + 1], numbers[j + 1][i + 1], numbers[j + 1][i] });
+        }
+      }
+    }
+  }
+}
 /// The surface of the cells of one state.
-void addUnstructured(vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states,
-  State state, Copies copies, Faces& faces)
+void addCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states, State state,
+  Copies copies, Faces& faces)
 {
   std::vector<vtkIdType> plain, curved;
   for (std::size_t i = 0; i < states.size(); ++i)
@@ -296,18 +450,19 @@ void addUnstructured(vtkDataSet* data, std::uint32_t leaf, const std::vector<Sta
     {
       const auto cell = static_cast<vtkIdType>(i);
       const auto type = static_cast<unsigned char>(data->GetCellType(cell));
-      (vtkCellTypeUtilities::IsLinear(type) ? plain : curved).push_back(cell);
+      (isStructured(data) || vtkCellTypeUtilities::IsLinear(type) ? plain : curved).push_back(cell);
     }
   }
-  const LeftOut isLeftOut(data, copies);
+  vtkUnsignedCharArray* ghosts = copies == Copies::Neighbours ? data->GetCellGhostArray() : nullptr;
+  const auto isLeftOut = [ghosts](vtkIdType cell)
+  { return ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0; };
   if (!plain.empty())
   {
     addPlainCells(data, leaf, plain, state, isLeftOut, faces);
   }
   if (!curved.empty())
   {
-    addCurvedCells(
-      data, leaf, curved, state, [&](vtkIdType cell) { return !isLeftOut(cell); }, faces);
+    addCurvedCells(data, leaf, curved, state, isLeftOut, faces);
   }
 }
 
@@ -321,18 +476,10 @@ Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progre
     const auto count = static_cast<double>(leaves.size());
     const WorkProgress ofLeaf = progress.part(number / count, (number + 1) / count);
     vtkDataSet* leaf = leaves[number];
-    const std::array<int, 3> structure = structureOf(leaf);
-    if (std::min({ structure[0], structure[1], structure[2] }) > 1)
-    {
-      addStructured(leaf, number, structure, copies, ofLeaf, faces);
-    }
-    else
-    {
-      const std::vector<State> states = statesOf(leaf, false, ofLeaf.part(0, 0.3));
-      addUnstructured(leaf, number, states, State::Visible, copies, faces);
-      ofLeaf.reach(0.9);
-      addUnstructured(leaf, number, states, State::Hidden, copies, faces);
-    }
+    const std::vector<State> states = statesOf(leaf, ofLeaf.part(0, 0.3));
+    addCells(leaf, number, states, State::Visible, copies, faces);
+    ofLeaf.reach(0.9);
+    addCells(leaf, number, states, State::Hidden, copies, faces);
   }
   return faces;
 }

@@ -41,12 +41,11 @@ struct Faces
   std::vector<Point> points;
   std::vector<std::size_t> firstContributions{ 0 }; // of each point's value, and the end
   std::vector<Contribution> contributions;
-  std::vector<std::int32_t> corners;      // of all faces, one after the other
-  std::vector<std::size_t> starts{ 0 };   // and the end
-  std::vector<Point> owners;              // the middle of the cell
-  std::vector<State> states;              // of the cell
-  std::vector<unsigned char> hidesBehind; // known from within the leaf
-  std::vector<unsigned char> areParts;    // of the face of a curved cell
+  std::vector<std::int32_t> corners;    // of all faces, one after the other
+  std::vector<std::size_t> starts{ 0 }; // and the end
+  std::vector<Point> owners;            // the middle of the cell
+  std::vector<State> states;            // of the cell
+  std::vector<unsigned char> areParts;  // of the face of a curved cell
 
   std::size_t size() const { return this->owners.size(); }
   /// Its contributions have been added.
@@ -57,18 +56,18 @@ struct Faces
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
   /// The face whose corners have been added.
-  void finish(const Point& owner, State state, bool hides, bool isPart = false)
+  void finish(const Point& owner, State state, bool isPart = false)
   {
     this->starts.push_back(this->corners.size());
     this->owners.push_back(owner);
     this->states.push_back(state);
-    this->hidesBehind.push_back(hides ? 1 : 0);
     this->areParts.push_back(isPart ? 1 : 0);
   }
 };
 
 /// The surface of the visible cells of each leaf, and of the hidden ones. See boundaryOf(). With Copies::Neighbours, that
-/// part of it which belongs to cells that are no copies.
+/// part of it which belongs to cells that are no copies. Faces of curved cells come in parts; they are one if their
+/// corners and middles are the same places, also where the points are there twice, as those of discontinuous solutions are.
 Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress,
   Copies copies = Copies::Used);
 
