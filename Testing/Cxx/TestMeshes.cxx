@@ -188,21 +188,21 @@ void cubicHexahedron(vtkUnstructuredGrid* grid, const Point& p)
 vtkSmartPointer<vtkDataObject> tetrahedra()
 {
   vtkNew<vtkDataSetTriangleFilter> filter;
-  filter->SetInputData(meshOf(384, 1, hexahedron));
+  filter->SetInputData(meshOf(192, 1, hexahedron));
   filter->Update();
   return filter->GetOutput();
 }
 
-vtkSmartPointer<vtkDataObject> structured(int first = 0, int last = 384)
+vtkSmartPointer<vtkDataObject> structured(int first = 0, int last = 192)
 {
-  auto hexahedra = meshOf(384, 1, hexahedron);
+  auto hexahedra = meshOf(192, 1, hexahedron);
   auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
-  grid->SetDimensions(last - first + 1, 2, 385);
+  grid->SetDimensions(last - first + 1, 2, 193);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (vtkIdType i = 0; i < hexahedra->GetNumberOfPoints(); ++i)
   {
-    const vtkIdType column = i % 385;
+    const vtkIdType column = i % 193;
     if (column >= first && column <= last)
     {
       points->InsertNextPoint(hexahedra->GetPoint(i));
@@ -216,11 +216,11 @@ vtkSmartPointer<vtkDataObject> structured(int first = 0, int last = 384)
 vtkSmartPointer<vtkRectilinearGrid> rectilinearGrid(double offset = 0, double scale = 1)
 {
   auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
-  grid->SetDimensions(385, 2, 385);
+  grid->SetDimensions(193, 2, 193);
   vtkNew<vtkDoubleArray> across, along;
-  for (int i = 0; i <= 384; ++i)
+  for (int i = 0; i <= 192; ++i)
   {
-    across->InsertNextValue(offset + scale * coordinate(i, 384));
+    across->InsertNextValue(offset + scale * coordinate(i, 192));
   }
   for (int i = 0; i <= 1; ++i)
   {
@@ -241,9 +241,9 @@ vtkSmartPointer<vtkRectilinearGrid> rectilinearGrid(double offset = 0, double sc
 vtkSmartPointer<vtkDataObject> collection()
 {
   auto blocks = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
-  blocks->SetPartition(0, 0, structured(0, 160));
-  blocks->SetPartition(0, 1, structured(160, 240));
-  blocks->SetPartition(1, 0, structured(240, 384));
+  blocks->SetPartition(0, 0, structured(0, 80));
+  blocks->SetPartition(0, 1, structured(80, 120));
+  blocks->SetPartition(1, 0, structured(120, 192));
   return blocks;
 }
 
@@ -265,21 +265,21 @@ TEST_P(Meshes, DeflectionMatchesTheClosedForm)
   filter->FaceFlatDataOff(); // some are one cell thick
   filter->SetImageSize(64, 4);
   filter->SetParallelScale(0.9 * 4 / 64);
-  filter->SetSamplingDimensions(161, 5, 161);
+  filter->SetSamplingDimensions(81, 5, 81);
   filter->Update();
   const ColumnErrors errors = compareWithColumn(filter, GaussianColumn());
-  EXPECT_LT(errors.deflection, 1e-3);
-  EXPECT_LT(errors.opticalPath, 1e-3);
+  EXPECT_LT(errors.deflection, 4e-3);
+  EXPECT_LT(errors.opticalPath, 4e-3);
   EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Inputs, Meshes,
-  testing::Values(Mesh{ "Hexahedra", [] { return meshOf(384, 1, hexahedron); } },
-    Mesh{ "Tetrahedra", tetrahedra }, Mesh{ "Wedges", [] { return meshOf(384, 1, wedges); } },
-    Mesh{ "Pyramids", [] { return meshOf(384, 1, pyramids); } },
-    Mesh{ "Polyhedra", [] { return meshOf(384, 1, polyhedron); } },
-    Mesh{ "QuadraticHexahedra", [] { return meshOf(192, 2, quadraticHexahedron); } },
-    Mesh{ "QuadraticTetrahedra", [] { return meshOf(128, 2, quadraticTetrahedra); } },
+  testing::Values(Mesh{ "Hexahedra", [] { return meshOf(192, 1, hexahedron); } },
+    Mesh{ "Tetrahedra", tetrahedra }, Mesh{ "Wedges", [] { return meshOf(192, 1, wedges); } },
+    Mesh{ "Pyramids", [] { return meshOf(192, 1, pyramids); } },
+    Mesh{ "Polyhedra", [] { return meshOf(192, 1, polyhedron); } },
+    Mesh{ "QuadraticHexahedra", [] { return meshOf(96, 2, quadraticHexahedron); } },
+    Mesh{ "QuadraticTetrahedra", [] { return meshOf(64, 2, quadraticTetrahedra); } },
     Mesh{ "CubicHexahedra", [] { return meshOf(60, 3, cubicHexahedron); } },
     Mesh{ "Structured", [] { return structured(); } },
     Mesh{ "Rectilinear", [] { return rectilinearGrid(); } }, Mesh{ "Collection", collection }),

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A colour filter loaded from a PNG in the properties panel, or painted: shown, applied, undone, cleared
-and kept."""
+"""A colour filter loaded from a PNG in the properties panel: shown, applied, undone, cleared and kept."""
 
 import base64
 import os
@@ -78,15 +77,6 @@ check("the colour wheel", False)
 user.apply()
 user.save_state("cleared.pvsm")
 
-# A stroke of the brush, in the middle of the wheel: the colour of light that nothing deflects.
-user.event(f"{PROPERTIES}/{WIDGET}/Brush", "setChosenColor", "10,200,30")
-for event, buttons, x in (("mousePress", "1,1", 111), ("mouseMove", "0,1", 115),
-                          ("mouseRelease", "1,0", 115)):
-    user.event(f"{PROPERTIES}/{WIDGET}/Preview", event, f"{buttons},0,{x},112")
-check("painted: 256 x 256 pixels", True)
-user.apply()
-user.save_state("painted.pvsm")
-
 user.choose("Cutoff/ComboBox", "Background Oriented")
 user.choose("BackgroundPattern/ComboBox", "Picture")
 user.check("BackgroundImage/Note", "text", "no image")
@@ -160,16 +150,6 @@ for state in ("loaded", "kept"):
 bench = bench_of("cleared")
 assert bench.ColorFilterImage == ""
 assert np.array_equal(image_array(bench, "Color"), wheel)
-
-bench = bench_of("painted")
-filter_ = decoded(bench.ColorFilterImage).astype(int)
-assert filter_.shape == (256, 256, 3) and (filter_[128, 128] == (10, 200, 30)).all()
-assert 100 < (filter_ == (10, 200, 30)).all(axis=2).sum() < 2000
-right, up, left = filter_[128, 250], filter_[250, 128], filter_[128, 6]
-assert right[0] > 250 > 60 > right[1] and up[1] > 250 > 60 > up[2] and left[2] > 250 > 60 > left[0]
-bench.AutoKScale = 0
-bench.KScale = 0
-assert (image_array(bench, "Color") == (10, 200, 30)).all()
 
 assert np.array_equal(decoded(bench_of("background").BackgroundImage), COLORS)
 

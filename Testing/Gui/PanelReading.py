@@ -14,7 +14,9 @@ with open(REPORT, "w", encoding="utf-8"):
 
 user = ViewsSession()
 user.choose_filter("Schlieren")
+user.check("Grid/Note", "text", "known after Apply")
 user.apply()
+user.check("Grid/Note", "text", "240 x 129 x 129 points: the data's own")
 
 
 def check_label(name, text):

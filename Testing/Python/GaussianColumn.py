@@ -8,7 +8,7 @@ from plugin_testing import (CONSTANT, RefractiveIndex, Schlieren, column_errors,
                             one_ray_per_pixel, output, image_array)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-source = gaussian_column()
+source = gaussian_column(64)
 
 # From the density, from the index, from the refractivity at points and at cells.
 choices = ({"IndexModel": "Gladstone-Dale", "Density": ["POINTS", "rho"]},
@@ -23,7 +23,7 @@ for choice in choices:
     one_ray_per_pixel(bench)
     errors = column_errors(bench)
     print(choice, "relative errors: deflection %.2e, optical path %.2e" % errors)
-    assert max(errors) < 1e-3
+    assert max(errors) < 4e-3
     images.append(image_array(bench, "Intensity"))
 assert np.ptp(images[0]) > 0.5, "The automatic k should use the range of grey"
 assert np.abs(images[1] - images[0]).max() < 1e-3
@@ -52,8 +52,8 @@ points = AppendDatasets(source)
 points.UpdatePipeline()
 resampled = Schlieren(points)
 resampled.Density = ["POINTS", "rho"]
-resampled.SamplingDimensions = [128, 128, 128]
+resampled.SamplingDimensions = [64, 64, 64]
 one_ray_per_pixel(resampled)
 errors = column_errors(resampled)
 print("resampled: relative errors: deflection %.2e, optical path %.2e" % errors)
-assert max(errors) < 2e-3
+assert max(errors) < 8e-3

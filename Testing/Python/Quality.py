@@ -140,20 +140,3 @@ simple.XMLImageDataReader(FileName=[os.path.abspath("column16.vti")], registrati
     r"FindSource\('(XMLImageDataReader\d*)'\)", trace).group(1)).UpdatePipeline()
 exec(trace, {})  # pylint: disable=exec-used
 check_kept()
-
-# A state file of a version whose Draft was another: its values count, not its name.
-with open("quality.pvsm", encoding="utf-8") as file:
-    state = file.read()
-draft = re.search(r'<Proxy group="filters" type="Schlieren" id="(\d+)"(?:(?!</Proxy>).)*?'
-                  r'name="Quality" id="\1.Quality" number_of_elements="1">\s*<Element index="0" '
-                  r'value="1"/>.*?</Proxy>', state, re.DOTALL)
-older = re.sub(r'(name="(?:HomogeneityTolerance|StepSize)".*?value=)"[^"]*"', r'\1"0.25"',
-               draft.group(0), flags=re.DOTALL)
-older = older.replace("SamplesPerPixel", "NoSuchProperty")  # which that version had not
-with open("older.pvsm", "w", encoding="utf-8") as file:
-    file.write(state.replace(draft.group(0), older))
-simple.ResetSession()
-simple.LoadState(os.path.abspath("older.pvsm"))
-check(simple.FindSource("Draft"), "Custom", preset="Draft", StepSize=0.25,
-      HomogeneityTolerance=0.25, SamplesPerPixel=table["Interactive"]["SamplesPerPixel"])
-check(simple.FindSource("Reference"), "Reference")
