@@ -375,22 +375,7 @@ int vtkSchlierenFilter::RequestData(
     inside.Exposure, maxCells);
   if (!isRank0())
   {
-    do
-    {
-      if (!steps.IsThere())
-      {
-        continue;
-      }
-      if (isExposure)
-      {
-        steps.KeepPiece();
-      }
-      inside.HasImage =
-        inside.Ranks.ranks()
-          .serve(threadsFrom(*this),
-            [&](const std::vector<char>& message) { return inside.Ranks.answer(message); })
-          .hasImage;
-    } while (steps.Resume());
+    this->ServeRank0(steps);
     return 1;
   }
   const AtTheEnd noteImage(
@@ -400,69 +385,98 @@ int vtkSchlierenFilter::RequestData(
       withRanks->Outcome.hasImage = inside.HasImage;
     });
 
-  const auto showLast = [&]()
-  {
-    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
-    {
-      inside.Shown[port].Show(vtkImageData::GetData(outputVector, port),
-        outputVector->GetInformationObject(port)->Get(
-          vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
-    }
-    tellPlaces(outputVector);
-  };
   if (this->GetStopped())
   {
-    showLast();
+    this->ShowLast(outputVector);
     return 1;
   }
 
   inside.Time = timeOf(request, inputVector, outputVector);
 
   this->SetAbortExecute(0); // it stays set after an abort
-  const auto makeImage = [&]
-  {
-    inside.Guard.ThrowEarlier();
-    inside.Ranks.shareArrays();
-    const InputsOfRanks::Inputs inputs = inside.Ranks.gather(maxCells);
-    vtkDataObject* input = inputs.data;
-    vtkDataObject* bodies = inputs.bodies;
-    if (!inside.Ranks.areInPieces() && isAbortedUpstream(this, input))
-    {
-      this->ForgetImage();
-      this->Status = noIndexYet;
-      return;
-    }
-    const bool continues = !isExposure && this->Continues(input, bodies);
-    inside.UnfinishedOf = 0;
-    if (!(this->TimeLimit > 0))
-    {
-      inside.DropShown(); // there will be a better image, which wants the memory
-    }
-    bool isMade = continues || isExposure || this->UpdateRefractivity(input, bodies);
-    if (isMade && !continues && !isExposure)
-    {
-      this->UpdateFieldGradients(input);
-    }
-    isMade = isMade &&
-      (isExposure ? this->Expose(steps, output, histogram)
-                  : this->Render(output, histogram, continues));
-    if (isMade)
-    {
-      showLast();
-      return;
-    }
-    this->ForgetImage();
-    output->Initialize();
-    histogram->Initialize();
-    if (this->TimeLimit > 0 && this->GetAbortExecute())
-    {
-      inside.FailedAt = inside.StoppedOf = this->GetTimeOfImage(); // later than `now` by the abort
-      this->Status = isExposure ? "No image: the exposure was stopped" : noIndexYet;
-    }
-  };
-  guarded(makeImage, noMemory,
+  guarded([&] { this->MakeImage(steps, maxCells, outputVector); }, noMemory,
     [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::ServeRank0(ExposureSteps& steps)
+{
+  Internals& inside = *this->Inside;
+  do
+  {
+    if (!steps.IsThere())
+    {
+      continue;
+    }
+    if (inside.IsExposing)
+    {
+      steps.KeepPiece();
+    }
+    inside.HasImage =
+      inside.Ranks.ranks()
+        .serve(threadsFrom(*this),
+          [&](const std::vector<char>& message) { return inside.Ranks.answer(message); })
+        .hasImage;
+  } while (steps.Resume());
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::ShowLast(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    this->Inside->Shown[port].Show(vtkImageData::GetData(outputs, port),
+      outputs->GetInformationObject(port)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
+  }
+  tellPlaces(outputs);
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::MakeImage(
+  ExposureSteps& steps, double maxCells, vtkInformationVector* outputs)
+{
+  Internals& inside = *this->Inside;
+  vtkImageData* output = vtkImageData::GetData(outputs, IMAGE_PORT);
+  vtkImageData* histogram = vtkImageData::GetData(outputs, HISTOGRAM_PORT);
+  inside.Guard.ThrowEarlier();
+  inside.Ranks.shareArrays();
+  const InputsOfRanks::Inputs inputs = inside.Ranks.gather(maxCells);
+  vtkDataObject* input = inputs.data;
+  vtkDataObject* bodies = inputs.bodies;
+  if (!inside.Ranks.areInPieces() && isAbortedUpstream(this, input))
+  {
+    this->ForgetImage();
+    this->Status = noIndexYet;
+    return;
+  }
+  const bool continues = !inside.IsExposing && this->Continues(input, bodies);
+  inside.UnfinishedOf = 0;
+  if (!(this->TimeLimit > 0))
+  {
+    inside.DropShown(); // there will be a better image, which wants the memory
+  }
+  bool isMade = continues || inside.IsExposing || this->UpdateRefractivity(input, bodies);
+  if (isMade && !continues && !inside.IsExposing)
+  {
+    this->UpdateFieldGradients(input);
+  }
+  isMade = isMade &&
+    (inside.IsExposing ? this->Expose(steps, output, histogram)
+                       : this->Render(output, histogram, continues));
+  if (isMade)
+  {
+    this->ShowLast(outputs);
+    return;
+  }
+  this->ForgetImage();
+  output->Initialize();
+  histogram->Initialize();
+  if (this->TimeLimit > 0 && this->GetAbortExecute())
+  {
+    inside.FailedAt = inside.StoppedOf = this->GetTimeOfImage(); // later than `now` by the abort
+    this->Status = inside.IsExposing ? "No image: the exposure was stopped" : noIndexYet;
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -990,6 +990,12 @@ private:
 
   struct Internals;
 
+  /// Does on other ranks what rank 0 requests, for all steps of an exposure.
+  void ServeRank0(filters::ExposureSteps& steps);
+  /// Makes the image on rank 0, or leaves the outputs empty where that is aborted. Throws what is reported by Fail().
+  void MakeImage(filters::ExposureSteps& steps, double maxCells, vtkInformationVector* outputs);
+  /// Puts the image that was made last on the outputs.
+  void ShowLast(vtkInformationVector* outputs);
   /// Hands the array selections, and the wavelength if it matters there, on to Medium, which changes
   /// only if they have.
   void PassToMedium();

@@ -432,6 +432,95 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSource(
 }
 
 //------------------------------------------------------------------------------
+MediumMaker::Made MediumMaker::makeOfMesh(
+  const Source& source, const std::vector<FieldValues>& fields, vtkDataObject* bodies, int flat)
+{
+  const WorkProgress progress(this->Report);
+  Made result;
+  const bool isSmooth = this->settings.isSmooth();
+  const auto cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
+  std::shared_ptr<const SharedPoints> shared;
+  std::vector<const Source*> others;
+  std::transform(fields.begin(), fields.end(), std::back_inserter(others),
+    [](const FieldValues& field) { return &field.source; });
+  const auto leaves = preparedLeaves(source, cellValues, result.tally, shared, others);
+  progress.reach(0.1);
+  const auto outside = static_cast<filters::Outside>(this->settings.Outside);
+  const auto reconstruction =
+    isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
+  const std::uint64_t key = MeshSource::keyOf(leaves, bodies, outside, reconstruction);
+  if (this->Mesh->key != key || !MeshSource::hasSameSheets(this->Mesh->mesh, leaves))
+  {
+    this->leaveMesh();
+  }
+  KeptMesh& kept = *this->Mesh;
+  const WorkProgress ofMedium = progress.part(0.1, fields.empty() ? 1 : 0.8);
+  std::shared_ptr<MeshSource> made;
+  if (kept.key == key)
+  {
+    made = std::make_shared<MeshSource>(leaves, kept.mesh, ofMedium, flat);
+  }
+  else
+  {
+    ++kept.builds;
+    made = std::make_shared<MeshSource>(leaves, bodies, outside, reconstruction, ofMedium, flat);
+    kept.key = key;
+  }
+  kept.mesh = made->mesh();
+  const auto begunAt = [&](std::size_t number)
+  { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
+  for (std::size_t number = 0; number < fields.size(); ++number)
+  {
+    Tally notReported;
+    made->addField(preparedLeaves(fields[number].source, cellValues, notReported, shared),
+      progress.part(begunAt(number), begunAt(number + 1)));
+  }
+  result.hasGas = made->hasGas();
+  result.meetsBodies = made->meetsBodies();
+  result.source = made;
+  return result;
+}
+
+//------------------------------------------------------------------------------
+MediumMaker::Made MediumMaker::makeOf(
+  Source source, std::vector<FieldValues> fields, vtkDataObject* bodies, double depth)
+{
+  const int flat = this->FlatAxis;
+  const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat, depth);
+  std::optional<AmrLevels> levels = findLevels(source.leaves);
+  if (!levels)
+  {
+    if (flat >= 0)
+    {
+      source = extruded(source, flat, depth);
+      for (FieldValues& field : fields)
+      {
+        field.source = extruded(field.source, flat, depth);
+      }
+    }
+    return this->makeOfMesh(source, fields, ownBodies, flat);
+  }
+  if (flat >= 0)
+  {
+    setDepth(*levels, depth);
+    levels = turnedAcrossZ(std::move(*levels));
+  }
+  Made result;
+  const auto outside = static_cast<filters::Outside>(this->settings.Outside);
+  const auto made = std::make_shared<AmrSource>(
+    *levels, source, ownBodies, outside, result.tally, this->progressOf(0.02, 1));
+  for (FieldValues& field : fields)
+  {
+    bringToCells(field);
+    made->addField(*levels, field.source);
+  }
+  result.hasGas = made->hasGas();
+  result.meetsBodies = made->meetsBodies();
+  result.source = made;
+  return result;
+}
+
+//------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfCells(
   vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
 {
@@ -441,33 +530,13 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfCells(
   {
     revolution = revolutionOf(source);
   }
-  const int flat = flatAxisOf(source);
-  this->FlatAxis = flat;
-  const double depth = flat < 0 ? 0 : depthOf(source, flat);
+  this->FlatAxis = flatAxisOf(source);
+  const double depth = this->FlatAxis < 0 ? 0 : depthOf(source, this->FlatAxis);
   this->Grid.clear();
-  Tally tally;
-  bool hasGas = false, meetsBodies = false;
-  std::shared_ptr<const schlieren::MediumSource> result;
-  const auto take = [&](const auto& made)
-  {
-    hasGas = made->hasGas();
-    meetsBodies = made->meetsBodies();
-    result = made;
-  };
-  std::string ofShape; // before it is changed
-  if (revolution)
-  {
-    ofShape = revolution->note;
-  }
-  else if (flat >= 0)
-  {
-    ofShape = warningOfExtrusion(source, flat);
-  }
-  else
-  {
-    ofShape = noteOnWedge(source);
-  }
-  const WorkProgress progress(this->Report);
+  const std::string ofShape = revolution ? revolution->note
+    : this->FlatAxis >= 0                ? warningOfExtrusion(source, this->FlatAxis)
+                                         : noteOnWedge(source);
+  Made made;
   const auto make = [&]
   {
     if (auto* mean = std::get_if<FieldMean>(&source.model))
@@ -487,86 +556,21 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfCells(
         field.source = mirrored(field.source, *revolution);
       }
     }
-    progress.reach(0.02);
-    const auto outside = static_cast<filters::Outside>(this->settings.Outside);
-    const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat, depth);
-    if (std::optional<AmrLevels> levels = findLevels(source.leaves))
-    {
-      if (flat >= 0)
-      {
-        setDepth(*levels, depth);
-        levels = turnedAcrossZ(std::move(*levels));
-      }
-      const auto made = std::make_shared<AmrSource>(
-        *levels, source, ownBodies, outside, tally, progress.part(0.02, 1));
-      for (FieldValues& field : fields)
-      {
-        bringToCells(field);
-        made->addField(*levels, field.source);
-      }
-      take(made);
-      return;
-    }
-    if (flat >= 0)
-    {
-      source = extruded(source, flat, depth);
-      for (FieldValues& field : fields)
-      {
-        field.source = extruded(field.source, flat, depth);
-      }
-    }
-    const bool isSmooth = this->settings.isSmooth();
-    const auto cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
-    std::shared_ptr<const SharedPoints> shared;
-    std::vector<const Source*> others;
-    std::transform(fields.begin(), fields.end(), std::back_inserter(others),
-      [](const FieldValues& field) { return &field.source; });
-    const auto leaves = preparedLeaves(source, cellValues, tally, shared, others);
-    progress.reach(0.1);
-    const auto reconstruction =
-      isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
-    const std::uint64_t key = MeshSource::keyOf(leaves, ownBodies, outside, reconstruction);
-    if (this->Mesh->key != key || !MeshSource::hasSameSheets(this->Mesh->mesh, leaves))
-    {
-      this->leaveMesh();
-    }
-    KeptMesh& kept = *this->Mesh;
-    const WorkProgress ofMedium = progress.part(0.1, fields.empty() ? 1 : 0.8);
-    std::shared_ptr<MeshSource> made;
-    if (kept.key == key)
-    {
-      made = std::make_shared<MeshSource>(leaves, kept.mesh, ofMedium, flat);
-    }
-    else
-    {
-      ++kept.builds;
-      made =
-        std::make_shared<MeshSource>(leaves, ownBodies, outside, reconstruction, ofMedium, flat);
-      kept.key = key;
-    }
-    kept.mesh = made->mesh();
-    const auto begunAt = [&](std::size_t number)
-    { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
-    for (std::size_t number = 0; number < fields.size(); ++number)
-    {
-      Tally notReported;
-      made->addField(preparedLeaves(fields[number].source, cellValues, notReported, shared),
-        progress.part(begunAt(number), begunAt(number + 1)));
-    }
-    take(made);
+    this->progressOf(0, 1).reach(0.02);
+    made = this->makeOf(source, std::move(fields), bodies, depth);
   };
   vtkSMPTools::LocalScope(loopsWith(this->threads()), make);
-  if (!hasGas)
+  if (!made.hasGas)
   {
     throw std::runtime_error(noGas(source.label));
   }
-  warning = this->warningOf(source, tally, bodies && !meetsBodies);
+  warning = this->warningOf(source, made.tally, bodies && !made.meetsBodies);
   addText(warning, ofShape);
   if (revolution)
   {
-    return std::make_shared<RevolvedSource>(result, *revolution);
+    return std::make_shared<RevolvedSource>(made.source, *revolution);
   }
-  return result;
+  return made.source;
 }
 
 } // namespace filters

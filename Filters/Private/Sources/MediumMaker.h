@@ -5,6 +5,7 @@
 #include "Common/WorkProgress.h"
 #include "Input/RefractivitySource.h"
 #include "Sources/AmrGrid.h"
+#include "Sources/FieldTints.h"
 #include "Sources/MeshSource.h"
 #include "Sources/SamplingGrid.h"
 
@@ -136,6 +137,16 @@ private:
     vtkDataObject* bodies, vtkImageData* output, std::string& warning, std::string& note);
   std::shared_ptr<const schlieren::MediumSource> makeSourceOfImage(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields);
+  /// What makeSourceOfCells() has made of a source, and of the fields beside it.
+  struct Made
+  {
+    std::shared_ptr<const schlieren::MediumSource> source;
+    bool hasGas = false, meetsBodies = false;
+    Tally tally{};
+  };
+  Made makeOf(Source source, std::vector<FieldValues> fields, vtkDataObject* bodies, double depth);
+  Made makeOfMesh(
+    const Source& source, const std::vector<FieldValues>& fields, vtkDataObject* bodies, int flat);
   /// Frees what is kept of a mesh, or leaves it to others that have it.
   void leaveMesh();
 
