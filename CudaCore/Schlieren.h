@@ -62,7 +62,7 @@ struct RgbImage
   std::vector<unsigned char> rgb; ///< 3 for each pixel
 };
 
-/// Of an interferogram. The reference beam crosses the light at an angle beta where fringes are finite: their
+/// Fringes of an interferogram. The reference beam crosses the light at an angle beta where fringes are finite: their
 /// spacing is wavelength / (2 sin(beta / 2)).
 struct Fringes
 {
@@ -88,8 +88,8 @@ struct BackgroundPattern
   PatternKind kind = PatternKind::Dots;
   std::optional<double> distance; ///< from where the data begins, away from the viewer, in what
                                   ///< light leaves them into; unset: one depth
-  /// Of stripes, and of the cells that have a dot each: data units of the image; 0: eight pixels. What is finer than four
-  /// pixels fades to grey, and is gone at two.
+  /// Period of stripes, and of the cells that have a dot each: data units of the image; 0: eight pixels. What is finer
+  /// than four pixels fades to grey, and is gone at two.
   double period = 0;
   double angle = 0; ///< of stripes, degrees: direction across them, from u to v
   std::shared_ptr<const RgbImage> image; ///< stretched over what the camera sees
@@ -111,9 +111,10 @@ struct Scene
   double wavelength = 632.8e-9;                ///< of an interferogram, metres
   Fringes fringes;
   BackgroundPattern background;
-  /// From where light leaves the data to the screen, data units, in what light leaves them into; unset: one data depth.
+  /// Distance from where light leaves the data to the screen, data units, in what light leaves them into; unset: one
+  /// data depth.
   std::optional<double> screenDistance;
-  /// Of the plane in focus from the data's middle (with a perspective from the focal point) along w, data units.
+  /// Distance of the plane in focus from the data's middle (with a perspective from the focal point) along w, data units.
   double focusOffset = 0;
 
   LightSource source;
@@ -138,7 +139,7 @@ struct Scene
   /// Voxels, 0.001 ... 16: length of one step in index space; of Integrator::Adaptive the longest. Where
   /// there are solids, no longer than 1.
   double stepSize = 1;
-  /// Of Integrator::Adaptive: the local error allowed in a step, relative to what the medium's steepest
+  /// For Integrator::Adaptive: the local error allowed in a step, relative to what the medium's steepest
   /// gradient would bend over the same length. 1e-12 ... 1.
   double adaptiveTolerance = 1e-5;
   /// Rays cross a cube of cells in one step where the refractivity varies in it by no more than this, as a
@@ -208,11 +209,11 @@ public:
   bool isUnfinished() const;
   void cancel(); ///< forgets it
 
-  /// Other processes that trace rays for the next images, each with a RayWorker; null: there are none. The images are the
-  /// same to the last bit.
+  /// Sets the other ranks that trace rays for the next images, each with a RayWorker; null: there are none. The images
+  /// are the same to the last bit.
   void setProcesses(Processes* processes);
 
-  /// From the next medium on, it is one of these. Field::version then has to differ between any two fields that benches
+  /// Takes the next media from these, or adds them. Field::version then has to differ between any two fields that benches
   /// are given, whatever their arrays' addresses.
   void setMedia(std::shared_ptr<SharedMedia> media);
 

@@ -42,8 +42,8 @@ enum class PathModel
   Refracted ///< the ray bends
 };
 
-/// Chooses how a refracted ray takes its steps. A straight one always looks at their midpoints. Where the index changes by more
-/// than a twentieth in a step, as at faces of glass, steps are adaptive but with Euler.
+/// Chooses how a refracted ray takes its steps. A straight one always looks at their midpoints. Where the index changes
+/// by more than a twentieth in a step, as at faces of glass, steps are adaptive but with Euler.
 enum class Integrator
 {
   Leapfrog, ///< one gradient a step, second order, symplectic
@@ -76,11 +76,11 @@ enum class SourceShape
 /// and the fraction of its image that a knife edge lets pass follows from its shape.
 struct LightSource
 {
-  /// From a point source to the middle of the data, data units: more than half the depth. Unset: collimated. With a
-  /// perspective the source is in the pupil, whatever this is. The source is where light leaves the data into.
+  /// Distance of a point source from the middle of the data, data units: more than half the depth. Unset: collimated.
+  /// With a perspective the source is in the pupil, whatever this is. The source is where light leaves the data into.
   std::optional<double> distance;
   SourceShape shape = SourceShape::Point;
-  /// Of a slit, across the knife edge; diameter of a disc.
+  /// Width of a slit across the knife edge, or diameter of a disc.
   double width = 0;
   double length = 0; ///< of a slit, along the knife edge
 };
@@ -174,7 +174,7 @@ struct MediumStatistics
   std::int64_t bytes = 0;
   double smallestVoxel = 0;     ///< data units, along the axis where it is smallest
   double largestDeflection = 0; ///< of straight rays of the last view
-  /// Of the deflection of a ray of the last view, of the largest one, or of what it gathers of fields, of the full
+  /// Error of the deflection of a ray of the last view, of the largest one, or of what it gathers of fields, of the full
   /// colour: the largest sum of what the leaves along a ray lack, as far as finer voxels would mend it. Voxels of the size
   /// of cells, or as fine as the view needs, lack nothing.
   double estimatedError = 0;

@@ -22,7 +22,7 @@ namespace schlieren
 namespace
 {
 
-/// Of the progress of an image, what belongs to making the medium's voxels, where some are to be made.
+/// How much of an image's progress belongs to making the medium's voxels, where some are to be made.
 constexpr double fractionOfVoxels = 0.3;
 
 template <class Real>

@@ -60,7 +60,7 @@ public:
   Medium<Real> medium;
   std::int64_t changes = 0; ///< of its voxels
 
-  /// On the device, once rays have been traced there. Throws DeviceError.
+  /// Puts the medium on the device where it is not there yet. Throws DeviceError.
   CudaTracer<Real>& cudaTracer();
   ProcessTracer<Real>& processTracer();
   void leaveDevice() { cuda_.reset(); }
@@ -99,7 +99,7 @@ public:
   {
   }
 
-  /// From the next medium on, it is one of these; null: of none.
+  /// Takes the next media from these, or adds them; null: from none.
   void setMedia(std::shared_ptr<SharedMedia> media) { media_ = std::move(media); }
 
   /// Whether the medium of a field is there.

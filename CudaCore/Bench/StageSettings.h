@@ -29,7 +29,7 @@ RaySettings settingsOf(const Scene& scene, double lengthScale, const Displacemen
 /// The largest |d nu / d index| in a cube in which nu varies by 1: see NuRange.
 double steepestOf(Interpolation interpolation);
 
-/// Of the deflection, for rays that cross cubes in which nu varies by no more than `tolerance` in one step
+/// Bounds the error of the deflection of rays that cross cubes in which nu varies by no more than `tolerance` in one step
 /// each: see NuRange, with the whole path through the grid as the path through cubes.
 template <class Real>
 double skippingBound(

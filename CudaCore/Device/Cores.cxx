@@ -50,7 +50,7 @@ double quotaOf(const std::string& hierarchy, std::string group)
   }
 }
 
-/// Of the control groups that this process is in. A container sees its own one as the outermost.
+/// Finds the least quota of the control groups that this process is in. A container sees its own one as the outermost.
 double quotaOfProcess()
 {
   double cores = unlimited;

@@ -61,7 +61,7 @@ public:
     : data_(allocateOnCuda<T>(size))
   {
   }
-  /// With the values; `copying` is what a failure says: "Copying the medium".
+  /// Copies the values there; `copying` is what a failure says: "Copying the medium".
   CudaBuffer(const T* values, std::size_t size, const char* copying)
     : CudaBuffer(size)
   {

@@ -21,7 +21,7 @@ public:
   using DeviceError::DeviceError;
 };
 
-/// Of the builds in which files named NoCuda... replace the .cu files.
+/// Says why there is no device in builds in which files named NoCuda... replace the .cu files.
 constexpr const char* builtWithoutCuda = "this build has no CUDA support";
 
 } // namespace schlieren

@@ -12,7 +12,7 @@
 namespace schlieren
 {
 
-/// Of the rays that start in a pixel: what the first one carries, which starts in the pixel's centre. Where
+/// What the first of a pixel's rays carries, which starts in the pixel's centre. Where
 /// that does not reach the film, the sums over those that do.
 struct PixelRays
 {

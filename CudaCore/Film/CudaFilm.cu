@@ -25,10 +25,10 @@ namespace
 constexpr int tileColumns = 32, tileRows = 4;
 constexpr int threadsPerBlock = tileColumns * tileRows;
 
-/// Of a band, of which three more are shaded.
+/// Fewest rows of a band, of which three more are shaded.
 constexpr std::int64_t fewestRows = 16;
 
-/// Of bentKernel, however many cells there are.
+/// Limits the blocks of bentKernel, however many cells there are.
 constexpr unsigned maxBlocksOfBent = 1024;
 
 /// What atomicAdd takes; whole numbers wrap, so that the sum's bits are those of signed ones.
@@ -120,7 +120,7 @@ struct RaysOnDevice
     return exits[(row - margin - pass.firstRow) * pass.columns + column - margin -
       pass.firstColumn];
   }
-  /// Of those that work for rows.
+  /// Counts the blocks that work for rows.
   unsigned blocks(std::int64_t rowCount) const
   {
     return static_cast<unsigned>(
@@ -144,7 +144,7 @@ struct ShadedRays
   FilmRay<planes>* shaded; ///< rows firstShaded ... endShaded - 1
   unsigned* bent;          ///< first how many, then which: numbers of their lower left rays
 
-  /// That does not arrive where there is none.
+  /// Reads a ray, one that does not arrive where there is none.
   __device__ FilmRay<planes> at(std::int64_t column, std::int64_t row) const
   {
     return column >= 0 && column < rays.columns && row >= rays.firstShaded && row < rays.endShaded

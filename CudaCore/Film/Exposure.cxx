@@ -18,7 +18,7 @@ namespace schlieren
 namespace
 {
 
-/// Of linear sRGB (IEC 61966-2-1).
+/// Weights of linear sRGB (IEC 61966-2-1).
 constexpr double luminance[3] = { 0.2126, 0.7152, 0.0722 };
 
 /// Rays that start in rows `begin` ... `end` - 1, counted from the margin's lowest on.

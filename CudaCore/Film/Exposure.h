@@ -29,7 +29,7 @@ struct Films
 
   /// One value per pixel; of an image in colour, its luminance.
   PixelArray<float> developIntensity(double raysPerPixel, int threads) const;
-  /// Of that image's light; `raysPerPixel` as above.
+  /// Balances that image's light; `raysPerPixel` as above.
   LightBalance balance(double raysPerPixel) const;
   /// Three values per pixel.
   PixelArray<float> developColor(double raysPerPixel, int threads) const;
@@ -59,7 +59,7 @@ struct RayCounts
       ++(exit.fate == RayFate::Blocked ? blocked : lost);
     }
   }
-  /// Of a ray that starts in the image.
+  /// Counts a ray that starts in the image.
   template <class CutoffKind>
   SCHLIEREN_HD void addShaded(const RayExit& exit, const CutoffKind& cutoff)
   {

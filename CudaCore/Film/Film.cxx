@@ -17,7 +17,7 @@ namespace
 
 constexpr std::int64_t rowsPerLock = 16;
 
-/// Of a band: as many as the rays of some rows of pixels commonly land in.
+/// Rows of a band: as many as the rays of some rows of pixels commonly land in.
 constexpr std::int64_t bandRows = 64;
 
 } // namespace

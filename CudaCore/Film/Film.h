@@ -60,7 +60,7 @@ private:
   std::vector<std::mutex> locks_; ///< of some rows each
 };
 
-/// For how many rays of each pass a film is to have room where `samples` passes are requested: the scale, and
+/// How many passes a film is to have room for where `samples` are requested: the scale, and
 /// thus the last bit of a sum, is the same for all common numbers.
 inline std::int64_t passesToHold(int samples)
 {
@@ -86,7 +86,7 @@ public:
   /// possible.
   void cover(std::int64_t lowest, std::int64_t highest);
 
-  /// Of light that is then added.
+  /// Counts light that is then added.
   void addEmitted(std::int64_t light) { sums_.emitted += light; }
   void addOutside(std::int64_t light) { sums_.outside += light; }
 

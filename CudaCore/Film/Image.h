@@ -42,7 +42,7 @@ struct Image
   Integrator integrator = Integrator::Leapfrog; ///< the one used
   double kScale = 0;                            ///< the k used; 0 where there is no cutoff
   double undisturbedLevel = 1;                  ///< intensity of light that nothing bends
-  /// Of the rays that start in the image and reach the film: cut off at the darkest or brightest light.
+  /// Fraction of the rays that start in the image and reach the film: cut off at the darkest or brightest light.
   double saturatedFraction = 0;
   LightBalance light;
   Histogram histogram;

@@ -65,7 +65,7 @@ public:
   }
 
 private:
-  /// In colour; of light, that comes first.
+  /// Appends the colours to the light.
   FilmRay<planes> tinted(
     const FilmRay<CutoffKind::channels>& ray, const float* gathered, std::int64_t number) const
   {

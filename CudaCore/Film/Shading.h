@@ -12,7 +12,7 @@
 namespace schlieren
 {
 
-/// From where rays leave the grid to the film. The film's coordinates are those of the image in the middle
+/// Projects from where rays leave the grid to the film. The film's coordinates are those of the image in the middle
 /// of the data, so that undisturbed light is where it was there, however much larger it has become.
 struct Projection
 {
@@ -43,14 +43,14 @@ struct FilmRay
   bool crossed = true; ///< the medium
 };
 
-/// By how much a ray is off the undisturbed one on the film.
+/// How far a ray is off the undisturbed one on the film.
 struct FilmShift
 {
   double moved[2];   ///< along u and v, data units
   double longer = 0; ///< than the undisturbed light's path to this place, data units
 };
 
-/// Of a ray that starts at (column, row) of the image, with the exit's deflection and displacement.
+/// Shifts a ray that starts at (column, row) of the image, with the exit's deflection and displacement.
 SCHLIEREN_HD FilmShift shiftOnFilm(const double (&eps)[2], const float (&displacement)[2],
   double column, double row, const double (&tilt)[2], const Projection& projection)
 {

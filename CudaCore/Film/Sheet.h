@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The ray-tube estimator (FilmEstimator::Sheet). Four neighbouring rays of a pass have the light of one pixel between them; where they
-// land it is spread evenly over the quadrilateral that they span, and each pixel gets what falls on it. So
+// The ray-tube estimator (FilmEstimator::Sheet). Four neighbouring rays of a pass have the light of one pixel between
+// them; where they land it is spread evenly over the quadrilateral that they span, and each pixel gets what falls on it. So
 // brightness is the ratio of areas, I/I0 = 1 / |det(dx'/dx)|, and folds add up.
 #pragma once
 
@@ -308,7 +308,7 @@ private:
     }
   }
 
-  /// Of two rays that belong together, number by number: a choice between structures would have them in memory.
+  /// Chooses one of two rays that belong together, number by number: a choice between structures would have them in memory.
   SCHLIEREN_HD static Ray either(bool isFirst, const Ray& first, const Ray& second)
   {
     Ray ray = first;
@@ -321,7 +321,7 @@ private:
     return ray;
   }
 
-  /// In the middle of a cubic through four points (Catmull & Rom 1974).
+  /// The middle of a cubic through four points (Catmull & Rom 1974).
   SCHLIEREN_HD static Point halfWay(
     const Point& before, const Point& a, const Point& b, const Point& after)
   {

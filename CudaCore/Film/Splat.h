@@ -26,7 +26,7 @@ SCHLIEREN_HD bool isOnFilm(double column, double row, std::int64_t width, std::i
     row < static_cast<double>(height);
 }
 
-/// Of a point on the film.
+/// Finds the footprint of a point on the film.
 SCHLIEREN_HD Footprint footprintOf(double column, double row)
 {
   // Coordinates are above -1, where cutting off the fraction of x + 1 is the floor, without a call.

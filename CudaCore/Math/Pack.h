@@ -14,7 +14,7 @@
 namespace schlieren
 {
 
-/// Of a number: a pack with one lane.
+/// Describes a number as a pack with one lane.
 template <class Real>
 struct PackTraits
 {

@@ -240,7 +240,7 @@ SCHLIEREN_HD Pack spread(const Pack& a)
   return spread<Which>(a, std::make_index_sequence<lanesOf<Pack>>{});
 }
 
-/// In each block the numbers A and B of a, then C and D of b.
+/// Takes in each block the numbers A and B of a, then C and D of b.
 template <int A, int B, int C, int D, class Pack, std::size_t... E>
 SCHLIEREN_HD Pack choose(const Pack& a, const Pack& b, std::index_sequence<E...>)
 {

@@ -21,7 +21,7 @@
 namespace schlieren
 {
 
-/// In cells. Larger ones find clearly less to skip in real flows, and these cost but 4 % of the medium's
+/// Edge in cells. Larger ones find clearly less to skip in real flows, and these cost but 4 % of the medium's
 /// memory (Documentation/performance.md).
 constexpr int brickEdge = 4;
 

@@ -99,7 +99,7 @@ struct Range
 
 /// Copies a row of samples as nu, 0 where there is no gas; returns the number of points that are gas. `zero`: the
 /// sample of the ambient gas.
-/// Without branches and with one range per place in the row, so that it vectorises.
+/// Loads a row without branches and with one range per place in it, so that it vectorises.
 template <class Real, class Value, class IsValid>
 int loadRow(const Value* values, const IsValid& isValid, std::int64_t count, double zero,
   double scale, Real* nu, Value* lowest, Value* highest)
@@ -268,7 +268,7 @@ struct SamplesOfBlock
   }
 };
 
-/// Of the blocks of a plane of samples: of one row of blocks after the other. z: to the plane above, where there is one.
+/// Finds the slopes in the blocks of a plane of samples, row by row. z: to the plane above, where there is one.
 template <class Real>
 void findSlopesOfPlane(
   const PaddedVolume<Real>& volume, std::int64_t k, std::int64_t columns, Steepest<Real>* blocks)

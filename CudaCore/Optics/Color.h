@@ -10,7 +10,7 @@ namespace schlieren
 /// Light within what a film takes of one ray, 0 ... 1. Of NaN: 0.
 SCHLIEREN_HD double limited(double light) { return light > 0 ? (light < 1 ? light : 1) : 0; }
 
-/// Of linear red, green and blue with sRGB's primaries (ITU-R BT.709-6, sec. 3).
+/// Luminance of linear red, green and blue with sRGB's primaries (ITU-R BT.709-6, sec. 3).
 SCHLIEREN_HD double luminanceOf(const double (&light)[3])
 {
   return 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];

@@ -41,7 +41,7 @@ struct Carrier
   }
 };
 
-/// In light of one wavelength.
+/// Makes fringes in light of one wavelength.
 struct Interferogram
 {
   static constexpr int channels = 1;

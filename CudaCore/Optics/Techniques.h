@@ -60,7 +60,7 @@ struct Technique
   constexpr bool hasK() const { return fullScale > 0; }
 };
 
-/// In the order of Cutoff.
+/// The table, in the order of Cutoff.
 constexpr std::array<Technique, 9> techniques = { {
   // cutoff, full scale, edge, fringes, plane, colours
   { Cutoff::KnifeEdge, 0.5, true, false, RecordedPlane::Focus, Coloring::None },

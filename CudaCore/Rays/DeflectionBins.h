@@ -52,7 +52,7 @@ struct LeadingBits
   }
 };
 
-/// By how strongly rays are bent.
+/// Measures how strongly a ray is bent.
 SCHLIEREN_HD double squaredDeflection(const RayExit& exit)
 {
   return exit.deflection[0] * exit.deflection[0] + exit.deflection[1] * exit.deflection[1];

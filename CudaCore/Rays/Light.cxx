@@ -110,7 +110,7 @@ Light lightAlong(const Vec3<double>& w, const Grid& grid, const Frame& frame)
 
 double fraction(double x) { return x - std::floor(x); }
 
-/// Of a pass in a sequence that is begun elsewhere for each seed.
+/// Numbers a pass in a sequence that is begun elsewhere for each seed.
 double numberOf(std::int64_t pass, std::uint32_t seed)
 {
   constexpr double passesPerSeed = 65537;

@@ -31,7 +31,7 @@ struct Inclination
   }
 };
 
-/// For a point of the image, the straight line in the grid's index coordinates that light follows there
+/// Gives, for a point of the image, the straight line in the grid's index coordinates that light follows there
 /// before anything bends it. With X the point's place from the axis in the image's plane, which is that
 /// through the middle of the data, and zeta the distance along w from there, the line is
 ///   P(zeta) = X (1 + zeta / R) + t (zeta - z),
@@ -69,7 +69,7 @@ struct Light
   {
     return corner + column * perColumn + row * perRow;
   }
-  /// By how much a pass's tilt moves that, so that the light meets the film where it did.
+  /// How far a pass's tilt moves that, so that the light meets the film where it did.
   SCHLIEREN_HD Vec3<double> shift(const double (&tilt)[2]) const
   {
     return scaled(indexScale, (-toFilm * tilt[0]) * u + (-toFilm * tilt[1]) * v);
@@ -93,7 +93,7 @@ Light collimatedLight(const Grid& grid, const Frame& frame);
 /// The same from the viewer, against w: the rays of a camera. They start on the frame's exit plane.
 Light reversedLight(const Grid& grid, const Frame& frame, const ExitFaces& faces = noFaces);
 
-/// From the middle of the data to a source as it seems to be from there. `distance`: to where it is.
+/// Distance from the middle of the data to a source as it seems to be from there. `distance`: to where it is.
 double distanceInData(double distance, const Frame& frame, double exitRatio);
 
 /// The light of a source on the line through the middle of the image; with a perspective it is the pupil, and light

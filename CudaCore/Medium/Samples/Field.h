@@ -25,7 +25,7 @@ struct FieldGradients
   std::uint64_t version = 0; ///< the same version, the same data
 };
 
-/// Of Field::valid: light passes a place that has no data.
+/// Marks in Field::valid what has no data but lets light pass.
 constexpr unsigned char transparent = 2;
 
 /// Refractivity N = n - 1. On a grid, x fastest: the arrays belong to the caller and are read during Bench::render
@@ -37,8 +37,8 @@ struct Field
   std::shared_ptr<const MediumSource> source;
   const float* singles = nullptr;
   const double* doubles = nullptr;
-  /// Of the samples, which hold N less this. Near the surroundings' N it leaves single precision the digits of a weak
-  /// flow. Not of a source.
+  /// Offset of the samples, which hold N less this. Near the surroundings' N it leaves single precision the digits of a
+  /// weak flow. Not of a source.
   double offset = 0;
   /// 0: solid, blocks light. 1: gas (solid where the sample is not finite). 2 (transparent): no data, but
   /// light passes; the sample is not read, the gas around is continued. Null: 1 everywhere.

@@ -40,10 +40,11 @@ struct MediumView
   const std::int16_t* gasDistances = nullptr;
 };
 
-/// Local coordinates along z that leaves of one layer reach to, which is beyond any domain; floats still distinguish voxels.
+/// Local coordinates along z that leaves of one layer reach to, which is beyond any domain; floats still distinguish
+/// voxels.
 constexpr int depthOfLayers = 1 << 22;
 
-/// Of bricks with `apron` ghost points around each; `samples`: the first of them. Those of one layer have no ghost
+/// Views bricks with `apron` ghost points around each; `samples`: the first of them. Those of one layer have no ghost
 /// points along z: its samples are found at all z.
 template <class Real>
 MediumView<Real> viewOfBricks(const Real* samples, int edge, int apron, BrickShape shape)

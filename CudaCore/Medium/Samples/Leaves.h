@@ -42,7 +42,7 @@ struct Leaf
   std::int32_t map;   ///< brick of gasDistance, where its kind is Mixed
   Kind kind;
 
-  /// From index to local coordinates along an axis, and back.
+  /// Converts index to local coordinates along an axis, and back.
   SCHLIEREN_HD double toLocal(int axis, double index) const
   {
     return (index - first[axis]) * perIndex;

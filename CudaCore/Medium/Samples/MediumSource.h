@@ -58,7 +58,7 @@ public:
   /// have one layer, in the middle of the depth, and along z the larger one of their spacings.
   virtual bool isFlat() const { return false; }
 
-  /// By rows, the rotation from its axes to those of the data, whose images are to be made.
+  /// The rotation, by rows, from its axes to those of the data, whose images are to be made.
   virtual std::array<double, 9> direction() const { return { 1, 0, 0, 0, 1, 0, 0, 0, 1 }; }
 
   /// What is known of a box without looking at single points. It may say less than there is to say, never
@@ -98,14 +98,15 @@ public:
   /// Further fields, whose gradients rays may gather.
   virtual int fields() const { return 0; }
 
-  /// Of all values of a field in a box, as Content says it of N.
+  /// The range of all values of a field in a box, as Content says it of N.
   struct FieldRange
   {
     double lowest, highest; ///< lowest > highest: the field has none
   };
   virtual FieldRange rangeOfField(int /*field*/, const Box& /*box*/) const { return { 1, 0 }; }
 
-  /// As sample(), and the fields' values at the same points, field after field; NaN where a field has none.
+  /// Does what sample() does, and writes the fields' values at the same points, field after field; NaN where a field
+  /// has none.
   virtual void sampleWithFields(const Lattice& lattice, double* refractivity, Place* places,
     float* distances, double* /*values*/) const
   {

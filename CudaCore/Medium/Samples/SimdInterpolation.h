@@ -300,7 +300,7 @@ constexpr bool gathers<ByRows<Scheme>> = false;
 /// Values and gradients at the positions of a pack of rays, each within a leaf; `base`: where the samples of
 /// each begin (null: an image's).
 ///
-/// With AVX-512 samples are gathered. Where a gather costs more than its loads: rows of four
+/// Reads samples by rows. With AVX-512 they are gathered; where a gather costs more than its loads: rows of four
 /// samples are loaded and summed over y and z, for a fourth of the rays at a time, and transposed so that
 /// the sums over x are done on packs of rays again.
 template <class Scheme, class Real, class Pack>

@@ -59,7 +59,7 @@ inline unsigned valuesAround(const std::uint64_t* row, std::int64_t wordsPerRow,
   return around;
 }
 
-/// Of the neighbours that have a value or, in a linear continuation, of what lines through three points that have one
+/// Mean of the neighbours that have a value or, in a linear continuation, of what lines through three points that have one
 /// lead to, where there are any. The gentler of a line's two slopes counts: voxels may be larger than a layer at a wall,
 /// whose slope leads anywhere.
 template <class Real>

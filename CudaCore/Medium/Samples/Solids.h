@@ -31,7 +31,7 @@ struct PointMask
     return words.data() + (k * dimensions[1] + j) * wordsPerRow;
   }
 
-  /// Those bits of a row's n-th word that stand for points.
+  /// Sets those bits of a row's n-th word that stand for points.
   std::uint64_t pointsOf(std::int64_t n) const
   {
     const std::int64_t points = dimensions[0] - 64 * n;

@@ -135,7 +135,7 @@ Lattice BrickMaker<Real>::latticeOf(const NodePlace& place, int margin) const
   return lattice;
 }
 
-/// With values for all points.
+/// Samples a node, and gives values to all points.
 template <class Real>
 BrickSamples BrickMaker<Real>::sample(
   const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
@@ -426,7 +426,7 @@ void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) co
   }
 }
 
-/// Of the octants: each from all coefficients that are looked at there.
+/// Finds the slopes of the octants, each from all coefficients that are looked at there.
 template <class Real>
 void BrickMaker<Real>::findSlopes(Brick<Real>& brick) const
 {

@@ -42,7 +42,7 @@ inline std::int32_t partOf(const NodePlace& place, BrickShape shape)
 /// Says by how much a node is too coarse. All of nu or of a deflection, which have the same size.
 struct BrickFacts
 {
-  /// Of a ray's deflection over the node, because the samples are as far apart as they are; 0 along an axis on
+  /// Error of a ray's deflection over the node, because samples are as far apart as they are; 0 along an axis on
   /// which the cells are no finer than the samples.
   std::array<double, 3> error{ 0, 0, 0 };
   /// Whether the cells are finer than the samples along an axis, so that the error can be less.
@@ -78,7 +78,7 @@ struct Brick
   BrickFacts facts;
   FieldBrick fields;
 
-  /// For another rank of the same program on the same kind of processor.
+  /// Writes it for another rank of the same program on the same kind of processor.
   std::vector<char> toBytes() const;
   /// Throws Error where they are not those of a brick with so many samples and fields.
   static Brick fromBytes(
@@ -124,8 +124,8 @@ public:
 
   /// Where the source has makers, the bricks that they make; otherwise none.
   std::vector<Brick<Real>> makeTogether(const std::vector<BrickRequest>& requests) const;
-  /// In each of `processes` ranks that have the source's data together, at the same time: those bricks that it makes of them,
-  /// each as Brick::toBytes(). Empty where another one does.
+  /// Makes the bricks of rank `process`, of `processes` that have the source's data together and do it at the same time,
+  /// each as Brick::toBytes(). Those that another rank makes are empty.
   std::vector<std::vector<char>> makeShare(const std::vector<BrickRequest>& requests,
     std::size_t process, std::size_t processes, int threads) const;
 
@@ -158,7 +158,7 @@ private:
   {
     return (refractivity - rules_.ambient) / (1 + rules_.ambient);
   }
-  /// Of points along z, where there are so many along the other axes.
+  /// Counts the points along z, where there are so many along the other axes.
   int layersOf(int points) const { return shape_ == BrickShape::Layer ? 1 : points; }
 
   const MediumSource& source_;

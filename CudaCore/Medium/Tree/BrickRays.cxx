@@ -71,7 +71,7 @@ struct LeafSums
   bool isBlocked = false;
 };
 
-/// Of the nearest sample.
+/// Reads the nearest sample.
 std::int16_t gasDistanceAt(
   const BrickLayout& layout, const std::int16_t* distances, const double (&local)[3])
 {
@@ -220,7 +220,7 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
   return bend;
 }
 
-/// Of errors along a ray that add up to more than is allowed: the largest ones, until what is left is half of it.
+/// Adds, of errors along a ray that exceed what is allowed, the leaves of the largest until what is left is half of it.
 template <auto part, class Error>
 void addLargest(std::vector<Error> errors, double allowed, std::vector<std::int32_t>& leaves)
 {
@@ -252,7 +252,7 @@ void makeUnique(std::vector<std::int32_t>& numbers)
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// As tintReference() finds it, but no less than a hundredth of the most: where a view of a far field shows hardly any
+/// Finds it as tintReference() does, but no less than a hundredth of the most: where a view of a far field shows hardly any
 /// flow, its noise is not to be resolved.
 double fullColorOf(std::vector<double> gathered)
 {

@@ -81,7 +81,8 @@ struct RayFindings
 {
   double deflection = 0;  ///< the largest
   double opticalPath = 0; ///< the largest; nu times data units
-  /// Of all fields, by the rays of the lattice: what 99 % do not exceed; or, where less have gathered anything, the most.
+  /// Gathered of all fields by the lattice's rays: what 99 % do not exceed; or, where less have gathered anything, the
+  /// most.
   double gathered = 0;
   /// The largest errors of a deflection and of what is gathered: along a ray, those of the leaves and what leaves with one
   /// value neglect, each with any sign, add up by their squares.

@@ -20,7 +20,7 @@ struct Range
   double lowest, highest;
 };
 
-/// Of all values; not finite where one of them is not.
+/// Finds the range of all values; it is not finite where one of them is not.
 Range rangeOf(const std::vector<double>& values)
 {
   std::array<double, lanes> lowest{}, highest{}, defects{};

@@ -25,7 +25,7 @@ public:
 
   void clear();
   std::int32_t add(const std::vector<Value>& values);
-  /// In place of brick `number`, which may be beyond the last one. `values`: as they are in memory, at any address.
+  /// Replaces brick `number`, which may be beyond the last one. `values`: as they are in memory, at any address.
   void put(std::int32_t number, const char* values);
   void remove(std::int32_t brick) { free_.push_back(brick); }
 

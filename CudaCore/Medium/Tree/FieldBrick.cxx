@@ -77,7 +77,7 @@ struct OneField
     return isAbove ? twice : -twice;
   }
 
-  /// By 1 / perAxis[...] on each axis; 0 where the field is not known.
+  /// Finds the gradient's length by 1 / perAxis[...] on each axis; 0 where the field is not known.
   double gradientAt(std::size_t at, std::size_t axes, const std::array<std::size_t, 3>& strides,
     const std::array<double, 3>& perAxis) const
   {

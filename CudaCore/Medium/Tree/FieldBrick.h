@@ -16,9 +16,9 @@ namespace schlieren
 /// Says by how much a node is too coarse for its fields. All of what a ray gathers of them, of all together.
 struct FieldFacts
 {
-  /// Because the samples are as far apart as they are; 0 along an axis on which the cells are no finer.
+  /// Error because samples are as far apart as they are; 0 along an axis on which the cells are no finer.
   std::array<double, 3> error{ 0, 0, 0 };
-  /// Because of what lies between samples that are further apart than cells along this axis.
+  /// Error because of what lies between samples that are further apart than cells along this axis.
   std::array<double, 3> hidden{ 0, 0, 0 };
   double range = 0;     ///< of the samples, as what a ray may gather
   double neglected = 0; ///< the same, where nothing was made of it
@@ -26,8 +26,8 @@ struct FieldFacts
 
 struct FieldBrick
 {
-  /// As FieldGradients::values, laid out like the samples of a brick: by the smallest spacing of the tree's coarsest
-  /// voxels. Empty: all are 0.
+  /// Gradients as FieldGradients::values, laid out like the samples of a brick: by the smallest spacing of the tree's
+  /// coarsest voxels. Empty: all are 0.
   std::vector<float> gradients;
   FieldFacts facts;
 };
@@ -47,7 +47,7 @@ double largestGathered(const MediumSource& source, const Box& box);
 
 /// `isGas`: which points count; empty: all. Gradients are central differences, one-sided ones beside points that do not
 /// count, and the mean of the neighbours' where these are no gas; 0 where a field has no value. They are by `unit`.
-/// Of what is `negligible` none are made.
+/// Makes the gradients of a node, none where they are `negligible`.
 FieldBrick fieldBrickOf(const MediumSource& source, const Box& box, const FieldSamples& samples,
   const std::vector<unsigned char>& isGas, const std::array<double, 3>& cellSize, int apron,
   double unit, double negligible);

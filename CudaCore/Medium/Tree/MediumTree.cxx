@@ -95,7 +95,7 @@ void MediumTree<Real>::addNode(const NodePlace& place)
   nodeFields_.resize(source_->fields() > 0 ? nodes_.size() : 0);
 }
 
-/// Without what of it is outside of the domain.
+/// Cuts off what of the node is outside of the domain.
 template <class Real>
 Box MediumTree<Real>::indexBoxOf(const NodePlace& place) const
 {

@@ -31,7 +31,7 @@ struct TreeSettings
   int threads = 0;
 };
 
-/// Of leaves that a view does not need, where memory is short.
+/// What becomes of leaves that a view does not need, where memory is short.
 enum class Unneeded
 {
   Goes,
@@ -156,7 +156,7 @@ private:
   };
   class View;
 
-  /// Of a node that is divided.
+  /// Counts the children of a node that is divided.
   std::int32_t childCount() const { return shape() == BrickShape::Layer ? 4 : 8; }
   void makeBrick(std::size_t request);
   void makeRoots();

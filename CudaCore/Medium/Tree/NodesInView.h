@@ -21,7 +21,7 @@ class MediumTree<Real>::View
   /// Layers between samples that are no further apart than this do not matter.
   static constexpr double pixelsOfLayer = 4;
 
-  /// As many levels as most media have; for the progress that is reported.
+  /// Estimates how many levels a medium has, for the progress that is reported.
   static constexpr int usualLevels = 10;
 
 public:
@@ -174,15 +174,15 @@ public:
     return least <= limit && most >= -limit;
   }
 
-  /// Of what a level's leaves have, by their facts.
+  /// Finds what is negligible in a level's leaves, by their facts.
   Negligible negligible(int level) const
   {
     const double perLength = 1 / lengthIn(level);
     return { perLength * allowed().deflection, perLength * allowed().gathered };
   }
 
-  /// What is negligible to a leaf that is made, or made again, or to the children of one that is divided: nothing where too much
-  /// has been neglected along rays; and what a leaf has, it keeps when it lacks something else.
+  /// What is negligible to a leaf that is made, or made again, or to the children of one that is divided: nothing where
+  /// too much has been neglected along rays; and what a leaf has, it keeps when it lacks something else.
   Negligible negligibleTo(const Node& node, const NodeFields& fields, bool divides) const
   {
     const Negligible usual = negligible(node.place.level);
@@ -242,7 +242,7 @@ private:
     return column_.finest * std::max(least, column_.widthAt(depths.middle + depths.half));
   }
 
-  /// At the middle of a node, from it to the viewer; of any length.
+  /// Points from the middle of a node to the viewer; has any length.
   Vec3<double> lineOfSight(const NodePlace& place) const
   {
     const Vec3<double> w = cross(column_.u, column_.v);
@@ -261,7 +261,7 @@ private:
   {
     double middle, half;
   };
-  /// Of the product of a vector with the places in a box.
+  /// Finds the range of the products of a vector with the points of a box.
   static Range rangeOf(const Vec3<double>& vector, const Box& box)
   {
     const double a[3] = { vector.x, vector.y, vector.z };

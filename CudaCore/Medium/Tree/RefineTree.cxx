@@ -21,7 +21,7 @@ namespace schlieren
 namespace
 {
 
-/// Of the memory, for what turns out to be worse than what was divided before.
+/// Reserves one of so many parts of the memory for what turns out to be worse than what was divided before.
 constexpr std::size_t partsOfReserve = 16;
 
 /// Bricks that are made before they are put into the tree; of those that ranks make together, by each one.

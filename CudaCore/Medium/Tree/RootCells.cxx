@@ -20,7 +20,7 @@ namespace
 constexpr double fewestRoots = 4;
 constexpr double maxRoots = 16;
 
-/// So that neither cells nor levels are too many for numbers of 32 bits.
+/// Limits cells and levels to what numbers of 32 bits can count.
 constexpr int mostCoarserLevels = 13;
 
 } // namespace

@@ -27,7 +27,7 @@ struct ImageRange
   double low, high;
 };
 
-/// Of the image's coordinates along u or v, as far as there is something of the grid.
+/// Finds which of the image's coordinates along u or v the grid covers.
 ImageRange rangeOfBox(const Grid& grid, const Column& column, int side);
 
 } // namespace schlieren

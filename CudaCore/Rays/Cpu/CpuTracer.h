@@ -25,7 +25,7 @@ bool hasSimd(Simd simd);
 /// The best ones that it has.
 Simd bestSimd();
 
-/// Of these instructions, those that a kernel has packs for. The paper's methods, with which its images can be
+/// Limits instructions to those that a kernel has packs for. The paper's methods, with which its images can be
 /// reproduced, have packs of four alone: wider ones would take a quarter of the tracer's compile time.
 Simd packsFor(const KernelChoice& kernel, Simd simd);
 

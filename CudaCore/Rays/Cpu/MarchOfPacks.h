@@ -21,7 +21,7 @@ struct SchemeOfTaskByRows : SchemeOfTask
   using Of = ByRows<Scheme>;
 };
 
-/// At most `most` steps of which none leaves the grid.
+/// Takes `most` steps, of which none leaves the grid.
 template <class Kernel, class Real, class May>
 SCHLIEREN_HD void takeStepsInside(
   March<Kernel, Real, May>& a, March<Kernel, Real, May>& b, std::int32_t most)

@@ -21,7 +21,7 @@ constexpr int threadsPerWarp = 32;
 constexpr int threadsPerBlock = warpsAlong * warpsUp * threadsPerWarp;
 static_assert(warpColumns * warpRows == threadsPerWarp);
 
-/// Of all rays of a pass.
+/// Sums up all rays of a pass.
 struct MarchTotals
 {
   long long worstDrift; ///< as the bits of a double, which grow with it

@@ -13,7 +13,7 @@
 namespace schlieren
 {
 
-/// So many blocks at the same time on a multiprocessor: in single precision their rays' state then takes 96 registers
+/// How many blocks a multiprocessor has at the same time: in single precision their rays' state then takes 96 registers
 /// of a thread. Kernels that sample at several places in a step would have to keep it in memory.
 template <class Kernel, class Real>
 constexpr int blocksAtATime = sizeof(Real) == sizeof(float) && !Kernel::Integrator::samplesBeyond

@@ -149,7 +149,7 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
     std::int64_t firstRow, rows;
   };
   std::int64_t nextBand = bands.first;
-  /// Of the next bands, if there are any.
+  /// Launches the next bands, if there are any.
   const auto launch = [&](std::int64_t number) -> std::optional<Launch>
   {
     if (nextBand >= bands.end)

@@ -24,7 +24,8 @@ constexpr std::array<std::size_t, 3> maxCells{ 48, 48, 96 };
 /// Boxes whose places decide where cells are.
 constexpr std::size_t maxLooks = 4096;
 
-/// In units of the light's length, along u (from the ray through pixel (0, 0)), v and w (from the entry plane).
+/// A block of steep slopes in units of the light's length, along u (from the ray through pixel (0, 0)), v and w (from
+/// the entry plane).
 struct SteepBox
 {
   float low[3], high[3];
@@ -132,7 +133,8 @@ public:
     }
   }
 
-  /// For rays that are nowhere displaced by more than `reach`. A box may lie beside the columns by that much.
+  /// Fills the columns for rays that are nowhere displaced by more than `reach`. A box may lie beside the columns by
+  /// that much.
   void fill(double reach, float gradientEverywhere)
   {
     const std::size_t layers = edges_[2].size() - 1;
@@ -243,9 +245,9 @@ public:
 
   /// Where the gradient is at most `gradient` over `depth`. False: it may turn around.
   ///
-  /// With Q the length of the kicks so far, p.w is at least a - Q, a = (1 - nu) cosine; and, as |p| = 1 + nu is
-  /// conserved and kicks along w do not count where the light is along w, sqrt(a^2 - Q^2) for such light. Over a layer
-  /// Q grows by S = (1 + nu) |grad nu| depth over p.w, whose least value is that at the layer's end.
+  /// Crosses a layer. With Q the length of the kicks so far, p.w is at least a - Q, a = (1 - nu) cosine; and, as |p| =
+  /// 1 + nu is conserved and kicks along w do not count where the light is along w, sqrt(a^2 - Q^2) for such light.
+  /// Over a layer Q grows by S = (1 + nu) |grad nu| depth over p.w, whose least value is that at the layer's end.
   bool cross(double gradient, double depth)
   {
     const double s = largest_ * gradient * depth;
@@ -320,7 +322,7 @@ void widen(DisplacementBound& bound, const BendingRay& ray)
   bound.bend = std::max(bound.bend, ray.bend);
 }
 
-/// In units of the light's length.
+/// Finds the bound in units of the light's length.
 DisplacementBound boundOf(const Columns& columns, double largestNu, const Light& light)
 {
   const double cosine = light.smallestCosine();

@@ -23,11 +23,11 @@ struct DisplacementBound
 /// The most of q that light has where it enters the data.
 double largestKickAtEntry(double largestNu, const Light& light);
 
-/// For a ray that meets the medium's largest gradient all along its path through the grid.
+/// Bounds a ray that meets the medium's largest gradient all along its path through the grid.
 template <class Real>
 DisplacementBound boundBySteepest(const Medium<Real>& medium, const Light& light);
 
-/// For the rays of a view and those around it that may be traced, each through what it can meet: in columns along the
+/// Bounds the rays of a view and those around it that may be traced, by what each can meet: in columns along the
 /// light, as wide as a ray in them may be displaced, of what is steepest at each depth. Rays that are not along w have
 /// one column, all of the medium. `step`: in voxels; one kick is for all of a step. `atLeast`: |d nu / d index|
 /// that rays may feel everywhere, because they cross cubes in which the gradient is smaller in one step.

@@ -80,7 +80,7 @@ struct RefractedPath
   {
     return (1 + at.value) * scaled(light.indexScale, at.gradient);
   }
-  /// Of the optical path difference, by s. The integral of n ds less the path of the plane wave that meets
+  /// Derivative of the optical path difference by s. The integral of n ds less the path of the plane wave that meets
   /// the ray at its end, along d, is that of 2 nu + nu^2 - q.d. With |p| = 1 + nu it equals
   /// nu + (nu^2 + |q|^2) / 2, in which an error of q.d, a sum of many kicks, counts only to second order.
   template <class Real>

@@ -16,7 +16,7 @@
 namespace schlieren
 {
 
-/// As an integer from 0 to `most`, which many numbers of steps cannot be: they are estimates, of any size.
+/// Converts to an integer from 0 to `most`, which many numbers of steps exceed: they are estimates, of any size.
 template <class Number>
 SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
 {
@@ -297,7 +297,7 @@ struct March
     }
   }
 
-  /// In leaves of one layer, a usual step may lead far beyond the domain.
+  /// Shortens the usual step, which in leaves of one layer may lead far beyond the domain.
   SCHLIEREN_HD Real stepWithinDomain() const
   {
     if (task.medium.planeStride != 0)
@@ -502,7 +502,7 @@ struct March
     ray.pathError = good ? there.pathError : ray.pathError;
   }
 
-  /// Those that have left the grid, of rays that may.
+  /// Finds those that have left the grid, of rays that may.
   template <class Mask>
   SCHLIEREN_HD Mask areOutside(const Mask& leaving) const
   {
@@ -532,7 +532,7 @@ struct March
     return by < 0 ? -by : by;
   }
 
-  /// That at the end.
+  /// Finds the drift at the end.
   SCHLIEREN_HD void findDrift()
   {
     if constexpr (!Path::bends)
@@ -596,7 +596,7 @@ struct March
     bool someLeave;
   };
 
-  /// That of rays of which none leaves its leaf, with nothing to look at but the medium.
+  /// Finds the step of rays of which none leaves its leaf, with nothing to look at but the medium.
   SCHLIEREN_HD NextStep stepInside() const
   {
     return { cruise, Path::ahead(ray, light, Number(0.5) * cruise), cruise < cruise, false };

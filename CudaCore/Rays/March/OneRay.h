@@ -112,7 +112,7 @@ SCHLIEREN_HD bool leavesThrough(
   return !faces.refract || u * u + v * v < 1;
 }
 
-/// By how much light of p = d + q, to first order in q unless it bends, has turned behind the faces.
+/// Finds by how much light of p = d + q, to first order in q unless it bends, has turned behind the faces.
 SCHLIEREN_HD void findDeflection(const ExitFaces& faces, const Vec3<double>& d,
   const Vec3<double>& q, bool bends, double (&deflection)[2])
 {

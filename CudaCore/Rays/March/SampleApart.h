@@ -15,7 +15,7 @@
 namespace schlieren
 {
 
-/// In place of a scheme: the one that the task names, looked up for each sample. For integrators whose samples are a
+/// Replaces a scheme by the one that the task names, looked up for each sample. For integrators whose samples are a
 /// function of their own anyway, so that their steps are compiled once for all schemes.
 struct SchemeOfTask
 {

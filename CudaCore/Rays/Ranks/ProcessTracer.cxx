@@ -22,7 +22,7 @@ namespace schlieren
 namespace
 {
 
-/// For how long ranks trace before the first one looks whether it is to stop.
+/// How long ranks trace before rank 0 looks whether it is to stop.
 constexpr double secondsAtOnce = 0.05;
 
 double secondsSince(std::chrono::steady_clock::time_point start)

@@ -15,7 +15,7 @@
 namespace schlieren
 {
 
-/// Traces rays with the CPUs or the CUDA devices of this process and of others, never with both: they round differently.
+/// Traces rays with the CPUs or the CUDA devices of this rank and of others, never with both: they round differently.
 template <class Real>
 class ProcessTracer
 {
@@ -24,13 +24,13 @@ public:
   explicit ProcessTracer(const Medium<Real>& medium);
   ~ProcessTracer();
 
-  /// As traceOnCpu().
+  /// Traces a pass, or resumes it, as traceOnCpu() does.
   bool trace(const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions,
     Processes& processes, TracedPass& traced, int threads, const Monitor& monitor);
 
-  /// Whether all processes have CUDA devices, of the same compute capability. Asks them once.
+  /// Whether all ranks have CUDA devices, of the same compute capability. Asks them once.
   static bool haveCuda(Processes& processes);
-  /// Then: the same on these. `own` is this process's, with the medium.
+  /// Traces a pass on these, where all have them. `own` is this rank's, with the medium.
   bool traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
     const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions, Processes& processes,
     TracedPass& traced, const Monitor& monitor);

@@ -89,7 +89,7 @@ struct TraceMessage
   Simd simd = Simd::None; ///< of the CPU
   Pass pass{};
   RayTask<Real> task{}; ///< its pointers mean nothing
-  /// Of the arrays: their versions, and from their beginnings to where the task's pointers point, in values.
+  /// Versions of the arrays, and from their beginnings to where the task's pointers point, in values.
   std::array<std::uint64_t, arraysOfTask> versions{};
   std::array<std::int64_t, arraysOfTask> offsets{};
 };

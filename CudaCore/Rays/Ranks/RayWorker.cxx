@@ -17,7 +17,7 @@ namespace schlieren
 namespace
 {
 
-/// Of the device; 0: there is none that works.
+/// The compute capability of the device; 0: there is none that works.
 int capabilityHere()
 {
   try

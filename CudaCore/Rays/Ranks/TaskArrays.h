@@ -71,7 +71,7 @@ public:
     return isComplete;
   }
 
-  /// Those of the medium, where bind() finds all of them.
+  /// The arrays of the medium, where bind() finds all of them.
   template <class Real>
   MediumArrays<Real> ofMedium(const TraceMessage<Real>& request) const
   {
