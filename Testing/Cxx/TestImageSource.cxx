@@ -306,28 +306,3 @@ TEST(ImageSource, OfGridsThatAreGiven)
   filter->SetInputDataObject(vtkRefractiveIndex::BODIES, nullptr);
   EXPECT_EQ(grid().find("bricks"), std::string::npos) << grid();
 }
-
-// While the image is converted, while the medium is made of it and of the bodies, and while voxels or rays are.
-TEST(ImageSource, AbortLeavesAnEmptyImageAndTheNextUpdateAWholeOne)
-{
-  for (double stopAt : { 0.01, 0.11, 0.13, 0.17, 0.2, 0.3, 0.6 })
-  {
-    auto filter = benchWith(ballImage(), sphere(0.2, { 0.3, 0.1, 0.2 }));
-    vtkNew<vtkCallbackCommand> watch;
-    watch->SetClientData(&stopAt);
-    watch->SetCallback(
-      [](vtkObject* caller, unsigned long, void* at, void* value)
-      {
-        if (*static_cast<double*>(value) >= *static_cast<double*>(at))
-        {
-          vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
-        }
-      });
-    const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, watch);
-    filter->Update();
-    EXPECT_TRUE(isEmpty(filter)) << stopAt;
-    filter->RemoveObserver(tag);
-    filter->Update();
-    EXPECT_FALSE(isEmpty(filter)) << stopAt;
-  }
-}
