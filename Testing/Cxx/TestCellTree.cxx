@@ -7,7 +7,6 @@
 #include "CellTree.h"
 
 #include "vtkRectilinearGrid.h"
-#include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
 
 #include <random>

@@ -9,8 +9,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
 #include "vtkMath.h"
-#include "vtkPNGWriter.h"
-#include "vtkPiecewiseFunction.h"
 
 #include <limits>
 

@@ -28,7 +28,6 @@
 #include "vtkXMLUnstructuredGridReader.h"
 
 #include <random>
-#include <thread>
 
 using filters::GasBoundary;
 using filters::Outside;

@@ -7,9 +7,6 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataSetTriangleFilter.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkResampleToImage.h"
-#include "vtkXMLUnstructuredGridReader.h"
 
 namespace
 {

@@ -4,7 +4,6 @@
 // Images with bodies: a medium whose walls are where surfaces are, and whose gas is that of the image.
 #include "Surfaces.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkMath.h"
 #include "vtkMatrix3x3.h"
 #include "vtkSphereSource.h"

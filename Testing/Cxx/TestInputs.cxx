@@ -3,10 +3,8 @@
 #include "Fixtures.h"
 
 #include "vtkAppendFilter.h"
-#include "vtkDataSetTriangleFilter.h"
 #include "vtkExtractVOI.h"
 #include "vtkFloatArray.h"
-#include "vtkImageDataToPointSet.h"
 #include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"

@@ -9,7 +9,6 @@
 #include "PointFit.h"
 
 #include "vtkDataSetTriangleFilter.h"
-#include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <random>
