@@ -144,53 +144,6 @@ TEST(Film, HoldsAllRaysOnOnePixel)
   EXPECT_GE(std::ldexp(1., 63), std::ldexp(1., 30) * 1e6 * 2);
 }
 
-/// Bands are a matter of speed: whichever rows each of them covers, every ray arrives where it belongs.
-TEST(Film, BandsChangeNothing)
-{
-  constexpr int width = 7, height = 301;
-  constexpr int rays = 3000;
-  const auto columnOf = [](int i) { return std::fmod(3.7 * i, width + 1.) - 1 + 1e-3; };
-  const auto rowOf = [](int i) { return std::fmod(91.3 * i, height + 1.) - 1 + 1e-3; };
-  std::vector<double> expected(width * height);
-  for (int i = 0; i < rays; ++i)
-  {
-    for (int row = 0; row < height; ++row)
-    {
-      for (int column = 0; column < width; ++column)
-      {
-        expected[static_cast<std::size_t>(row * width + column)] +=
-          std::max(0., 1 - std::abs(column - columnOf(i))) *
-          std::max(0., 1 - std::abs(row - rowOf(i)));
-      }
-    }
-  }
-  std::vector<PixelArray<float>> images;
-  for (const std::int64_t covered : { -1, 0, 5, 63, 64, 500 })
-  {
-    SCOPED_TRACE(covered);
-    Film film(width, height, rays);
-    {
-      FilmBand one(film), other(film);
-      for (int i = 0; i < rays; ++i)
-      {
-        const Footprint at = footprintOf(columnOf(i), rowOf(i));
-        FilmBand& band = i % 3 == 0 ? one : other;
-        if (covered >= 0)
-        {
-          band.cover(std::max<std::int64_t>(-1, at.row - covered), at.row + covered / 2);
-        }
-        band.add(at.column, at.row, contributionsOf(at, std::llround(film.one())));
-      }
-    }
-    images.push_back(film.develop(1, 2));
-    for (std::size_t pixel = 0; pixel < expected.size(); ++pixel)
-    {
-      ASSERT_NEAR(images.back()[pixel], expected[pixel], 1e-5);
-    }
-    EXPECT_EQ(images.back(), images.front());
-  }
-}
-
 TEST(Light, FirstRayOfEachPixelIsItsCentre)
 {
   for (const std::uint32_t seed : { 0u, 1u, 77u, 4294967295u })

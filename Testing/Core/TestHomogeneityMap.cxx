@@ -443,20 +443,6 @@ TEST(HomogeneityMap, NothingIsWithinANegativeOrMissingTolerance)
   }
 }
 
-TEST(HomogeneityMap, ThreadsDoNotChangeABit)
-{
-  const Medium<double> medium = mediumWithSolids({ 70, 45, 61 }, Interpolation::Quadratic, 1e-5);
-  const auto one = buildHomogeneityMap(medium, Interpolation::Quadratic, 1e-5, 1);
-  for (const int threads : { 2, 7 })
-  {
-    const auto several = buildHomogeneityMap(medium, Interpolation::Quadratic, 1e-5, threads);
-    EXPECT_EQ(one.levels, several.levels);
-    EXPECT_TRUE(std::equal(one.ranges.begin(), one.ranges.end(), several.ranges.begin(),
-      [](const NuRange<double>& a, const NuRange<double>& b)
-      { return a.lowest == b.lowest && a.highest == b.highest; }));
-  }
-}
-
 /// Grids that no memory holds, so only the numbers of their cubes.
 TEST(HomogeneityMap, NumbersHugeGrids)
 {

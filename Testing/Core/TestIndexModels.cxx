@@ -155,23 +155,6 @@ TEST(Ciddor, RefractsWithItsCarbonDioxide)
   EXPECT_NEAR(standard - outdoors, 2.2e-8, 1e-9);
 }
 
-TEST(Ciddor, RefractsShortWavesMore)
-{
-  for (const double humidity : { 0., 1. })
-  {
-    double shorter = infinity;
-    for (int nanometres = 300; nanometres <= 1700; ++nanometres)
-    {
-      const double wavelength = nanometres * metresPerNanometre;
-      const double n = ciddorRefractivity(293.15, 101325, humidity, 450, wavelength);
-      EXPECT_LT(n, shorter) << nanometres;
-      EXPECT_GT(n, 2.6e-4) << nanometres;
-      shorter = n;
-    }
-    EXPECT_LT(ciddorRefractivity(293.15, 101325, humidity, 450, 300e-9), 2.9e-4);
-  }
-}
-
 TEST(Ciddor, KeepsTheNearestDispersionOutsideItsWavelengths)
 {
   const auto at = [](double wavelength)
@@ -252,40 +235,6 @@ TEST(Ciddor, FreezesWithHardlyAJump)
     const double water = air().refractivity(273.15, p, 1);
     EXPECT_NEAR(ice / water, 1, 1e-6);
     EXPECT_GT(ice, water);
-  }
-}
-
-TEST(Ciddor, FallsWithTemperature)
-{
-  for (const double humidity : { 0., 0.1, 0.5, 1. })
-  {
-    for (const double p : steps(1, 2e7, 1.3))
-    {
-      double colder = infinity;
-      for (const double T : steps(200, 3000, 1.0005))
-      {
-        const double n = air().refractivity(T, p, humidity);
-        ASSERT_LT(n, colder) << T << " K, " << p << " Pa, humidity " << humidity;
-        colder = n;
-      }
-    }
-  }
-}
-
-TEST(Ciddor, RisesWithPressure)
-{
-  for (const double humidity : { 0., 0.1, 0.5, 1. })
-  {
-    for (const double T : steps(200, 3000, 1.007))
-    {
-      double lower = 0;
-      for (const double p : steps(1e-3, 2e7, 1.02))
-      {
-        const double n = air().refractivity(T, p, humidity);
-        ASSERT_GT(n, lower) << T << " K, " << p << " Pa, humidity " << humidity;
-        lower = n;
-      }
-    }
   }
 }
 

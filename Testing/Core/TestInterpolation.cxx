@@ -296,26 +296,6 @@ TEST_P(EachInterpolation, IsTheSameInSinglePrecision)
   }
 }
 
-TEST(Medium, DoesNotDependOnTheNumberOfThreads)
-{
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> any(-1e-4, 1e-4);
-  SampledField<float> field(box(19, 23, 29), [&](double, double, double) { return any(random); });
-  field.samples[1000] = std::numeric_limits<float>::quiet_NaN();
-  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Cubic })
-  {
-    const Medium<float> one = buildMedium<float>(field.field, interpolation, 1);
-    for (const int threads : { 2, 7 })
-    {
-      const Medium<float> several = buildMedium<float>(field.field, interpolation, threads);
-      EXPECT_EQ(one.volume.samples, several.volume.samples);
-      EXPECT_EQ(one.solid, several.solid);
-      EXPECT_EQ(one.ambient, several.ambient);
-      EXPECT_EQ(one.slope.x, several.slope.x);
-    }
-  }
-}
-
 TEST(Medium, AmbientIsTheMedianOfTheBoundary)
 {
   // A jet leaves through one face; the gas around it decides.

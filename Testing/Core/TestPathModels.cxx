@@ -194,39 +194,6 @@ TEST_P(PathModels, StraightIsNoModelOfLenses)
   EXPECT_EQ(Bench().render(field.field, scene).pathModel, PathModel::Refracted);
 }
 
-TEST_P(PathModels, NoRayIsDisplacedBeyondTheBound)
-{
-  for (const unsigned seed : { 1u, 2u, 3u, 4u })
-  {
-    for (const double peak : { 1e-7, 1e-4, 0.02 })
-    {
-      for (const Interpolation interpolation : allInterpolations)
-      {
-        SCOPED_TRACE(std::to_string(seed) + " " + std::to_string(peak) + " " + name(interpolation));
-        SampledField<double> field(cube(17, 1), smoothNoise(seed, peak));
-        field.field.ambient = 0;
-        View view;
-        view.width = view.height = 40;
-        view.viewDirection = { 0.2, -0.5 * seed, -0.9 };
-        for (const PathModel model : { PathModel::Straight, PathModel::Refracted })
-        {
-          Scene scene = sceneOf(model, view);
-          scene.interpolation = interpolation;
-          const Image image = Bench().render(field.field, scene);
-          double largest = 0;
-          for (std::size_t pixel = 0; pixel < 40 * 40; ++pixel)
-          {
-            const Reading ray = readingOf(image, pixel);
-            largest = std::max(largest, std::hypot(ray.displacement[0], ray.displacement[1]));
-          }
-          EXPECT_GT(largest, 0);
-          EXPECT_LE(largest, image.displacementBound * (1 + 1e-6));
-        }
-      }
-    }
-  }
-}
-
 double largestDisplacement(const Image& image)
 {
   double largest = 0;

@@ -117,61 +117,6 @@ TEST_P(Perspective, IsBentAsTheEquationOfRaysSays)
   }
 }
 
-/// The same light, seen in its own direction: what is to the right there is to the left here.
-TEST_P(Perspective, IsDivergingLightSeenFromTheOtherSide)
-{
-  const Grid grid = boxGrid(1. / 8, { half, half, half });
-  const SampledField<double> medium = sampled(grid, blob(1e-3));
-  Field field = medium.field;
-  field.ambient = 0;
-  Scene scene;
-  scene.device = GetParam();
-  scene.precision = Precision::Double;
-  scene.pathModel = PathModel::Refracted;
-  scene.view = raysAround({ 0, 0, 0 }, 60, 40, 0.1);
-  scene.view.viewDirection = { -0.3, 0.2, -0.9 };
-  scene.samplesPerPixel = 3;
-  scene.source.shape = SourceShape::Slit;
-  scene.source.width = 0.01;
-  scene.source.length = 0.02;
-  scene.kScale = 100;
-  Bench bench;
-  for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Interferogram })
-  {
-    scene.cutoff = cutoff;
-    scene.knifeEdgeAngle = 90; // along v, which is the same
-    // Offsets of rays within pixels and of the source's places are not mirrored; one in the middle needs not be.
-    scene.samplesPerPixel = 1;
-    Scene perspective = scene, diverging = scene;
-    setPupil(perspective.view, 8);
-    perspective.focusOffset = 0.7;
-    diverging.source.distance = 8;
-    diverging.focusOffset = -0.7;
-    for (double& component : diverging.view.viewDirection)
-    {
-      component = -component;
-    }
-    const Image a = bench.render(field, perspective), b = bench.render(field, diverging);
-    float worst = 0, most = 0, least = std::numeric_limits<float>::infinity();
-    for (int row = 0; row < a.height; ++row)
-    {
-      for (int column = 0; column < a.width; ++column)
-      {
-        const std::size_t here = pixelOf(a, column, row);
-        const std::size_t there = pixelOf(b, b.width - 1 - column, row);
-        worst = std::max(worst, std::abs(a.intensity[here] - b.intensity[there]));
-        most = std::max(most, a.intensity[here]);
-        least = std::min(least, a.intensity[here]);
-        EXPECT_NEAR(a.deflection[2 * here], -b.deflection[2 * there], 1e-9);
-        EXPECT_NEAR(a.deflection[2 * here + 1], b.deflection[2 * there + 1], 1e-9);
-        EXPECT_NEAR(a.opticalPathDifference[here], b.opticalPathDifference[there], 1e-9);
-      }
-    }
-    EXPECT_GT(most - least, 0.01) << static_cast<int>(cutoff);
-    EXPECT_LT(worst, 1e-5) << static_cast<int>(cutoff);
-  }
-}
-
 /// The further the pupil, the less it differs from parallel light: by the ratio of the distances.
 TEST_P(Perspective, OfAFarPupilIsParallel)
 {

@@ -614,50 +614,6 @@ TEST(SheetRay, TwoStepsAreAsGoodAsOne)
   EXPECT_LT(others, 800);
 }
 
-/// Whatever the shape, a mirrored sheet makes a mirrored image.
-TEST(Sheet, HasNoHandedness)
-{
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> any(0, 1);
-  for (const double disorder : { 0.2, 1.5, 4. })
-  {
-    std::array<std::array<std::array<double, 3>, 20>, 20> rays;
-    for (auto& row : rays)
-    {
-      for (auto& ray : row)
-      {
-        ray = { disorder * (any(random) - 0.5), disorder * (any(random) - 0.5), any(random) };
-      }
-    }
-    Recorder film, mirrored;
-    const auto ray = [&](int i, int j, bool isMirrored)
-    {
-      const auto& of = rays.at(static_cast<std::size_t>(j)).at(static_cast<std::size_t>(i));
-      const double x = i - 4 + of[0];
-      return Ray{ isMirrored ? width - x : x, j - 4 + of[1], { of[2], 1 }, true };
-    };
-    for (int j = 0; j < 19; ++j)
-    {
-      for (int i = 0; i < 19; ++i)
-      {
-        Sheet<2, Recorder>(filmSize, film)
-          .addCell(
-            ray(i, j, false), ray(i + 1, j, false), ray(i, j + 1, false), ray(i + 1, j + 1, false));
-        Sheet<2, Recorder>(filmSize, mirrored)
-          .addCell(
-            ray(i + 1, j, true), ray(i, j, true), ray(i + 1, j + 1, true), ray(i, j + 1, true));
-      }
-    }
-    for (int row = 0; row < height; ++row)
-    {
-      for (int column = 0; column < width; ++column)
-      {
-        ASSERT_NEAR(film.at(column, row), mirrored.at(width - 1 - column, row), 1e-7);
-      }
-    }
-  }
-}
-
 } // namespace
 
 } // namespace schlieren

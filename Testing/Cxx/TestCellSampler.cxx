@@ -166,36 +166,6 @@ TEST_P(CellsOnLattices, AreWhatEachCellSays)
   EXPECT_LT(difference(sampled({ mesh }, lattice), eachCell({ mesh }, lattice)), 1e-12);
 }
 
-TEST_P(CellsOnLattices, DoNotDependOnTheLattice)
-{
-  const Mesh mesh = meshOf(GetParam().type, 3, GetParam().cells, 0.1, false);
-  setN(mesh, rough);
-  const Lattice all = { { -0.1, -0.1, -0.1 }, { 1. / 32, 1. / 32, 1. / 32 }, { 40, 40, 40 } };
-  const Found values = sampled({ mesh }, all);
-  for (const int every : { 1, 3, 13 })
-  {
-    Lattice some = all;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      some.first[axis] += 5 * all.spacing[axis];
-      some.spacing[axis] *= every;
-      some.points[axis] = 1 + 26 / every;
-    }
-    const Found again = sampled({ mesh }, some);
-    for (std::size_t i = 0; i < again.values.size(); ++i)
-    {
-      const Vec x = pointOf(some, i);
-      std::size_t at = 0;
-      for (const std::size_t axis : { 2, 1, 0 })
-      {
-        at = 40 * at + static_cast<std::size_t>(std::lround((x[axis] + 0.1) * 32));
-      }
-      EXPECT_EQ(again.found[i], values.found[at]);
-      EXPECT_NEAR(again.values[i], values.values[at], 1e-12);
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Types, CellsOnLattices, testing::ValuesIn(kinds()),
   [](const auto& tested) { return tested.param.name; });
 

@@ -7,7 +7,6 @@
 #include "Cells/CellTree.h"
 
 #include "vtkRectilinearGrid.h"
-#include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
 
 #include <random>
@@ -375,26 +374,4 @@ TEST(CellTree, ProposesCubesForOGrids)
   EXPECT_EQ(shape[0], shape[1]);
   EXPECT_LT(shape[0], 0.2);
   EXPECT_EQ(shape[2], 1);
-}
-
-TEST(CellTree, IsTheSameForAnyNumberOfThreads)
-{
-  const Mesh mesh = hexahedra(9, 0.1);
-  std::vector<std::vector<CellTree::Number>> orders;
-  std::vector<Vec> found;
-  for (const int threads : { 1, 2, 7 })
-  {
-    vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
-      [&]
-      {
-        const CellTree tree({ mesh, mesh });
-        orders.push_back(orderOf(tree));
-        const CellTree::Content content = tree.content({ { 0.2, 0.3, 0.1 }, { 0.5, 0.6, 0.4 } });
-        found.push_back({ content.lowest, content.highest, content.cellSize[0] });
-      });
-  }
-  EXPECT_EQ(orders[1], orders[0]);
-  EXPECT_EQ(orders[2], orders[0]);
-  EXPECT_EQ(found[1], found[0]);
-  EXPECT_EQ(found[2], found[0]);
 }

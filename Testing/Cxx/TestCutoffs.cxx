@@ -9,8 +9,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
 #include "vtkMath.h"
-#include "vtkPNGWriter.h"
-#include "vtkPiecewiseFunction.h"
 
 #include <limits>
 
@@ -107,99 +105,6 @@ TEST(Cutoffs, AKnifeEdgeLetsAHalfLessTheOffsetAndKEpsPass)
   }
 }
 
-// dI = f eps / a: a focal length of 2 m and a source of 0.4 mm.
-TEST(Cutoffs, RealOpticsHaveTheirSensitivity)
-{
-  auto filter = benchOf(bending(epsX, 0), Filter::KNIFE_EDGE, 1);
-  filter->SetKFromOptics(true);
-  filter->SetFocalLength(2);
-  filter->SetSourceWidth(0.4);
-  filter->SetCutoffPosition(0.1);
-  EXPECT_NEAR(intensityOf(filter), 0.5 - 0.1 / 0.4 + 2 * epsX / 0.4e-3, 1e-3);
-  EXPECT_NEAR(fieldValue(filter, "KScale"), 5000, 1e-9);
-  EXPECT_EQ(filter->GetKScaleUsed(), fieldValue(filter, "KScale"));
-  EXPECT_NE(std::string(filter->GetSensitivity()).find("the edge 0.1 mm in"), std::string::npos);
-}
-
-TEST(Cutoffs, CircularOnesAreDarkOrBrightWhereLightIsBent)
-{
-  auto filter = benchOf(bending(epsX, epsY), Filter::CIRCULAR, 10000);
-  EXPECT_NEAR(intensityOf(filter), 1 - 10000 * eps, 1e-3);
-  EXPECT_EQ(fieldValue(filter, "UndisturbedLevel"), 1);
-  filter->SetCutoff(Filter::CIRCULAR_COMPLEMENT);
-  EXPECT_NEAR(intensityOf(filter), 10000 * eps, 1e-3);
-  EXPECT_EQ(fieldValue(filter, "UndisturbedLevel"), 0);
-}
-
-TEST(Cutoffs, NumericalSchlierenAreDarkExponentially)
-{
-  auto filter = benchOf(bending(epsX, epsY), Filter::NUMERICAL_SCHLIEREN, 10000);
-  EXPECT_NEAR(intensityOf(filter), std::exp(-5 * 10000 * eps), 1e-3);
-  EXPECT_EQ(fieldValue(filter, "UndisturbedLevel"), 1);
-  filter->SetAutoKScale(true);
-  EXPECT_NEAR(intensityOf(filter), std::exp(-5.), 1e-3);
-  EXPECT_NEAR(fieldValue(filter, "KScale") * eps, 1, 1e-3);
-}
-
-TEST(Cutoffs, AGradedFilterIsItsCurve)
-{
-  auto filter = benchOf(bending(epsX, epsY), Filter::GRADED_FILTER, 5000);
-  vtkNew<vtkPiecewiseFunction> curve; // a band that is clear in the middle
-  curve->AddPoint(0, 0);
-  curve->AddPoint(0.5, 1);
-  curve->AddPoint(1, 0);
-  filter->SetGradedFilter(curve);
-  EXPECT_NEAR(intensityOf(filter), 1 - 2 * 5000 * epsX, 2e-3);
-  EXPECT_NEAR(fieldValue(filter, "UndisturbedLevel"), 1, 1e-6);
-  curve->AddPoint(0.5, 0.5);
-  EXPECT_NEAR(intensityOf(filter), 0.5 * (1 - 2 * 5000 * epsX), 2e-3);
-  filter->SetInvertCutoff(true);
-  EXPECT_NEAR(intensityOf(filter), 1 - 0.5 * (1 - 2 * 5000 * epsX), 2e-3);
-}
-
-// Hue is the direction, saturation the size of k eps (Brownlee et al. 2011, eq. 17), in all quadrants.
-TEST(Cutoffs, AColorWheelShowsTheDirection)
-{
-  for (const double degrees : { 0., 50., 90., 130., 180., 215., 270., 340. })
-  {
-    const double angle = vtkMath::RadiansFromDegrees(degrees);
-    auto filter = benchOf(
-      bending(eps * std::cos(angle), eps * std::sin(angle)), Filter::COLOR_FILTER, 0.6 / eps);
-    std::array<double, 3> expected;
-    vtkMath::HSVToRGB(degrees / 360, 0.6, 1, &expected[0], &expected[1], &expected[2]);
-    for (double& value : expected)
-    {
-      value *= 255;
-    }
-    expectColor(colorOf(filter), expected, std::to_string(degrees).c_str());
-  }
-  expectColor(colorOf(benchOf(bending(0, 0), Filter::COLOR_FILTER, 1)), { 255, 255, 255 }, "white");
-}
-
-TEST(Cutoffs, AColorImageShowsItsQuadrants)
-{
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(2, 2, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  const unsigned char colors[12] = { 10, 20, 30, 200, 100, 0, 0, 255, 60, 250, 240, 5 };
-  std::copy_n(colors, 12, static_cast<unsigned char*>(image->GetScalarPointer()));
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  const std::string name = SCHLIEREN_TEST_OUTPUT "/quadrants.png";
-  writer->SetFileName(name.c_str());
-  writer->Write();
-  for (const int quadrant : { 0, 1, 2, 3 }) // left and right below, then above
-  {
-    const double x = quadrant % 2 == 0 ? -eps : eps, y = quadrant < 2 ? -eps : eps;
-    auto filter = benchOf(bending(x, y), Filter::COLOR_FILTER, 0.9 / eps);
-    filter->SetColorFilterImage(name.c_str());
-    expectColor(colorOf(filter),
-      { double(colors[3 * quadrant]), double(colors[3 * quadrant + 1]),
-        double(colors[3 * quadrant + 2]) },
-      std::to_string(quadrant).c_str());
-  }
-}
-
 // Of photons, which keep what is at the pixel's centre.
 TEST(Cutoffs, AnInterferogramIsTheCosineOfThePath)
 {
@@ -223,56 +128,6 @@ TEST(Cutoffs, AnInterferogramIsTheCosineOfThePath)
   EXPECT_EQ(fieldValue(filter, "UndisturbedLevel"), 1);
   EXPECT_EQ(fieldValue(filter, "KScale"), 0);
   EXPECT_EQ(std::string(filter->GetSensitivity()).find("a fringe is 500 nm"), 0u);
-}
-
-TEST(Cutoffs, FiniteFringesHaveTheirSpacingAndDirection)
-{
-  auto filter = benchOf(bending(0, 0), Filter::INTERFEROGRAM, 1);
-  filter->SetFilmEstimator(Filter::PHOTON);
-  filter->SetFringeMode(Filter::FINITE_FRINGES);
-  const auto expectFringes = [&](double spacing, double degrees)
-  {
-    filter->SetFringeAngle(degrees);
-    filter->Update();
-    const double angle = vtkMath::RadiansFromDegrees(degrees);
-    vtkDataArray* intensity = arrayOf(filter, "Intensity");
-    for (vtkIdType i = 0; i < intensity->GetNumberOfTuples(); ++i)
-    {
-      const double* x = filter->GetOutput()->GetPoint(i);
-      const double turns = (x[0] * std::cos(angle) + x[1] * std::sin(angle)) / spacing;
-      EXPECT_NEAR(intensity->GetComponent(i, 0), 0.5 * (1 + std::cos(2 * pi * turns)), 2e-3)
-        << spacing << " " << degrees << " " << i;
-    }
-    EXPECT_NEAR(fieldValue(filter, "FringeSpacing"), spacing, 1e-9 * spacing);
-  };
-  expectFringes(0.1, 0); // a tenth of the image's height
-  filter->SetFringeSpacing(0.27);
-  expectFringes(0.27, 90);
-  expectFringes(0.27, 35);
-  filter->SetWavelength(700);
-  filter->SetLengthScale(1e-6); // data in micrometres
-  filter->SetBeamAngle(120);
-  expectFringes(0.7 / std::sqrt(3.), 120);
-}
-
-TEST(Cutoffs, WhiteLightHasColors)
-{
-  auto filter = benchOf(bending(0, 0), Filter::INTERFEROGRAM, 1);
-  filter->SetWhiteLight(true);
-  expectColor(colorOf(filter), { 255, 255, 255 }, "undisturbed");
-  EXPECT_NEAR(intensityOf(filter), 1, 1e-3);
-  // Half a wave of green: what is left is purple, and dark.
-  vtkNew<vtkImageData> uniform;
-  uniform->CopyStructure(bending(0, 0));
-  addPointArray(uniform, "N", [](const Vec&) { return ambient + 275e-9 / 2; });
-  filter->SetInputDataObject(uniform);
-  const std::array<int, 3> color = colorOf(filter);
-  EXPECT_LT(color[1], color[0]);
-  EXPECT_LT(color[1], color[2]);
-  EXPECT_LT(fieldValue(filter, "UndisturbedLevel") - 1, 1e-3);
-  filter->SetWhiteLight(false);
-  filter->Update();
-  EXPECT_EQ(arrayOf(filter, "Color"), nullptr);
 }
 
 // A camera's rays bend towards denser gas: on their way of 2 through the data as if all at once in its

@@ -28,7 +28,6 @@
 #include "vtkXMLUnstructuredGridReader.h"
 
 #include <random>
-#include <thread>
 
 using filters::GasBoundary;
 using filters::Outside;
@@ -1023,7 +1022,7 @@ TEST(GasBoundary, GasContinuesFromBlockToBlock)
   {
     const Cells cells(blocks);
     const GasBoundary boundary(pointers(blocks), nullptr, Outside::Auto, cells.test());
-    for (const double h : { 0.1, 0.03, 0.01 })
+    for (const double h : { 0.1, 0.02 })
     {
       const double size = std::min(0.4, 15 * h);
       const Samples samples(boundary, latticeAround({ 1.43, 1.41, 0.5 }, { size, size, size }, h),
@@ -1117,7 +1116,7 @@ TEST(GasBoundary, NothingLeaksThroughThinHolesAndFolds)
   const double h = 0.1;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-1, 1);
-  for (const double thickness : { 0.02, 0.05, 0.12 })
+  for (const double thickness : { 0.02, 0.12 })
   {
     // Cells of any thickness; those in the middle are left out but at the rim.
     const auto z = [&](double k)
@@ -1143,7 +1142,7 @@ TEST(GasBoundary, NothingLeaksThroughThinHolesAndFolds)
       EXPECT_FALSE(samples.lets(from, to, 0.45 * h)) << thickness;
     }
   }
-  for (const double angle : { 20., 60., 90., 150. })
+  for (const double angle : { 20., 90. })
   {
     const double s = std::sin(angle * pi / 360), c = std::cos(angle * pi / 360);
     for (int i = 0; i < 5; ++i)
@@ -1162,52 +1161,4 @@ TEST(GasBoundary, NothingLeaksThroughThinHolesAndFolds)
       }
     }
   }
-}
-
-// The same to the last bit, whichever brick a point is in, and from several threads.
-TEST(GasBoundary, ResultsDependNeitherOnThreadsNorOnBricks)
-{
-  vtkNew<vtkMultiBlockDataSet> bodies;
-  bodies->SetBlock(0, plate({ -0.8, -0.8, 0.3 }, { 0.8, -0.7, 0.1 }, { -0.8, 0.8, 0 }));
-  bodies->SetBlock(1, box({ 0.4, 0.4, 0.9 }, { 0.5, 0.2, -0.1 }));
-  const GasBoundary boundary({ gasAround() }, bodies, Outside::Auto, {});
-  Lattice whole{ { -1, -1, -1 }, { 0.0625, 0.0625, 0.0625 }, { 33, 33, 33 } };
-  const Samples all(boundary, whole, always);
-  std::vector<std::thread> threads;
-  std::array<int, 4> different{};
-  for (int thread = 0; thread < 4; ++thread)
-  {
-    threads.emplace_back(
-      [&, thread]
-      {
-        Lattice part = whole;
-        part.points = { 15, 16, 17 };
-        const int first[3] = { 3 * thread, 2 + thread, 9 - thread };
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          part.first[axis] += first[axis] * part.spacing[axis];
-        }
-        const Samples samples(boundary, part, always);
-        for (int k = 1; k < 16; ++k) // marks at the sides need their neighbours
-        {
-          for (int j = 1; j < 15; ++j)
-          {
-            for (int i = 1; i < 14; ++i)
-            {
-              const auto here = static_cast<std::size_t>((k * 16 + j) * 15 + i);
-              const auto there =
-                static_cast<std::size_t>(((k + first[2]) * 33 + j + first[1]) * 33 + i + first[0]);
-              different[static_cast<std::size_t>(thread)] +=
-                samples.places[here] != all.places[there] ||
-                std::abs(samples.distances[here] - all.distances[there]) > 1e-5;
-            }
-          }
-        }
-      });
-  }
-  for (std::thread& thread : threads)
-  {
-    thread.join();
-  }
-  EXPECT_EQ(different, (std::array<int, 4>{}));
 }

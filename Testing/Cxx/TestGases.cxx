@@ -187,19 +187,6 @@ TEST(Mixture, OfVolumes)
 
 TEST(Mixture, OfCells) { EXPECT_LT(largestError(mixture(flowInCells()), mixtureOf), rounding); }
 
-TEST(Mixture, IsWhatTheBenchSees)
-{
-  auto image = flow(24);
-  addPointArray(image, "N", mixtureOf);
-  auto reference = bench(image);
-  reference->Update();
-  auto filter = bench(image);
-  chooseMixture(filter.Get());
-  filter->Update();
-  EXPECT_LT(
-    relativeDifference(valuesOf(filter, "Deflection"), valuesOf(reference, "Deflection")), 1e-5);
-}
-
 // N is formed at the points of the mesh, where rho and Y are given, and then interpolated: between
 // them it is linear along each axis, which the product of interpolated rho and Y would not be.
 TEST(Mixture, OfAMeshIsFormedBeforeItIsResampled)
@@ -282,23 +269,6 @@ TEST(Mixture, ThatExceedsOneIsWarnedOfOnce)
   EXPECT_EQ(arrayOf(filter, "vtkValidPointMask")->GetComponent(2, 0), 0);
 }
 
-TEST(Ciddor, AgreesWithNistInDryAir)
-{
-  auto image = cube(4);
-  addPointArray(image, "T", [](const Vec&) { return celsius + 20; });
-  addPointArray(image, "p", [](const Vec&) { return 101325; });
-  auto filter = ciddor(image);
-  filter->SetWavelength(633);
-  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
-  filter->Update();
-  EXPECT_NEAR(arrayOf(filter, "Refractivity")->GetComponent(0, 0), 2.71800e-4, 2e-9);
-  EXPECT_LT(largestError(filter,
-              [](const Vec&)
-              { return schlieren::ciddorRefractivity(celsius + 20, 101325, 0, 450, 633e-9); }),
-    rounding);
-  EXPECT_TRUE(complaints->Warnings.empty());
-}
-
 TEST(Ciddor, OfFields)
 {
   EXPECT_LT(largestError(ciddor(flow()), [](const Vec& x) { return ciddorOf(x, 0); }), rounding);
@@ -331,17 +301,6 @@ TEST(Ciddor, ScalesCarbonDioxideAndWavelengthCount)
     largestError(filter,
       [](const Vec&) { return schlieren::ciddorRefractivity(293.15, 101325, 0, 600, 532e-9); }),
     1e-14);
-}
-
-TEST(Ciddor, OfAMesh)
-{
-  auto image = flow();
-  vtkNew<vtkAppendFilter> mesh;
-  mesh->SetInputData(image);
-  mesh->Update();
-  auto filter = ciddor(mesh->GetOutput());
-  filter->SetSamplingDimensions(9, 9, 9);
-  EXPECT_LT(largestError(filter, [](const Vec& x) { return ciddorOf(x, 0); }), 1e-4);
 }
 
 // The second update uses what there is, and repeats nothing.

@@ -187,28 +187,6 @@ TEST(MixtureByName, OfVolumes)
     (masses[0] * helium + 3 * masses[2] * air) / (masses[0] + 3 * masses[2]), 1e-9);
 }
 
-TEST(GasByName, IsPassedOnByTheBench)
-{
-  auto filter = bench(filterOf(Index::GLADSTONE_DALE)->GetInputDataObject(0, 0), 8);
-  filter->SetIndexModel(Index::GLADSTONE_DALE);
-  filter->SetInputArrayToProcess(
-    Index::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
-  filter->SetGas("argon");
-  filter->SetBackgroundGas("neon");
-  EXPECT_STREQ(filter->GetGas(), "argon");
-  EXPECT_STREQ(filter->GetBackgroundGas(), "neon");
-  EXPECT_EQ(filter->GetGladstoneDaleConstantUsed(), vtkGasTable::GetConstant("Ar", 632.8));
-  filter->Update();
-  const double path = valuesOf(filter, "OpticalPathDifference")[8 * 4 + 4];
-  filter->SetIndexModel(Index::GLADSTONE_DALE_MIXTURE);
-  filter->AddMixtureArray("Y");
-  filter->AddMixtureGas("argon");
-  filter->SetBackgroundGas("argon");
-  filter->Update();
-  EXPECT_NEAR(valuesOf(filter, "OpticalPathDifference")[8 * 4 + 4] / path, 1, 1e-6);
-  EXPECT_NEAR(path / (2 * rho * vtkGasTable::GetConstant("Ar", 632.8)), 1, 1e-3);
-}
-
 // Reported once: not for each time step, but again for another gas.
 TEST(GasByName, NotMeasuredAtTheWavelengthIsWarnedOfOnce)
 {

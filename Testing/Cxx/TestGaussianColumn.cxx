@@ -119,44 +119,6 @@ TEST(GaussianColumn, LengthScaleScalesTheOpticalPathAlone)
   EXPECT_LT(relativeDifference(valuesOf(filter, "OpticalPathDifference"), opticalPath), 1e-12);
 }
 
-TEST(LinearField, LightBendsTowardsHigherIndex)
-{
-  auto image = cube(16);
-  addPointArray(image, "N", [](const Vec& x) { return 3e-4 + 1e-5 * x[1]; });
-  auto filter = bench(image, 8);
-  filter->SetAmbientRefractivity(3e-4);
-  filter->SetParallelScale(0.5);
-  filter->Update();
-  vtkDataArray* deflection = arrayOf(filter, "Deflection");
-  for (vtkIdType i = 0; i < deflection->GetNumberOfTuples(); ++i)
-  {
-    EXPECT_NEAR(deflection->GetComponent(i, 0), 0, 1e-10);
-    EXPECT_NEAR(deflection->GetComponent(i, 1), 2 * 1e-5 / (1 + 3e-4), 2e-8); // L dN/dy / n
-  }
-}
-
-// The knife edge at 90 degrees measures the deflection along v: light where it bends upwards.
-TEST(LinearField, KnifeEdgeAngleChoosesTheComponent)
-{
-  auto image = cube(16);
-  addPointArray(image, "N", [](const Vec& x) { return 3e-4 + 1e-5 * x[1]; });
-  auto filter = bench(image, 8);
-  filter->SetAmbientRefractivity(3e-4);
-  filter->SetParallelScale(0.5);
-  filter->SetAutoKScale(false);
-  filter->SetKScale(1e4);
-  const auto centre = [&filter]()
-  {
-    filter->Update();
-    return arrayOf(filter, "Intensity")->GetComponent(8 * 4 + 4, 0);
-  };
-  EXPECT_NEAR(centre(), 0.5, 1e-5);
-  filter->SetKnifeEdgeAngle(90);
-  EXPECT_NEAR(centre(), 0.5 + 1e4 * 2e-5, 1e-3);
-  filter->SetInvertCutoff(true);
-  EXPECT_NEAR(centre(), 0.5 - 1e4 * 2e-5, 1e-3);
-}
-
 namespace
 {
 

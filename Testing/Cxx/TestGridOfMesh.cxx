@@ -8,9 +8,6 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataSetTriangleFilter.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkResampleToImage.h"
-#include "vtkXMLUnstructuredGridReader.h"
 
 namespace
 {
@@ -161,65 +158,6 @@ Mesh tetrahedra(int n = 20, double by = 0)
 
 } // namespace
 
-// A rough field, by another sampler. VTK's grid is smaller by a millionth of its length, and within a
-// thousandth of a cell from its faces VTK may extrapolate its neighbour.
-TEST(GridOfMesh, AgreesWithVtk)
-{
-  for (const bool isPyramids : { false, true })
-  {
-    Mesh mesh = tetrahedra(6, 0.1);
-    if (isPyramids)
-    {
-      const auto c = unitCell(VTK_HEXAHEDRON, 8);
-      mesh = meshOf(VTK_PYRAMID, 3,
-        { { c[0], c[1], c[2], c[3], c[6] }, { c[0], c[4], c[5], c[1], c[6] },
-          { c[0], c[3], c[7], c[4], c[6] } },
-        0, false); // moved, their faces of three and of four points would leave gaps
-    }
-    auto filter = reader(23);
-    filter->SetReconstruction(vtkRefractiveIndex::LINEAR_IN_CELLS);
-    const Sampled ours = sampled(filter, mesh);
-    vtkNew<vtkResampleToImage> resampler;
-    resampler->SetInputDataObject(mesh);
-    resampler->SetSamplingDimensions(23, 23, 23);
-    resampler->Update();
-    vtkPointData* vtks = resampler->GetOutput()->GetPointData();
-    int inside = 0, apart = 0;
-    for (std::size_t i = 0; i < ours.values.size(); ++i)
-    {
-      if (vtks->GetArray("vtkValidPointMask")->GetComponent(static_cast<vtkIdType>(i), 0) != 0)
-      {
-        ++inside;
-        ASSERT_EQ(ours.valid[i], 1) << i;
-        const double difference = std::abs(
-          ours.values[i] - vtks->GetArray("N")->GetComponent(static_cast<vtkIdType>(i), 0));
-        ASSERT_LT(difference, 1e-2);
-        apart += difference > 3e-5 ? 1 : 0;
-      }
-    }
-    EXPECT_GT(inside, 20 * 23 * 23);
-    EXPECT_LT(apart, inside / 100);
-  }
-}
-
-// Curved cells around a ball: VTK's own sampler is off by 6e-3 of the range here.
-TEST(GridOfMesh, CurvedCellsOfOrder3AreExact)
-{
-  vtkNew<vtkXMLUnstructuredGridReader> file;
-  file->SetFileName(SCHLIEREN_TEST_DATA "/blob_lagrange_hex.vtu");
-  file->Update();
-  vtkUnstructuredGrid* mesh = file->GetOutput();
-  addPointArray(mesh, "N", linear);
-  const Sampled result = sampled(reader(12), mesh);
-  for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
-  {
-    Vec x;
-    result.image->GetPoint(i, x.data());
-    ASSERT_EQ(result.valid[static_cast<std::size_t>(i)], 1) << x[0] << " " << x[1] << " " << x[2];
-    ASSERT_NEAR(result.values[static_cast<std::size_t>(i)], linear(x), 1e-7 * 3.5e-3);
-  }
-}
-
 // Most points of the grid are shared by several cells, of which any other would give another value.
 TEST(GridOfMesh, AnyNumberOfThreadsGivesTheSameValues)
 {
@@ -231,50 +169,6 @@ TEST(GridOfMesh, AnyNumberOfThreadsGivesTheSameValues)
     EXPECT_EQ(more.values, one.values) << threads;
     EXPECT_EQ(more.valid, one.valid) << threads;
   }
-}
-
-TEST(GridOfMesh, TheFirstOfOverlappingBlocksCounts)
-{
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  for (unsigned i = 0; i < 2; ++i)
-  {
-    const Mesh mesh = tetrahedra(4 + static_cast<int>(i));
-    mesh->GetPointData()->Initialize();
-    addPointArray(mesh, "N", [i](const Vec&) { return 1 + i; });
-    blocks->SetBlock(i, mesh);
-  }
-  auto filter = reader();
-  filter->SetReconstruction(vtkRefractiveIndex::LINEAR_IN_CELLS);
-  const Sampled result = sampled(filter, blocks);
-  // Within the mesh: its corners belong to both, and there values are means.
-  for (int k = 6; k < 15; ++k)
-  {
-    for (int j = 6; j < 15; ++j)
-    {
-      for (int i = 6; i < 15; ++i)
-      {
-        EXPECT_EQ(result.values[static_cast<std::size_t>((k * 21 + j) * 21 + i)], 1);
-      }
-    }
-  }
-}
-
-// What is kept of the mesh gives the same values.
-TEST(GridOfMesh, IsTheSameWhereTheMeshIsKnown)
-{
-  auto filter = reader();
-  for (int step = 0; step < 3; ++step)
-  {
-    const Mesh mesh = tetrahedra(); // a new one with the same content
-    mesh->GetPointData()->Initialize();
-    addPointArray(
-      mesh, "N", [step](const Vec& x) { return (step + 1) * std::sin(9 * x[0] * x[1]); });
-    const Sampled known = sampled(filter, mesh);
-    auto fresh = reader();
-    EXPECT_EQ(known.values, sampled(fresh, mesh).values) << step;
-    EXPECT_EQ(fresh->GetMeshBuilds(), 1);
-  }
-  EXPECT_EQ(filter->GetMeshBuilds(), 1);
 }
 
 TEST(GridOfMesh, HiddenCellsAreABody)

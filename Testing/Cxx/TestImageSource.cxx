@@ -4,7 +4,6 @@
 // Images with bodies: a medium whose walls are where surfaces are, and whose gas is that of the image.
 #include "Surfaces.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkMath.h"
 #include "vtkMatrix3x3.h"
 #include "vtkSphereSource.h"
@@ -305,29 +304,4 @@ TEST(ImageSource, OfGridsThatAreGiven)
   EXPECT_NE(grid().find("bricks"), std::string::npos) << grid();
   filter->SetInputDataObject(vtkRefractiveIndex::BODIES, nullptr);
   EXPECT_EQ(grid().find("bricks"), std::string::npos) << grid();
-}
-
-// While the image is converted, while the medium is made of it and of the bodies, and while voxels or rays are.
-TEST(ImageSource, AbortLeavesAnEmptyImageAndTheNextUpdateAWholeOne)
-{
-  for (double stopAt : { 0.01, 0.11, 0.13, 0.17, 0.2, 0.3, 0.6 })
-  {
-    auto filter = benchWith(ballImage(), sphere(0.2, { 0.3, 0.1, 0.2 }));
-    vtkNew<vtkCallbackCommand> watch;
-    watch->SetClientData(&stopAt);
-    watch->SetCallback(
-      [](vtkObject* caller, unsigned long, void* at, void* value)
-      {
-        if (*static_cast<double*>(value) >= *static_cast<double*>(at))
-        {
-          vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
-        }
-      });
-    const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, watch);
-    filter->Update();
-    EXPECT_TRUE(isEmpty(filter)) << stopAt;
-    filter->RemoveObserver(tag);
-    filter->Update();
-    EXPECT_FALSE(isEmpty(filter)) << stopAt;
-  }
 }

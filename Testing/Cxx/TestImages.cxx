@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Images of real flows against baselines. No renderer is used: the intensities become grey levels.
-#include "BallOnLevels.h"
+#include "Fixtures.h"
 
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkExtractGrid.h"
@@ -155,25 +155,6 @@ TEST(Images, BluntFinFromAbove)
   filter->SetImageSize(256, 256);
   filter->Update();
   expectBaseline(filter, 1, "BluntFinFromAbove");
-}
-
-// A ball on three levels of cells. Neither cells nor borders of blocks and levels are to be seen.
-TEST(Images, BallOnThreeLevels)
-{
-  auto filter = bench(ballOnLevels(32, { { 0, 32, true }, { 16, 32, true }, { 48, 32 } }), 200);
-  filter->SetDevice(vtkSchlierenFilter::CPU);
-  filter->Update();
-  expectBaseline(filter, 1, "BallOnThreeLevels");
-}
-
-// VTK's own adaptive mesh: 5 x 5 x 5 cells, of which two blocks are refined once. They show faintly, because
-// it gives values at the cells' centres, not means.
-TEST(Images, PulseOfVtk)
-{
-  auto filter = benchOfPulse({ -0.75, -0.75, 1.25 }, 3, 200);
-  filter->SetDevice(vtkSchlierenFilter::CPU);
-  filter->Update();
-  expectBaseline(filter, 1, "PulseOfVtk");
 }
 
 // The lambda shock that the fin drives up the plate's boundary layer (z = 0), seen from the side: through

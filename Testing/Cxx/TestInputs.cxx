@@ -3,10 +3,8 @@
 #include "Fixtures.h"
 
 #include "vtkAppendFilter.h"
-#include "vtkDataSetTriangleFilter.h"
 #include "vtkExtractVOI.h"
 #include "vtkFloatArray.h"
-#include "vtkImageDataToPointSet.h"
 #include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
@@ -52,65 +50,6 @@ TEST(Inputs, CellArrayOfAnImageIsNotSmoothed)
   const ColumnErrors errors = compareWithColumn(filter, GaussianColumn());
   EXPECT_LT(errors.deflection, 1e-3);
   EXPECT_LT(errors.opticalPath, 1e-3);
-}
-
-// The same samples, once as an image and once resampled from voxels at the image's own points.
-TEST(Inputs, VoxelsResampledAtTheirPointsAreTheImage)
-{
-  const auto image = columnImage(48);
-  auto direct = bench(image);
-  direct->Update();
-  auto resampled = bench(voxels(image));
-  sampleLike(resampled, 48);
-  resampled->Update();
-  EXPECT_LT(
-    relativeDifference(valuesOf(resampled, "Deflection"), valuesOf(direct, "Deflection")), 1e-4);
-  EXPECT_LT(relativeDifference(valuesOf(resampled, "OpticalPathDifference"),
-              valuesOf(direct, "OpticalPathDifference")),
-    1e-4);
-  EXPECT_EQ(largest(valuesOf(resampled, "BlockedFraction")), 0);
-}
-
-TEST(Inputs, StructuredGridResampledAtItsPointsIsTheImage)
-{
-  const auto image = columnImage(48);
-  vtkNew<vtkImageDataToPointSet> convert;
-  convert->SetInputData(image);
-  convert->Update();
-  auto direct = bench(image);
-  direct->Update();
-  auto resampled = bench(convert->GetOutput());
-  sampleLike(resampled, 48);
-  resampled->Update();
-  EXPECT_LT(
-    relativeDifference(valuesOf(resampled, "Deflection"), valuesOf(direct, "Deflection")), 1e-4);
-}
-
-// Tetrahedra interpolate linearly, on a grid that is chosen from their number.
-TEST(Inputs, TetrahedraOnAChosenGridMatchTheClosedForm)
-{
-  vtkNew<vtkDataSetTriangleFilter> tetrahedra;
-  tetrahedra->SetInputData(columnImage(48));
-  tetrahedra->Update();
-  auto filter = bench(tetrahedra->GetOutput());
-  filter->SetParallelScale(0.9);
-  filter->Update();
-  const ColumnErrors errors = compareWithColumn(filter, GaussianColumn());
-  EXPECT_LT(errors.deflection, 0.05);
-  EXPECT_LT(errors.opticalPath, 0.01);
-  EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
-}
-
-TEST(Inputs, CellArrayOfVoxelsMatchesTheClosedForm)
-{
-  auto image = cube(65);
-  addCellArray(image, "N", GaussianColumn());
-  auto filter = bench(voxels(image));
-  filter->SetParallelScale(0.9);
-  filter->Update();
-  const ColumnErrors errors = compareWithColumn(filter, GaussianColumn());
-  EXPECT_LT(errors.deflection, 0.05); // cell to point averages smooth
-  EXPECT_LT(errors.opticalPath, 0.05);
 }
 
 // Two halves that share a face, a block without the array and a surface with it.

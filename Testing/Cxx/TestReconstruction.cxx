@@ -9,7 +9,6 @@
 #include "Cells/PointFit.h"
 
 #include "vtkDataSetTriangleFilter.h"
-#include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <random>
@@ -425,21 +424,6 @@ TEST(Reconstruction, TakesStretchedCells)
     }
     EXPECT_GT(inside, 600);
   }
-}
-
-TEST(Reconstruction, IsTheSameForAnyNumberOfThreads)
-{
-  const Mesh mesh = jittered(12, 0.2);
-  setN(mesh, [](const Vec& x) { return std::sin(9 * x[0]) * std::cos(12 * x[1] + 5 * x[2]); });
-  const Lattice lattice = { { 0, 0, 0 }, { 0.05, 0.05, 0.05 }, { 21, 21, 21 } };
-  std::vector<Found> results;
-  for (const int threads : { 1, 2, 7 })
-  {
-    vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
-      [&] { results.push_back(sampled(mesh, Reconstruction::Smooth, lattice)); });
-  }
-  EXPECT_EQ(results[1].values, results[0].values);
-  EXPECT_EQ(results[2].values, results[0].values);
 }
 
 // All instructions that this processor has; each point by itself, whatever the others are.

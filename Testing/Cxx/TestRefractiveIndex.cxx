@@ -505,25 +505,6 @@ TEST(RefractiveIndex, MeshNeedNotHaveBeenUpdated)
   EXPECT_TRUE(complaints->Errors.empty());
 }
 
-TEST(RefractiveIndex, AnyNumberOfThreadsGivesTheSameImage)
-{
-  auto image = cube(50);
-  addPointArray(image, "N", GaussianColumn());
-  std::vector<double> expected;
-  for (const int threads : { 1, 2, 7 })
-  {
-    auto filter = refractiveIndex(
-      image, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
-    filter->SetNumberOfThreads(threads);
-    filter->Update();
-    if (threads == 1)
-    {
-      expected = valuesOf(filter, "Refractivity");
-    }
-    EXPECT_EQ(valuesOf(filter, "Refractivity"), expected) << threads << " threads";
-  }
-}
-
 // A point that several cells share (here every second one along each axis) takes its value from any of
 // them, and with several threads not always from the same one.
 TEST(RefractiveIndex, ThreadsChangeAMeshByNoMoreThanRounding)

@@ -409,24 +409,6 @@ TEST(TimeSlices, RefineLeavesTheMediumToUpdates)
   EXPECT_EQ(fresh->GetPictureCount(), 0);
 }
 
-TEST(TimeSlices, AMistakeBeforeRefineIsLeftToTheUpdate)
-{
-  auto filter = smallBench(columnImage());
-  filter->Update();
-  filter->SetTimeLimit(shortest);
-  expectOneMessage(
-    filter.Get(),
-    [](vtkSchlierenFilter* wrong)
-    {
-      wrong->SetStepSize(-1);
-      wrong->Refine();
-      wrong->Refine();
-      EXPECT_TRUE(wrong->GetFinished());
-    },
-    { "StepSize" }, [](vtkSchlierenFilter* right) { right->SetStepSize(1); });
-  updateInSlices(filter);
-}
-
 TEST(TimeSlices, AnotherInputInTheMidstMakesAnotherImage)
 {
   auto image = columnImage();
@@ -630,29 +612,6 @@ TEST(TimeSlices, ColouredImageHasColourAtOnce)
   filter->Update();
   EXPECT_FALSE(filter->GetFinished());
   EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("Color"));
-}
-
-TEST(TimeSlices, NoLimitFinishesWhatWasBegun)
-{
-  auto image = columnImage();
-  auto fresh = smallBench(image);
-  fresh->Update();
-  for (const int slices : { 1, 4, 12, 20, 25 })
-  {
-    auto filter = smallBench(image);
-    filter->SetTimeLimit(shortest);
-    filter->Update();
-    for (int slice = 1; slice < slices; ++slice)
-    {
-      filter->Refine();
-      filter->Update();
-    }
-    filter->SetTimeLimit(0);
-    filter->Refine();
-    filter->Update();
-    EXPECT_TRUE(filter->GetFinished());
-    expectSameImage(filter, fresh);
-  }
 }
 
 TEST(TimeSlices, AWarningIsGivenOnce)
