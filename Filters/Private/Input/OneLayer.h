@@ -21,7 +21,7 @@ void flattenLayer(Source& source, const Source* like);
 struct Wedge
 {
   int axis,
-    across; // coordinate axes along the wedge's axis, and nearest to the middle plane's normal
+    across; // axes along the wedge, and nearest to the middle plane's normal
   double degrees;
 };
 
