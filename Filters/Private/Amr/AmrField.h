@@ -21,15 +21,14 @@ namespace filters
 {
 
 /**
-* Reconstructs N, or another field, from cell means of adaptive meshes.
-*
-* Samples a lattice from cells of one level: the coarsest one whose cells are no larger than the lattice's spacing. There,
-* cells under finer blocks have the mean of the finer cells, and cells that no block of the level has get their means from a
-* polynomial of fourth degree through the next coarser level, axis by axis, so that borders of blocks and levels do not show.
-* Points get values, not means, because a medium has values at its points.
-*
-* Hidden cells and cells whose value is not finite are solid.
-*/
+ * Reconstructs N, or another field, from cell means of adaptive meshes.
+ *
+ * Samples a lattice from cells of one level: the coarsest one whose cells are no larger than the
+ * lattice's spacing. There, cells under finer blocks have the mean of the finer cells; cells that
+ * no block of the level has get their means from a polynomial of fourth degree through the next
+ * coarser level, axis by axis, which hides the borders of blocks and levels. Points get values, not
+ * means. Hidden cells and cells whose value is not finite are solid.
+ */
 class AmrField
 {
 public:

@@ -13,7 +13,8 @@
 #include <variant>
 #include <vector>
 
-/// Models of the refractivity at a point or cell as a function of its arrays' values. All but Linear have
+/// Models of the refractivity at a point or cell as a function of its arrays' values. All but
+/// Linear have
 ///   refractivity(values)  N; NaN for states that no gas can have
 ///   isDoubtful(values)    whether the state deserves a warning
 ///   warning(fraction)     the warning; the fraction is a text such as "12 %"
