@@ -62,7 +62,7 @@ bool isForLater(QObject* receiver, QEvent* event)
     case QEvent::ShortcutOverride:
     case QEvent::TouchBegin:
     case QEvent::Wheel:
-      return receiver->isWidgetType(); // events of windows go on to their widgets
+      return receiver->isWidgetType(); // windows pass events to their widgets
     default:
       return false;
   }
