@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-/// Which array of the data a property takes.
+/// An array chosen for a property.
 struct ArraySelection
 {
-  std::string name;        ///< empty: by attribute, or none is chosen
+  std::string name;        ///< empty: by attribute, or none
   int attribute = -1;      ///< one of vtkDataSetAttributes::AttributeTypes; -1: by name
-  bool cellsFirst = false; ///< whether arrays of cells are looked at before those of points
+  bool cellsFirst = false; ///< whether arrays of cells are searched before those of points
 
-  /// Whether the user has chosen one.
+  /// Returns whether the user has chosen an array.
   bool isChosen() const { return !this->name.empty() || this->attribute >= 0; }
-  /// Whether an array is named that is not the entry None of a list.
+  /// Returns whether an array is named, other than the entry None of a list.
   bool isNamed() const { return !this->name.empty() && this->name != "None"; }
 
   bool operator==(const ArraySelection& other) const
@@ -27,7 +27,7 @@ struct ArraySelection
   }
 };
 
-/// The points of a vtkPiecewiseFunction; without any, a straight line from 0 to 1.
+/// The points of a vtkPiecewiseFunction; empty: a straight line from 0 to 1.
 struct TransferCurve
 {
   std::vector<std::array<double, 4>> nodes; ///< x, value, midpoint and sharpness
@@ -41,8 +41,9 @@ struct TransferCurve
   }
 };
 
-/// What the properties of vtkRefractiveIndex hold, under their names: numbers, texts and lists of them. The filter's
-/// documentation says what each one means, and its setters check ranges. Equal settings make the same medium of equal data.
+/// Values of the properties of vtkRefractiveIndex under their names: numbers, texts and lists. See
+/// the filter for their meaning; its setters check ranges. Equal settings and data give the same
+/// medium.
 struct MediumSettings
 {
   /// Values of IndexModel; see vtkRefractiveIndex::IndexModels.
@@ -87,7 +88,7 @@ struct MediumSettings
   std::string BackgroundGas = "Custom";
   double BackgroundConstant = defaultConstant;
   double BackgroundMolarMass = 0.0289647;
-  int FractionType = 0; ///< 0: of the mass, 1: of the volume
+  int FractionType = 0; ///< 0: mass, 1: volume
   double TemperatureScale = 0;
   double PressureScale = 0;
   double RelativeHumidity = 0;
@@ -116,7 +117,7 @@ struct MediumSettings
     return { this->SymmetryOrigin[0], this->SymmetryOrigin[1], this->SymmetryOrigin[2] };
   }
 
-  /// Calls use(name, member) for each property, its member as a pointer.
+  /// Calls use(name, pointer to member) for each property.
   template <class Use>
   static void visit(const Use& use)
   {
@@ -160,7 +161,7 @@ struct MediumSettings
   bool operator!=(const MediumSettings& other) const { return !(*this == other); }
 };
 
-/// Prints "name: value" of each property in a line of its own, after `indent` spaces.
+/// Prints a line "name: value" for each property, after `indent` spaces.
 void print(std::ostream& out, int indent, const MediumSettings& settings);
 
 #endif

@@ -29,10 +29,10 @@
 #include <utility>
 #include <vector>
 
-/// What vtkSchlierenFilter keeps between updates.
+/// State of vtkSchlierenFilter between updates.
 struct vtkSchlierenFilter::Internals
 {
-  /// The other ranks work for rank 0 while this is there.
+  /// Makes the other ranks work for rank 0 during its lifetime.
   class WithRanks
   {
   public:
@@ -63,7 +63,7 @@ struct vtkSchlierenFilter::Internals
   filters::RgbImageReader RgbImages;
   filters::BackgroundScene Scene;
   std::shared_ptr<const MadeRefractivity> Refractivity = std::make_shared<MadeRefractivity>();
-  std::string Grid; // what a source was divided into
+  std::string Grid; // text about the grid of a source
 
   static schlieren::Field fieldOf(const MadeRefractivity& made)
   {
@@ -82,7 +82,7 @@ struct vtkSchlierenFilter::Internals
   std::vector<double> Input;
   std::optional<MediumSettings> MadeWith;
 
-  // A source has fields only where it needs them: its voxels are as fine as these need.
+  // Rejects a source whose voxels resolve the fields needlessly, or do not resolve them.
   bool holdsRefractivityOf(
     const std::vector<double>& input, const MediumSettings& medium, bool needsFields) const
   {
@@ -90,13 +90,14 @@ struct vtkSchlierenFilter::Internals
       (!this->Refractivity->Source || (this->Refractivity->Source->fields() > 0) == needsFields);
   }
 
-  // Of the fields that tint, on the grid of Refractivity; empty where not needed, or where a source has them.
+  // Gradients of the fields that tint, on the grid of Refractivity; empty if unused or if a source
+  // has them.
   std::vector<float> FieldGradients;
 
-  // Newest time of this filter and of everything upstream, Refine() apart, when it last failed, when the image
-  // at the outputs was begun, and the one that is not finished (0: there is none).
+  // Newest times of this filter and of everything upstream, except Refine(), of the last failure,
+  // of the image at the outputs, and of the unfinished image (0: none).
   vtkMTimeType FailedAt = 0;
-  bool HasImage = false; // on rank 0, as the last update has left it
+  bool HasImage = false; // on rank 0, after the last update
   vtkMTimeType ShownOf = 0;
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;
@@ -104,19 +105,19 @@ struct vtkSchlierenFilter::Internals
   filters::SensitivityLock KLock;
   filters::SensitivityLock AmbientLock;
   bool FindsAmbient = false;  // for the image that was begun last
-  std::optional<double> Time; // of the last update; unset for data without time steps
+  std::optional<double> Time; // time of the last update; unset: no time steps
 
-  bool IsExposing = false; // an exposure is being made
+  bool IsExposing = false; // whether an exposure is being made
   std::optional<double> RequestedTime;
   filters::TimeExposure Exposure; // of the last request
-  std::size_t Instant = 0;        // of these, the one that is being made
-  // The image of its first instant, whose k and surroundings, and place, are those of all others.
+  std::size_t Instant = 0;        // of Exposure, the one that is being made
+  // The image of the first instant, whose k, ambient and frame all others use.
   std::optional<schlieren::Image> FirstInstant;
 
-  vtkMTimeType StoppedOf = 0; // the one that Stop(), or an abort within a limit, has left; 0: none
-  double Done = 0;            // of the image that was begun last: 0 to 1
+  vtkMTimeType StoppedOf = 0; // the image that Stop(), or an abort with a limit, has left; 0: none
+  double Done = 0;            // fraction of the latest image
 
-  std::optional<schlieren::Image> Ready; // made by Refine(), and to be shown by the next update
+  std::optional<schlieren::Image> Ready; // made by Refine(), for the next update
 
   void DropShown()
   {
@@ -128,7 +129,7 @@ struct vtkSchlierenFilter::Internals
 namespace filters
 {
 
-/// Contribution of the progress bar that belongs to finding the refractivity.
+/// Fraction of the progress bar for making the refractivity.
 inline constexpr double mediumFraction = 0.2;
 
 } // namespace filters

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-/// What the properties of vtkSchlierenFilter hold, under their names: numbers and texts, nothing of VTK. The filter's
-/// documentation says what each one means, and its setters check ranges. What is behind the filter gets these, never
-/// the filter. visit() calls what it is given with the name and the value of each.
+/// Values of the properties of vtkSchlierenFilter under their names: numbers and texts, without
+/// VTK. See the filter for their meaning; its setters check ranges. visit() calls a function with
+/// the name and the value of each.
 
-/// What is around the data. The medium's own properties are MediumSettings.
+/// The surroundings of the data. MediumSettings are the medium's own.
 struct SurroundingsSettings
 {
   double LengthScale = 1;
@@ -59,10 +59,10 @@ struct ViewSettings
   }
 };
 
-/// The graded filter is apart from these: it is an object.
+/// All but the graded filter, which is an object.
 struct OpticsSettings
 {
-  // Values that the tracer has no enumeration of.
+  // Values without an enumeration in the tracer.
   static constexpr int lockOff = 0, lockOverTime = 1, lockAlways = 2; // LockK
   static constexpr int finiteFringes = 1;                             // FringeMode
   static constexpr int divergingLight = 1;                            // LightSource
@@ -135,10 +135,10 @@ struct OpticsSettings
   }
 };
 
-/// What the presets of Quality set: see QualityPresets.h, which has their values.
+/// The properties that presets of Quality set: see QualityPresets.h, which has their values.
 struct AccuracySettings
 {
-  static constexpr int differencePath = 3; // of PathModel, beside those of the tracer
+  static constexpr int differencePath = 3; // of PathModel, beside the tracer's values
 
   int PathModel = 0;
   int Integrator = 0;
@@ -192,7 +192,7 @@ struct FilmSettings
   }
 };
 
-/// What computes, and with how much: no image depends on these.
+/// Resources for computing, which images do not depend on.
 struct ResourceSettings
 {
   int MemoryBudget = 1024;

@@ -4,9 +4,9 @@
  * @class   vtkGasTable
  * @brief   the gases that vtkRefractiveIndex knows by name
  *
- * For each gas its Gladstone-Dale constant K(wavelength), molar mass and the source of both. A gas is
- * found by its name ("helium") or chemical formula ("He"), spelled as in the table. For a gas
- * that the table does not hold, texts are empty and numbers are NaN.
+ * Has the Gladstone-Dale constant K(wavelength), the molar mass and their source for each gas.
+ * Gases are found by name ("helium") or chemical formula ("He"), spelled as in the table. For an
+ * unknown gas, texts are empty and numbers are NaN.
  *
  * In Python, with the plugin's folder in PYTHONPATH:
  * @code{.py}
@@ -35,40 +35,40 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * How many gases there are, and the name of each: 0 <= index < GetNumberOfGases().
+   * Return the number of gases, and the name of each: 0 <= index < GetNumberOfGases().
    */
   static int GetNumberOfGases();
   static std::string GetName(int index);
 
   /**
-   * Whether there is a gas of this name or formula.
+   * Returns whether there is a gas of this name or formula.
    */
   static bool Has(const std::string& gas);
 
   static std::string GetFormula(const std::string& gas);
 
   /**
-   * Gladstone-Dale constant K in m^3/kg for light of this wavelength in vacuum, nanometres. Beyond
-   * the longest wavelength that was measured it is continued, to 1700 nm; further out, and below the
-   * shortest, it is constant. NaN for a wavelength that is not positive.
+   * Returns the Gladstone-Dale constant K in m^3/kg for light of this wavelength in vacuum,
+   * nanometres. It is extrapolated from the longest measured wavelength to 1700 nm, and constant
+   * beyond that and below the shortest one. NaN for a wavelength that is not positive.
    */
   static double GetConstant(const std::string& gas, double wavelength);
 
   /**
-   * kg/mol.
+   * Returns the molar mass in kg/mol.
    */
   static double GetMolarMass(const std::string& gas);
 
   ///@{
   /**
-   * The wavelengths that were measured, nanometres; equal where there is one only.
+   * Return the range of measured wavelengths, nanometres; equal if there is only one.
    */
   static double GetShortestWavelength(const std::string& gas);
   static double GetLongestWavelength(const std::string& gas);
   ///@}
 
   /**
-   * Where the numbers are from.
+   * Returns the source of the numbers.
    */
   static std::string GetSource(const std::string& gas);
 

@@ -2,50 +2,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSchlierenFilter
- * @brief   the image that a schlieren, shadowgraph or interferometry bench takes of a flow
+ * @brief   the image of a flow by a schlieren, shadowgraph or interferometry bench
  *
  * Bends light through the refractive index of a flow and produces a 2-D vtkImageData, in the plane
  * z = 0, whose coordinates are those of the view: x = position . u, y = position . v in data units,
- * where u points right and v up. So the image of the default view lies over the data.
+ * where u points right and v up. So the image of the default view covers the data.
  *
- * Point arrays of the image (their vtkDataArray::UNITS_LABEL is the unit). Deflection, OpticalPathDifference and
- * Displacement are those of the ray through the pixel's centre, from the middle of the light source; where that ends in a
- * solid, the mean of the pixel's rays that do not. Vectors have a third component, 0:
+ * Point arrays of the image (their vtkDataArray::UNITS_LABEL is the unit). Deflection,
+ * OpticalPathDifference and Displacement belong to the ray through the pixel's centre, from the
+ * middle of the light source; if a solid stops that ray, they are means of the pixel's other rays.
+ * Vectors have a third component, 0:
  * - `Intensity` (float, active scalars): see Cutoff; the luminance of a coloured image;
- * - `Color` (3 unsigned chars, active scalars then), where the image has colours: in sRGB behind a
- *   COLOR_FILTER, in WhiteLight and of a background's PICTURE; else, with ColorByField, the intensity, tinted, as linear bytes:
- *   255 is 1, of a shadowgraph 2;
- * - `Deflection` (3 floats): direction cosines along u and v of the light that leaves; light bends
+ * - `Color` (3 unsigned chars, then the active scalars), of coloured images: in sRGB with
+ *   COLOR_FILTER, WhiteLight or a background's PICTURE; else, with ColorByField, the tinted
+ *   intensity as linear bytes: 255 is 1, of a shadowgraph 2;
+ * - `Deflection` (3 floats): direction cosines along u and v of the emerging light; light bends
  *   towards higher index;
- * - `OpticalPathDifference` (double): metres, against undisturbed light;
- * - `Displacement` (3 floats): sideways, at the plane where light leaves the data, data units;
+ * - `OpticalPathDifference` (double): metres, relative to undisturbed light;
+ * - `Displacement` (3 floats): lateral, in the plane where light leaves the data, data units;
  * - `BlockedFraction` (float): fraction of the pixel's rays that a solid stopped;
- * - `Background` (float) and `BackgroundDisplacement` (3 floats, data units), with BACKGROUND_ORIENTED
- *   only: the same without the flow, and the place of the pattern that is seen, less that without the flow
- *   (what is seen has moved in the opposite direction).
+ * - `Background` (float) and `BackgroundDisplacement` (3 floats, data units), with
+ *   BACKGROUND_ORIENTED only: the image without the flow, and the point of the pattern that is
+ *   seen, less that without the flow (the image has moved in the opposite direction).
  *
- * Field data: `Device`, `PathModel`, `KScale` (the k used), `UndisturbedLevel` (intensity of light that
- * nothing bends), `SaturatedShare` (of the rays: those as dark or bright as the cutoff can make them),
- * `LightEmitted`, `LightOnFilm` and `LightOutside` (behind the cutoff, in full light of all pixels; the
- * first is the sum of the others), `FringeSpacing` (of finite fringes, data units),
- * `ExposureInterval` (of an image with ExposureTime: begin and end, in the data's time), `AmbientRefractivity` and
- * `ExitRefractivity` (the values used), `RaysTraced`, `RaysLost` (trapped in the medium, turned back by it, or totally
- * reflected where they would leave), `StepsTaken` (of all rays), `TraceSeconds` (0 where nothing had to be traced), and what is known
- * of the accuracy: `DisplacementBound` (no ray is shifted further, data units), `SkippingBound` (skipping
- * changes no direction cosine by more), each left out where it says nothing, and `MomentumDrift` (largest relative error of |p| = n where
- * refracted rays leave; 0 for straight ones). `PathModel` is the one used: `Straight`,
- * `Refracted` or `Difference`.
+ * Field data: `Device`, `PathModel` (the one used: `Straight`, `Refracted` or `Difference`),
+ * `KScale` (the k used), `UndisturbedLevel` (intensity of undisturbed light), `SaturatedShare`
+ * (fraction of the rays at the cutoff's darkest or brightest level), `LightEmitted`, `LightOnFilm`
+ * and `LightOutside` (behind the cutoff, in units of full light of all pixels; the first is the sum
+ * of the others), `FringeSpacing` (of finite fringes, data units), `ExposureInterval` (with
+ * ExposureTime: begin and end, in the data's time), `AmbientRefractivity` and `ExitRefractivity`
+ * (the values used), `RaysTraced`, `RaysLost` (trapped in the medium, turned back by it, or totally
+ * reflected at the exit), `StepsTaken` (of all rays), `TraceSeconds` (0 without tracing), and the
+ * accuracy: `DisplacementBound` (maximum displacement of rays, data units) and `SkippingBound`
+ * (maximum error of direction cosines by skipping), each omitted where it is not useful, and
+ * `MomentumDrift` (maximum relative error of |p| = n at the exit of refracted rays; else 0).
  *
  * The second output is the histogram of the light on the cutoff plane: an image with a point at the
  * centre of each bin, whose coordinates are the deflections along u and v, with the array `Rays`
  * (64-bit integers). Empty where HistogramSize is 0.
  *
- * The inputs and the properties that describe the medium are those of vtkRefractiveIndex; an image
- * that already holds `Refractivity` is used as it stands (see there). What has been computed is kept
- * until something that it depends on changes: another cutoff, k or knife angle needs no re-tracing,
- * another view traces again but keeps the medium.
+ * The inputs and the properties of the medium are those of vtkRefractiveIndex. Results are kept
+ * until something that they depend on changes: another cutoff, k or knife angle needs no
+ * re-tracing, and another view keeps the medium.
  *
- * Mistakes end in one error that says what to do, and an empty output.
+ * Each user error is one error that says what to do, with an empty output.
  *
  * @sa vtkRefractiveIndex
  */
@@ -216,7 +216,7 @@ public:
 
   ///@{
   /**
-   * The medium: see vtkRefractiveIndex. The arrays are chosen with SetInputArrayToProcess as there
+   * The medium: see vtkRefractiveIndex. SetInputArrayToProcess chooses the arrays
    * (vtkRefractiveIndex::InputArrays).
    */
   vtkRefractiveIndexForwardMacro(Medium);
@@ -224,15 +224,15 @@ public:
   const char* GetGrid() const;
 
   /**
-   * The arrays that are used, see vtkRefractiveIndex.
+   * Returns the arrays in use, see vtkRefractiveIndex.
    */
   const char* GetArraysUsed();
   ///@}
 
   ///@{
   /**
-   * Wavelength of the light in vacuum, nanometres: of the medium, as in vtkRefractiveIndex, and of an
-   * interferogram. Another one finds the refractivity anew only where that depends on it. Default: 632.8.
+   * Wavelength of the light in vacuum, nanometres, for the medium, as in vtkRefractiveIndex, and
+   * for interferograms. Default: 632.8.
    */
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);
@@ -248,7 +248,7 @@ public:
 
   ///@{
   /**
-   * Whether the refractivity around the data is the median over the domain's boundary. Default: on.
+   * Whether the ambient refractivity is the median over the domain's boundary. Default: on.
    */
   vtkSetMacro(AutoAmbientRefractivity, bool);
   vtkGetMacro(AutoAmbientRefractivity, bool);
@@ -257,7 +257,7 @@ public:
 
   ///@{
   /**
-   * Refractivity n - 1 around the data, where AutoAmbientRefractivity is off. Default: 0.
+   * Ambient refractivity n - 1, used if AutoAmbientRefractivity is off. Default: 0.
    */
   vtkSetMacro(AmbientRefractivity, double);
   vtkGetMacro(AmbientRefractivity, double);
@@ -265,10 +265,10 @@ public:
 
   ///@{
   /**
-   * Whether an automatic refractivity around the data is that of the first image, kept at all other times, so that
-   * fringes of a series are counted from the same light; else, and with other data or another medium, it is found anew.
-   * Default: on. LockedAmbient is that of the last image where it was kept from an earlier one, else 0; setting it
-   * (state files do) gives it to the next image, 0 lets it be found.
+   * Whether an automatic ambient refractivity, found for the first image, is kept at all other
+   * times, so that all fringes of a series refer to the same light. It is found again for other
+   * data or another medium. Default: on. LockedAmbient is the ambient kept from an earlier image,
+   * else 0; setting it (as state files do) sets that of the next image, where 0 means automatic.
    */
   vtkSetMacro(LockAmbient, bool);
   vtkGetMacro(LockAmbient, bool);
@@ -277,13 +277,13 @@ public:
 
   ///@{
   /**
-   * What light enters where it leaves the data through a plane across the line of sight, the window of a tank, at which
-   * n sin of its angle is kept (Snell), one of Exits: EXIT_AIR (n - 1 = 2.718e-4); EXIT_CUSTOM (ExitRefractivity,
-   * n - 1, more than -1; default: 2.7e-4); EXIT_SURROUNDINGS: there is no window, and angles are those in the data;
-   * or EXIT_AUTO (the default): air where the surroundings are a liquid, n - 1 > 0.1, which a warning says once; a
-   * window into the surroundings where they are a gas, but there is more than 0.1 in the data; else as
-   * EXIT_SURROUNDINGS. Deflections are angles behind the window, as screens and patterns are; light that is totally
-   * reflected is lost.
+   * The gas that light enters where it leaves the data, through a plane window across the line of
+   * sight that conserves n sin(angle) (Snell). One of Exits: EXIT_AIR (n - 1 = 2.718e-4);
+   * EXIT_CUSTOM (ExitRefractivity, n - 1, above -1; default: 2.7e-4); EXIT_SURROUNDINGS: no
+   * window, angles are those in the data; EXIT_AUTO (the default): air if the ambient is a liquid,
+   * n - 1 > 0.1, with one warning; a window to the surroundings if these are a gas but n - 1
+   * exceeds 0.1 in the data; else EXIT_SURROUNDINGS. Deflections, screens and patterns are those
+   * behind the window; totally reflected light is lost.
    */
   vtkSetClampMacro(ExitInto, int, EXIT_AUTO, EXIT_CUSTOM);
   vtkGetMacro(ExitInto, int);
@@ -295,8 +295,8 @@ public:
 
   ///@{
   /**
-   * The direction one looks in, as in vtkCamera; light travels against it. Any length but 0.
-   * Default: (0, 0, -1); see FaceFlatData.
+   * Direction of view, as in vtkCamera, opposite to the light. Any length but 0. Default: (0, 0,
+   * -1); see FaceFlatData.
    */
   vtkSetVector3Macro(ViewDirection, double);
   vtkGetVector3Macro(ViewDirection, double);
@@ -304,7 +304,7 @@ public:
 
   ///@{
   /**
-   * What is up in the image; not parallel to ViewDirection. Default: (0, 1, 0).
+   * Upward direction of the image; not parallel to ViewDirection. Default: (0, 1, 0).
    */
   vtkSetVector3Macro(ViewUp, double);
   vtkGetVector3Macro(ViewUp, double);
@@ -312,9 +312,9 @@ public:
 
   ///@{
   /**
-   * Whether 2-D data in a plane along z (and the section that data with Symmetry are) are seen from in front where ViewDirection
-   * is (0, 0, -1), its default, which is along the plane: then along y, or against x, and z is up unless ViewUp says otherwise. Off,
-   * or with any other ViewDirection, the view is as it is set. Default: on.
+   * Whether 2-D data in a plane along z (also the section that Symmetry revolves) are viewed
+   * face-on instead of along their plane if ViewDirection is the default (0, 0, -1): then along y,
+   * or against x, with z up unless ViewUp is changed. Default: on.
    */
   vtkSetMacro(FaceFlatData, bool);
   vtkGetMacro(FaceFlatData, bool);
@@ -323,8 +323,8 @@ public:
 
   ///@{
   /**
-   * The point at the centre of the image, data units. By default, and after ClearFocalPoint(), the
-   * data's centre; what GetFocalPoint() returns is then of no effect.
+   * Point at the centre of the image, data units. By default, and after ClearFocalPoint(), the
+   * data's centre; GetFocalPoint() then returns an unused value.
    */
   virtual void SetFocalPoint(double x, double y, double z);
   virtual void SetFocalPoint(const double point[3])
@@ -338,7 +338,7 @@ public:
 
   ///@{
   /**
-   * Half the height of the image in the plane of the focal point, data units; 0 (the default) fits the data.
+   * Half the height of the image in the focal plane, data units; 0 (the default) fits the data.
    */
   vtkSetMacro(ParallelScale, double);
   vtkGetMacro(ParallelScale, double);
@@ -346,11 +346,10 @@ public:
 
   ///@{
   /**
-   * Degrees between the lower and the upper side of the image, seen from the camera, less than 170; 0 (the default):
-   * parallel light. Else it is that of a point source in the camera's pupil, which diverges from there through the flow
-   * to what is behind it: each pixel has its own direction, as the surfaces that such a vtkCamera sees. Of data that
-   * reach beyond the camera nothing counts that is behind it. In 2-D data, whose depth is none of theirs, light stays
-   * parallel.
+   * Vertical angle of view, degrees, less than 170; 0 (the default): parallel light. Otherwise
+   * light diverges from a point source in the camera's pupil through the flow, so that each pixel
+   * has its own direction, as in a perspective vtkCamera. Data behind the camera are ignored.
+   * Light stays parallel in 2-D data, whose depth is artificial.
    */
   vtkSetMacro(ViewAngle, double);
   vtkGetMacro(ViewAngle, double);
@@ -366,16 +365,16 @@ public:
 
   ///@{
   /**
-   * What turns deflections into light and dark, one of Cutoffs. With the deflection eps, its part e along
-   * KnifeEdgeAngle and the sensitivity k, the intensity is, limited to 0 ... 1,
+   * The cutoff, one of Cutoffs. With the deflection eps, its component e along KnifeEdgeAngle and
+   * the sensitivity k, the intensity, clamped to 0 ... 1, is
    * - KNIFE_EDGE (the default): 1/2 - offset + k e;
-   * - SHADOWGRAPH: 1, so that only where light lands on a screen makes the image;
-   * - CIRCULAR: 1 - k |eps|, a dark field's inverse; CIRCULAR_COMPLEMENT: k |eps|;
-   * - GRADED_FILTER: that of GradedFilter at 1/2 - offset + k e;
-   * - COLOR_FILTER: the colour at k eps of ColorFilterImage, or of a wheel;
+   * - SHADOWGRAPH: 1, so that the image shows only where light lands on a screen;
+   * - CIRCULAR: 1 - k |eps|, inverse of a dark field; CIRCULAR_COMPLEMENT: k |eps|;
+   * - GRADED_FILTER: GradedFilter at 1/2 - offset + k e;
+   * - COLOR_FILTER: the colour at k eps in ColorFilterImage, or in a colour wheel;
    * - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
-   * - BACKGROUND_ORIENTED: what a camera sees of a pattern behind the flow;
-   * - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), no stop of a bench, but what images of computed flows often show.
+   * - BACKGROUND_ORIENTED: a camera's image of a pattern behind the flow;
+   * - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), common for computed flows, but no stop of a bench.
    */
   virtual void SetCutoff(int cutoff);
   vtkGetMacro(Cutoff, int);
@@ -383,9 +382,9 @@ public:
 
   ///@{
   /**
-   * What one of Cutoffs has: a sensitivity k; a straight edge with an angle, an offset and another side; fringes; a
-   * screen behind the flow (full light is 2 there, else 1), or a pattern; and, with these settings, colours of its own.
-   * False for other numbers.
+   * Return whether a cutoff has a sensitivity k; a straight edge with an angle, an offset and an
+   * inverse; fringes; a screen behind the flow (full light is 2 there, else 1), or a pattern; and,
+   * with these settings, colours of its own. False for invalid numbers.
    */
   static bool CutoffHasK(int cutoff);
   static bool CutoffHasEdge(int cutoff);
@@ -398,8 +397,8 @@ public:
 
   ///@{
   /**
-   * Which deflection the knife edge and the graded filter measure, degrees: 0 (the default) along u, 90
-   * along v.
+   * Direction of the deflection that the knife edge and the graded filter measure, degrees: 0 (the
+   * default) is u, 90 is v.
    */
   vtkSetMacro(KnifeEdgeAngle, double);
   vtkGetMacro(KnifeEdgeAngle, double);
@@ -407,8 +406,9 @@ public:
 
   ///@{
   /**
-   * How far the knife edge or the graded filter is in from the middle of the source's image, as a fraction
-   * of its width; undisturbed light loses as much. Default: 0. CutoffPosition counts with KFromOptics.
+   * Advance of the knife edge or graded filter from the middle of the source's image, as a
+   * fraction of the image's width, which is also the loss of undisturbed light. Default: 0. With
+   * KFromOptics, CutoffPosition is used instead.
    */
   vtkSetMacro(CutoffOffset, double);
   vtkGetMacro(CutoffOffset, double);
@@ -416,7 +416,8 @@ public:
 
   ///@{
   /**
-   * Turns the knife edge or the graded filter round: intensity I becomes 1 - I. Default: off.
+   * Whether the knife edge or the graded filter is reversed: intensity I becomes 1 - I. Default:
+   * off.
    */
   vtkSetMacro(InvertCutoff, bool);
   vtkGetMacro(InvertCutoff, bool);
@@ -425,8 +426,8 @@ public:
 
   ///@{
   /**
-   * Whether k is chosen so that the 99th percentile of the deflections is full scale, but no larger than the error of
-   * the medium's voxels allows where little flow is in view. Default: on.
+   * Whether k is chosen so that the 99th percentile of the deflections is full scale. It is
+   * limited by the error of the medium's voxels if little flow is in view. Default: on.
    */
   vtkSetMacro(AutoKScale, bool);
   vtkGetMacro(AutoKScale, bool);
@@ -436,13 +437,14 @@ public:
   ///@{
   /**
    * How long an automatic k is kept, one of LockModes. It is found for the first image and then
-   * - LOCK_OFF: for each image anew;
-   * - LOCK_OVER_TIME (the default): kept at all other times, whatever else changes with the time, as the camera of an
-   *   animation does. Found anew where camera, light or quality change at the time that it was found, and where data
-   *   have no time steps;
-   * - LOCK_ALWAYS: kept where camera, light and quality change, too.
-   * In each case it is found anew where the settings of the medium, the kind of cutoff that has a k, or, at the same
-   * time, the data change. Images between, whose k is not automatic, do not count.
+   * - LOCK_OFF: for each image;
+   * - LOCK_OVER_TIME (the default): kept at all other times, whatever changes with the time, such
+   *   as the camera of an animation. Found again if camera, light or quality change at the time
+   *   that it was found for, and for data without time steps;
+   * - LOCK_ALWAYS: kept even if camera, light or quality change.
+   *
+   * In each mode it is found again if the settings of the medium, the kind of cutoff or, at the
+   * same time, the data change. Images in between without an automatic k do not count.
    */
   vtkSetClampMacro(LockK, int, LOCK_OFF, LOCK_ALWAYS);
   vtkGetMacro(LockK, int);
@@ -450,8 +452,8 @@ public:
 
   ///@{
   /**
-   * The k of the last image where LockK has kept it from an earlier one, else 0. Setting it (state files do) gives the
-   * next image this k, from which on LockK holds; 0 lets it be found.
+   * The k kept from an earlier image by LockK, else 0. Setting it (as state files do) sets the k
+   * of the next image, which LockK then keeps; 0 means automatic.
    */
   void SetLockedK(double k);
   double GetLockedK() const;
@@ -459,8 +461,8 @@ public:
 
   ///@{
   /**
-   * Sensitivity k where AutoKScale is off: focal length over source width, so that a knife edge's
-   * intensity is 1/2 + k times the deflection. Not negative. Default: 1000.
+   * Sensitivity k, used if AutoKScale is off: focal length / source width; the intensity at a
+   * knife edge is 1/2 + k times the deflection. Not negative. Default: 1000.
    */
   vtkSetMacro(KScale, double);
   vtkGetMacro(KScale, double);
@@ -468,8 +470,9 @@ public:
 
   ///@{
   /**
-   * Whether sensitivity and offset are those of real optics, whatever AutoKScale, KScale and CutoffOffset
-   * are: k = FocalLength / SourceWidth, offset = CutoffPosition / SourceWidth. Default: off.
+   * Whether real optics give sensitivity and offset, instead of AutoKScale, KScale and
+   * CutoffOffset: k = FocalLength / SourceWidth, offset = CutoffPosition / SourceWidth. Default:
+   * off.
    */
   vtkSetMacro(KFromOptics, bool);
   vtkGetMacro(KFromOptics, bool);
@@ -486,10 +489,10 @@ public:
 
   ///@{
   /**
-   * Of the source's image at the cutoff, millimetres: its width across the knife edge, or a disc's diameter
-   * (default: 1), and, of a slit, its length along the knife edge (default: 10). Not negative; for
-   * KFromOptics, the width is positive. Seen from the data, the source is as large as the width over
-   * FocalLength.
+   * Size of the source's image at the cutoff, millimetres: its width across the knife edge, or a
+   * disc's diameter (default: 1), and a slit's length along the knife edge (default: 10). Not
+   * negative; for KFromOptics, the width is positive. Seen from the data, the source has the
+   * angular size width / FocalLength.
    */
   vtkSetMacro(SourceWidth, double);
   vtkGetMacro(SourceWidth, double);
@@ -499,7 +502,7 @@ public:
 
   ///@{
   /**
-   * With KFromOptics: how far the edge is in from the middle of the source's image, millimetres.
+   * Advance of the edge from the middle of the source's image, millimetres, for KFromOptics.
    * Default: 0.
    */
   vtkSetMacro(CutoffPosition, double);
@@ -508,9 +511,9 @@ public:
 
   ///@{
   /**
-   * What FocalLength, SourceWidth and CutoffPosition stand for, whether KFromOptics is on or not: k and the
-   * offset as a fraction of the source's image. NaN where there is none. And the k of the last image; 0
-   * before the first, after a failed one and where there is no cutoff.
+   * Return k and the offset (as a fraction of the source's image) that follow from FocalLength,
+   * SourceWidth and CutoffPosition, even if KFromOptics is off; NaN where there is none.
+   * KScaleUsed is the k of the last image; 0 before the first, after errors, and without a cutoff.
    */
   double GetKScaleOfOptics();
   double GetCutoffOffsetOfOptics();
@@ -518,15 +521,16 @@ public:
   ///@}
 
   /**
-   * The last image's sensitivity in words: k, the deflection that is full scale, and what optics have it; of an
-   * interferogram, its wavelength. Empty where there is none.
+   * Returns a text about the last image's sensitivity: k, the full-scale deflection and equivalent
+   * optics; of an interferogram, its wavelength. Empty where there is none.
    */
   const char* GetSensitivity() const { return this->Sensitivity.c_str(); }
 
   ///@{
   /**
-   * Transmission, 0 to 1, of the GRADED_FILTER over its width, 0 to 1; undisturbed light passes its middle.
-   * Null (the default) or without points: a straight line from 0 to 1. Sampled at 1025 places.
+   * Transmission, 0 to 1, of the GRADED_FILTER across its width, 0 to 1; undisturbed light passes
+   * its middle. Null (the default) or without points: a straight line from 0 to 1. Sampled at 1025
+   * points.
    */
   virtual void SetGradedFilter(vtkPiecewiseFunction* function);
   vtkPiecewiseFunction* GetGradedFilter() const;
@@ -534,11 +538,11 @@ public:
 
   ///@{
   /**
-   * The image of the COLOR_FILTER, in sRGB; it covers k times the deflection from -1 to 1 along both axes. Either
-   * the name of a PNG file, or the file's content itself as text: "data:image/png;base64,..." (RFC 2397).
-   * Grey, 16-bit and transparent (shown on white)
-   * images will do. Empty (the default): a wheel whose hue is the direction of the deflection, from red
-   * along u, and whose saturation is its size, full at k |eps| = 1.
+   * Image of the COLOR_FILTER, in sRGB, which spans -1 to 1 of k times the deflection along both
+   * axes: the name of a PNG file, or its content as text: "data:image/png;base64,..." (RFC 2397).
+   * May be grey, 16-bit or transparent (blended with white). Empty (the default): a colour wheel
+   * with the deflection's direction as hue, red along u, and its size as saturation, full at k
+   * |eps| = 1.
    */
   vtkSetStdStringFromCharMacro(ColorFilterImage);
   vtkGetCharFromStdStringMacro(ColorFilterImage);
@@ -546,12 +550,12 @@ public:
 
   ///@{
   /**
-   * Fringes of an interferogram, one of FringeModes. INFINITE_FRINGES (the default): undisturbed light is
-   * bright everywhere. FINITE_FRINGES: the reference beam is tilted, which lays straight fringes over the
-   * image: FringeSpacing apart (data units on the film, positive; 0, the default: a tenth of the
-   * image's height), one after the other in the direction of FringeAngle (degrees; 0, the default, is u,
-   * 90 is v). Where the beams cross at a BeamAngle (degrees, above 0 to 180; 0, the default: not given),
-   * the spacing is wavelength / (2 sin(BeamAngle / 2)).
+   * Fringes of an interferogram, one of FringeModes. INFINITE_FRINGES (the default): undisturbed
+   * light is bright everywhere. FINITE_FRINGES: a tilted reference beam adds straight fringes,
+   * FringeSpacing apart (data units on the film, positive; 0, the default: a tenth of the image's
+   * height) along FringeAngle (degrees; 0, the default, is u, 90 is v). If the angle between the
+   * beams, BeamAngle, is given (degrees, above 0 to 180; 0, the default: not given), the spacing
+   * is wavelength / (2 sin(BeamAngle / 2)).
    */
   vtkSetClampMacro(FringeMode, int, INFINITE_FRINGES, FINITE_FRINGES);
   vtkGetMacro(FringeMode, int);
@@ -565,9 +569,9 @@ public:
 
   ///@{
   /**
-   * Whether an interferogram is taken in white light: `Color` then has the fringes as the eye sees them. The
-   * medium disperses as Gas, BackgroundGas or moist air does, whichever the IndexModel uses; not at all
-   * where that is none or custom. Default: off.
+   * Whether an interferogram uses white light, whose visible fringes are in `Color`. The medium
+   * disperses as Gas, BackgroundGas or moist air, whichever IndexModel uses; a custom gas does not
+   * disperse. Default: off.
    */
   vtkSetMacro(WhiteLight, bool);
   vtkGetMacro(WhiteLight, bool);
@@ -576,8 +580,8 @@ public:
 
   ///@{
   /**
-   * For all cutoffs but the shadowgraph: the plane in focus, data units towards the viewer from the middle of
-   * the data, with a ViewAngle from the focal point. Default: 0.
+   * The plane in focus for all cutoffs but SHADOWGRAPH: distance towards the viewer from the
+   * middle of the data or, with a ViewAngle, from the focal point, data units. Default: 0.
    */
   vtkSetMacro(FocusOffset, double);
   vtkGetMacro(FocusOffset, double);
@@ -585,9 +589,9 @@ public:
 
   ///@{
   /**
-   * The light, one of LightSources: COLLIMATED (the default), or DIVERGING from a point SourceDistance
-   * before the middle of the data (data units, before the data; 0, the default: ten data depths). With a ViewAngle it
-   * diverges from the pupil, whatever this is.
+   * The light, one of LightSources: COLLIMATED (the default), or DIVERGING from a point
+   * SourceDistance before the middle of the data (data units, outside of the data; 0, the default:
+   * ten data depths). Ignored with a ViewAngle, where light diverges from the pupil.
    */
   vtkSetClampMacro(LightSource, int, COLLIMATED, DIVERGING);
   vtkGetMacro(LightSource, int);
@@ -597,8 +601,8 @@ public:
 
   ///@{
   /**
-   * The source's shape, one of SourceShapes: a POINT (the default), or a SLIT or DISC of SourceWidth and
-   * SourceLength, which blurs what is not in focus and rounds off what a knife edge does.
+   * Shape of the source, one of SourceShapes: a POINT (the default), or a SLIT or DISC of
+   * SourceWidth and SourceLength, which blurs what is out of focus and softens a knife edge.
    */
   vtkSetClampMacro(SourceShape, int, POINT, DISC);
   vtkGetMacro(SourceShape, int);
@@ -606,11 +610,12 @@ public:
 
   ///@{
   /**
-   * What is seen behind the flow by BACKGROUND_ORIENTED: one of BackgroundPatterns (default: DOTS);
-   * BackgroundDistance behind where the data begin (data units; negative, the default: one data depth);
-   * dots and stripes BackgroundPeriod apart (data units; 0, the default: eight pixels; below four they fade,
-   * at two they are gone); stripes across BackgroundAngle (degrees; 0, the default: u); the PICTURE is BackgroundImage,
-   * given as ColorFilterImage is; the SCENE is that of SetBackgroundScene().
+   * The pattern of BACKGROUND_ORIENTED, one of BackgroundPatterns (default: DOTS):
+   * BackgroundDistance behind the side of the data where light enters (data units; negative, the
+   * default: one data depth); dots and stripes BackgroundPeriod apart (data units; 0, the default:
+   * eight pixels; they fade below four and vanish at two); stripes across BackgroundAngle
+   * (degrees; 0, the default: u); PICTURE: BackgroundImage, given as ColorFilterImage is; SCENE:
+   * that of SetBackgroundScene().
    */
   vtkSetClampMacro(BackgroundPattern, int, DOTS, SCENE);
   vtkGetMacro(BackgroundPattern, int);
@@ -625,15 +630,15 @@ public:
   ///@}
 
   /**
-   * For BACKGROUND_ORIENTED images with the pattern SCENE: what the camera sees behind the flow, which a view knows: RGB
-   * bytes stretched over the image, as they are on a screen. `distance` is used where BackgroundDistance is negative;
-   * negative: one data depth. Null (the default): there is none, and images with this pattern fail.
+   * Sets the image that the camera sees behind the flow, for BACKGROUND_ORIENTED with SCENE: RGB
+   * bytes as on a screen, stretched over the image. `distance` is used if BackgroundDistance is
+   * negative; negative: one data depth. Null (the default): images with this pattern fail.
    */
   void SetBackgroundScene(vtkImageData* image, double distance);
 
   ///@{
   /**
-   * For a shadowgraph: from the plane where light leaves the data to the screen, data units.
+   * Distance of a shadowgraph's screen from the plane where light leaves the data, data units.
    * Negative (default: -1): one data depth.
    */
   vtkSetMacro(ScreenDistance, double);
@@ -642,12 +647,12 @@ public:
 
   ///@{
   /**
-   * Whether the image is tinted by the colours of the Fields, with any IndexModel (after Brownlee et
-   * al. 2011, sec. 8). Along its path, light gathers g_i = integral |grad f_i| ds of each field f_i (its
-   * place in its range, 0 to 1; with TRANSFER_FUNCTIONS what its function makes of that). Its colour is
-   * 1 + s (sum g_i c_i / G - 1), where G = sum g_i, c_i are the FieldColors, and the strength s is
-   * G over its 99th percentile in the image, at most 1. In meshes, voxels are then as fine as the fields need, too:
-   * see MediumTolerance. Default: off.
+   * Whether the Fields tint the image, with any IndexModel (after Brownlee et al. 2011, sec. 8).
+   * Along its path, light accumulates g_i = integral |grad f_i| ds of each field f_i (relative to
+   * its range, 0 to 1; with TRANSFER_FUNCTIONS, the function's value). Its colour is 1 + s (sum
+   * g_i c_i / G - 1), where G = sum g_i, c_i are the FieldColors, and the strength s is G over its
+   * 99th percentile in the image, at most 1. In meshes, voxels also resolve the fields: see
+   * MediumTolerance. Default: off.
    */
   vtkSetMacro(ColorByField, bool);
   vtkGetMacro(ColorByField, bool);
@@ -656,8 +661,8 @@ public:
 
   ///@{
   /**
-   * The fields' colours: red, green and blue, 0 to 1, of each. Empty (the default): hues that are
-   * easily distinguished.
+   * Colours of the fields: red, green and blue, 0 to 1, for each. Empty (the default): distinct
+   * hues.
    */
   virtual void AddFieldColor(double value);
   virtual void ClearFieldColors();
@@ -666,9 +671,9 @@ public:
 
   ///@{
   /**
-   * Accuracy against speed, one of Qualities. Setting it sets the properties named by
-   * GetQualitySetting(), PathModel to PathTolerance; CUSTOM sets none. What it is follows from them: the
-   * preset whose values they have, or CUSTOM. Default: INTERACTIVE, and so is theirs.
+   * Preset of accuracy and speed, one of Qualities. Setting it sets the properties that
+   * GetQualitySetting() lists; CUSTOM sets none. Getting it returns the preset whose values the
+   * properties have, or CUSTOM. Default: INTERACTIVE, whose values are the properties' defaults.
    */
   virtual void SetQuality(int quality);
   virtual int GetQuality();
@@ -676,8 +681,8 @@ public:
 
   ///@{
   /**
-   * The names of the properties that Quality sets, from number 0 on; null after the last. And what a
-   * preset sets them to; 0 where there is no such preset or property.
+   * Return the names of the properties that Quality sets, from number 0 on, null after the last;
+   * and their values in a preset, 0 for invalid numbers.
    */
   static const char* GetQualitySetting(int number);
   static double GetQualityValue(int quality, int number);
@@ -685,11 +690,11 @@ public:
 
   ///@{
   /**
-   * How light passes the medium, one of PathModels: REFRACTED rays bend; STRAIGHT ones sum up what the
-   * undisturbed line of sight meets; AUTO_PATH takes these where they are proven to be within
-   * PathTolerance. DIFFERENCE: what refraction changes. Both are traced, at the k of refracted rays. The
-   * intensity is 1/2 (of a shadowgraph 1) plus half of that by refracted rays less that by straight ones, and so
-   * are colours; the other arrays are differences, and all else is as of refracted rays.
+   * Path of the light, one of PathModels: REFRACTED rays bend; STRAIGHT rays integrate along the
+   * undisturbed line of sight; AUTO_PATH uses these if they are proven to be within PathTolerance.
+   * DIFFERENCE traces both, with the k of refracted rays: the intensity is 1/2 (of a shadowgraph
+   * 1) plus half of the difference of refracted and straight rays, and so are colours; other
+   * arrays are differences, and all else is that of refracted rays.
    */
   vtkSetClampMacro(PathModel, int, AUTO_PATH, DIFFERENCE);
   vtkGetMacro(PathModel, int);
@@ -697,11 +702,11 @@ public:
 
   ///@{
   /**
-   * How refracted rays take their steps, one of Integrators: LEAPFROG is of second order and looks up
-   * one gradient a step, RK4 of fourth order with four, ADAPTIVE of third order with three and steps as
-   * long as AdaptiveTolerance allows, EULER of first order with one (Brownlee et al. 2011). Where the index changes by
-   * more than a twentieth in a step, as at a face of glass, steps are adaptive, but of EULER; if MomentumDrift is above
-   * 1 % all the same, a warning says so and where that is.
+   * Integrator of refracted rays, one of Integrators: LEAPFROG is of second order with one
+   * gradient per step, RK4 of fourth order with four, ADAPTIVE of third order with three and steps
+   * that AdaptiveTolerance limits, EULER of first order with one (Brownlee et al. 2011). Where the
+   * index changes by more than a twentieth in a step, as at a face of glass, steps are adaptive
+   * except with EULER. A warning reports a MomentumDrift above 1 % and its position.
    */
   vtkSetClampMacro(Integrator, int, LEAPFROG, EULER);
   vtkGetMacro(Integrator, int);
@@ -709,7 +714,7 @@ public:
 
   ///@{
   /**
-   * Length of an integration step, voxels; of ADAPTIVE, the longest. 0.001 to 16.
+   * Length of an integration step, voxels; for ADAPTIVE, its maximum. 0.001 to 16.
    */
   vtkSetMacro(StepSize, double);
   vtkGetMacro(StepSize, double);
@@ -717,8 +722,8 @@ public:
 
   ///@{
   /**
-   * Rays cross a cube of cells in one step where n - 1 varies in it by no more than this fraction of its
-   * range in the whole medium. 0 (skip nothing) to 1. What that may change: SkippingBound.
+   * Rays cross a block of cells in one step if n - 1 varies in it by at most this fraction of its
+   * range in the whole medium. 0 (no skipping) to 1. SkippingBound bounds the error.
    */
   vtkSetMacro(HomogeneityTolerance, double);
   vtkGetMacro(HomogeneityTolerance, double);
@@ -726,8 +731,8 @@ public:
 
   ///@{
   /**
-   * What lies between the samples, one of Interpolations: QUADRATIC and CUBIC B-splines have a
-   * continuous gradient; LINEAR is faster and prints the grid into the image; CENTRAL takes central
+   * Interpolation between samples, one of Interpolations: QUADRATIC and CUBIC B-splines have a
+   * continuous gradient; LINEAR is faster and shows the grid in the image; CENTRAL uses central
    * differences for the gradient (Brownlee et al. 2011).
    */
   vtkSetClampMacro(Interpolation, int, QUADRATIC, CUBIC);
@@ -744,8 +749,8 @@ public:
 
   ///@{
   /**
-   * How rays become an image, one of FilmEstimators: SHEET draws the light between neighbouring rays, PHOTON
-   * divides each ray's light among the four pixels around it.
+   * Estimator of the film, one of FilmEstimators: SHEET draws the light between neighbouring rays,
+   * PHOTON splats each ray on the four pixels around it.
    */
   vtkSetClampMacro(FilmEstimator, int, SHEET, PHOTON);
   vtkGetMacro(FilmEstimator, int);
@@ -753,7 +758,7 @@ public:
 
   ///@{
   /**
-   * Floating-point numbers to trace with, one of Precisions.
+   * Floating-point precision of tracing, one of Precisions.
    */
   virtual void SetPrecision(int precision);
   vtkGetMacro(Precision, int);
@@ -761,8 +766,8 @@ public:
 
   ///@{
   /**
-   * Of ADAPTIVE: the error allowed in a step, relative to what the steepest gradient of the medium bends
-   * over the same path. 1e-12 to 1.
+   * Error allowed in a step of ADAPTIVE, relative to the deflection by the medium's steepest
+   * gradient over the same path. 1e-12 to 1.
    */
   vtkSetMacro(AdaptiveTolerance, double);
   vtkGetMacro(AdaptiveTolerance, double);
@@ -770,7 +775,7 @@ public:
 
   ///@{
   /**
-   * Of AUTO_PATH: how far a straight ray may be from the refracted one, pixels. Not negative.
+   * Maximum distance between straight and refracted rays for AUTO_PATH, pixels. Not negative.
    */
   vtkSetMacro(PathTolerance, double);
   vtkGetMacro(PathTolerance, double);
@@ -778,8 +783,9 @@ public:
 
   ///@{
   /**
-   * Of meshes: the error of the deflection that the size of voxels may make, of the largest deflection; with
-   * ColorByField also that of G, of its 99th percentile. 0: voxels are as fine as the mesh. 0 to 1.
+   * Error of the deflection due to the voxel size in meshes, relative to the maximum deflection;
+   * with ColorByField also that of G, relative to its 99th percentile. 0: voxels as fine as the
+   * mesh. 0 to 1.
    */
   vtkSetMacro(MediumTolerance, double);
   vtkGetMacro(MediumTolerance, double);
@@ -787,9 +793,10 @@ public:
 
   ///@{
   /**
-   * Of meshes: memory, MiB, for voxels. Default: 1024. Where it does not do, MediumTolerance is not met, and the
-   * field data MediumError say by how much (the larger of both errors). MediumError is the largest of a ray through
-   * many leaves, so it may be up to some twice MediumTolerance where memory does, too.
+   * Memory for a mesh's voxels, MiB. Default: 1024. If it does not suffice, MediumTolerance is not
+   * met, and the field data MediumError report the error (the larger of both). MediumError is the
+   * maximum over rays through many leaves, so it may be about twice MediumTolerance even with
+   * enough memory.
    */
   vtkSetClampMacro(MediumMemory, int, 1, VTK_INT_MAX);
   vtkGetMacro(MediumMemory, int);
@@ -797,15 +804,15 @@ public:
 
   ///@{
   /**
-   * How long light falls on the film, in the time of the data; 0 (the default): an instant. The image is then the mean
-   * of those of ExposureSamples instants (default: 8; 1: as with 0), the middles of as many equal parts of this
-   * interval, which lies around the time that is requested, and ends where the data's time does. All arrays of the
-   * image are such means; the histogram is the sum of all; the sensitivity k and the refractivity around the data
-   * are those of the first instant, unless they are given. Between time steps, arrays of real numbers and the points
-   * of meshes are linear in time, and everything else is of the earlier step; cells that differ are an error. Sources
-   * without time steps, but with a range of time, give the data of each instant.
-   * No effect on data that do not change, and on images with a PreviewReduction. TimeLimit has none on an exposure:
-   * it is made at once, and anew, with what is upstream, whenever anything changes.
+   * Exposure time, in the data's time; 0 (the default): one instant. Otherwise the image is the
+   * mean over ExposureSamples instants (default: 8; 1: as with 0), the midpoints of as many
+   * subintervals of an interval that is centred at the requested time and clipped to the data's
+   * times. All arrays are such means; the histogram is the sum. The sensitivity k and the ambient
+   * refractivity are those of the first instant, unless given. Between time steps, real arrays and
+   * the points of meshes are interpolated linearly, and all else is of the earlier step; changing
+   * cells are an error. Sources without time steps, but with a time range, give the data of each
+   * instant. Ignored for data that do not change and with a PreviewReduction. TimeLimit does not
+   * limit an exposure: any change makes all of it again, upstream filters included.
    */
   vtkSetClampMacro(ExposureTime, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(ExposureTime, double);
@@ -815,10 +822,10 @@ public:
 
   ///@{
   /**
-   * What takes the grain out of the image, one of NoiseFilters: NO_FILTER (the default), a GAUSSIAN whose
-   * standard deviation is half of NoiseFilterRadius (pixels, positive; default: 2), the MEAN over a disc, or
-   * a CONE that shrinks as samples come in (Jensen 1996): it encloses as many as the radius does of one
-   * per pixel.
+   * Filter against noise, one of NoiseFilters: NO_FILTER (the default), a GAUSSIAN with a standard
+   * deviation of half NoiseFilterRadius (pixels, positive; default: 2), the MEAN over a disc, or a
+   * CONE that shrinks as samples are added (Jensen 1996): it contains as many as the radius does
+   * at one per pixel.
    */
   vtkSetClampMacro(NoiseFilter, int, NO_FILTER, CONE);
   vtkGetMacro(NoiseFilter, int);
@@ -836,8 +843,8 @@ public:
 
   ///@{
   /**
-   * Memory, MiB, in which rays are cached so that another cutoff needs no re-tracing. Default: 1024. The image
-   * does not depend on it.
+   * Memory of the ray cache, MiB, which spares re-tracing for another cutoff. Default: 1024. The
+   * image does not depend on it.
    */
   vtkSetClampMacro(MemoryBudget, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryBudget, int);
@@ -845,8 +852,8 @@ public:
 
   ///@{
   /**
-   * Chooses the places of the rays within the pixels; the same seed gives the same image.
-   * 0 to 2147483647. Default: 1.
+   * Seed of the rays' positions within pixels; the same seed gives the same image. 0 to
+   * 2147483647. Default: 1.
    */
   vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
   vtkGetMacro(Seed, int);
@@ -854,8 +861,8 @@ public:
 
   ///@{
   /**
-   * What computes, one of Devices: AUTO (the default) takes CUDA where a device answers, else the
-   * CPU; CUDA without a device is an error.
+   * Device, one of Devices: AUTO (the default) uses CUDA if available, else the CPU; CUDA without
+   * a device is an error.
    */
   vtkSetClampMacro(Device, int, AUTO, CUDA);
   vtkGetMacro(Device, int);
@@ -863,7 +870,7 @@ public:
 
   ///@{
   /**
-   * Threads on the CPU; 0 (the default): VTK_SMP_MAX_THREADS where that is set, else the cores that this
+   * Threads on the CPU; 0 (the default): VTK_SMP_MAX_THREADS if set, else the cores that this
    * process may use. The image does not depend on it.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
@@ -871,11 +878,11 @@ public:
 
   ///@{
   /**
-   * Where ParaView runs as several processes, the number of cells up to which the pieces that these have of a mesh are put
-   * together on rank 0. Larger meshes stay where they are: each rank has its cells, with ghost cells around them, and samples
-   * them. So do images, which become a tree of bricks, of more than 160 times as many cells. 0: so do all of these. Adaptive
-   * meshes, two-dimensional data, and all where SamplingDimensions or SamplingBounds are in use are always put together. The
-   * default is 10^6.
+   * Maximum number of cells of a mesh whose pieces are gathered on rank 0 when ParaView runs as
+   * several processes. The pieces of larger meshes stay on their ranks, with ghost cells; so do
+   * those of images with more than 160 times as many cells, which become a tree of bricks. 0: none
+   * are gathered. Adaptive meshes, 2-D data, and all data with SamplingDimensions or
+   * SamplingBounds are always gathered. Default: 10^6.
    */
   vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(GatherLimit, int);
@@ -884,8 +891,8 @@ public:
 
   ///@{
   /**
-   * What this filter has done since it was made: media built, meshes prepared for it (see
-   * vtkRefractiveIndex::MakeSource), grids chosen for meshes, and rays traced. They stand still where an update could use what was there.
+   * Count what this filter has done since it was made: media built, meshes prepared for it, grids
+   * chosen for meshes, and rays traced. Updates that use earlier results add nothing.
    */
   vtkTypeInt64 GetMediumBuilds();
   vtkTypeInt64 GetMeshBuilds();
@@ -895,10 +902,9 @@ public:
 
   ///@{
   /**
-   * How many pixels along each axis one of a preview stands for: with 2, an image that lies at the
-   * same place has half as many columns and rows, and one ray for each, whatever SamplesPerPixel is, with
-   * steps no shorter than those of INTERACTIVE. For a window to show while the view is being turned.
-   * Default: 1.
+   * Pixels of the full image, along each axis, for each pixel of a preview: 2 gives the same view
+   * with half as many columns and rows. Previews have one ray per pixel, whatever SamplesPerPixel
+   * is, and steps no shorter than those of INTERACTIVE. For interaction with a view. Default: 1.
    */
   vtkSetClampMacro(PreviewReduction, int, 1, 64);
   vtkGetMacro(PreviewReduction, int);
@@ -906,15 +912,15 @@ public:
 
   ///@{
   /**
-   * Seconds that an update may take for rays and light, about; 0 (the default): no limit. When they are over,
-   * the output is the image of the samples that are there, or, before the first of each pixel is, the
-   * image from before, stretched where it was of another size (of a new filter: a preview). Refine()
-   * then works for as long again and, if that has completed samples, lets the next update show them; where nothing but
-   * properties of this filter has changed since, it takes the first one, too. Without a limit it lets the next
-   * update finish the image. GetFinished() says whether there is anything left.
-   * Each makes some progress, however short the limit, and the finished image is the one made without a
-   * limit, to the last bit. Another limit is no reason to make an image again. What the medium takes does not
-   * count, and progress is not reported.
+   * Time that an update may spend on rays and light, seconds, approximately; 0 (the default): no
+   * limit. After that, the output is the image of the completed samples or, if some pixel has
+   * none, the previous image, stretched to the new size (of a new filter: a preview). Refine()
+   * works for as long again and, if it has completed samples, lets the next update show them; it
+   * also begins an image if only properties of this filter have changed. Without a limit it lets
+   * the next update finish the image. GetFinished() returns whether nothing remains to be done.
+   * Each call makes some progress, and the finished image equals the one without a limit to the
+   * last bit. Changing the limit keeps the image. Making the medium is not limited, and progress
+   * is not reported.
    */
   void SetTimeLimit(double seconds) { this->TimeLimit = seconds; }
   vtkGetMacro(TimeLimit, double);
@@ -924,48 +930,50 @@ public:
 
   ///@{
   /**
-   * Leaves an unfinished image as it is: it counts as finished then, until Refine() lets the next update resume
-   * it, or something else changes the image. So is an update with a TimeLimit left that is aborted while
-   * the refractivity is found; the output is empty then. GetStopped() says whether that is so.
+   * Stops an unfinished image, which counts as finished until Refine() resumes it or something
+   * changes the image. Aborting an update with a TimeLimit while it computes the refractivity also
+   * stops it, with an empty output. GetStopped() returns whether that is so.
    */
   void Stop();
   bool GetStopped();
   ///@}
 
   /**
-   * Whether the last update has left an image, which rank 0 has: the same on all ranks.
+   * Returns whether the last update has made an image, which rank 0 has: the same on all ranks.
    */
   bool GetHasImage();
 
   /**
-   * How much of the rays and the light of the image there is, in per cent; 100 only for a finished one.
+   * Returns the fraction of the image's rays and light that is done, per cent; 100 only for a
+   * finished one.
    */
   int GetPercentDone();
 
   /**
-   * How many different images this filter has made, with the one that Refine() has made for the next update:
-   * unchanged where such a step had nothing new to show.
+   * Counts the different images of this filter, including one that Refine() has made for the next
+   * update. Unchanged where a step had nothing new to show.
    */
   vtkTypeInt64 GetPictureCount() const;
 
   /**
-   * The last image in words, in one line: samples per pixel; rays per second, when some were traced last;
-   * device; whether rays bend, and where they do not, by how many pixels refracted ones may leave the data beside
-   * them (DisplacementBound), if that bound says anything. Empty where there is none.
+   * Returns a text about the last image, in one line: samples per pixel; rays per second of the
+   * last tracing; device; path model and, for straight rays, the bound on their displacement in
+   * pixels (DisplacementBound), if useful. Empty without an image.
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 
-  /// All of these properties that are numbers and texts.
+  /// Returns all properties that are numbers and texts.
   VTK_WRAPEXCLUDE const SchlierenSettings& GetSettings() const { return *this; }
 
-  /// Requests of the data of an input what this filter requests of its own: all, a piece or nothing. So that others who
-  /// have the same input do not make it run again.
+  /// Requests the same data of an input (all, a piece or nothing) as this filter does, so that
+  /// filters with the same input do not cause another update.
   VTK_WRAPEXCLUDE void RequestSame(vtkInformation* inInfo);
 
   vtkMTimeType GetMTime() override;
 
   /**
-   * Says that this rank has no input in the next RequestData(), because something upstream has failed; see vtkSchlierenPipeline.
+   * Makes the next RequestData() treat this rank as one without input, because something upstream
+   * has failed; see vtkSchlierenPipeline.
    */
   VTK_WRAPEXCLUDE void LackInput();
 
@@ -996,60 +1004,61 @@ private:
   void MakeImage(filters::ExposureSteps& steps, double maxCells, vtkInformationVector* outputs);
   /// Puts the image that was made last on the outputs.
   void ShowLast(vtkInformationVector* outputs);
-  /// Hands the array selections, and the wavelength if it matters there, on to Medium, which changes
-  /// only if they have.
+  /// Passes the array selections, and the wavelength if it matters, to Medium, which changes only
+  /// if they have.
   void PassToMedium();
   void OnMediumProgress();
-  /// Brings the refractivity up to date. False if aborted.
+  /// Updates the refractivity. Returns false if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
-  /// That of another filter, or a new one. Null if aborted.
+  /// Returns the refractivity of another filter, or a new one; null if aborted.
   std::shared_ptr<const MadeRefractivity> FindOrMakeRefractivity(
     vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description);
-  /// Null if aborted.
+  /// Returns null if aborted.
   std::shared_ptr<const MadeRefractivity> MakeRefractivity(
     vtkDataObject* input, vtkDataObject* bodies);
-  /// Sees to it that the ranks answer this filter about its refractivity, which another filter may have used. False where they
-  /// cannot.
+  /// Makes the ranks work for this filter's refractivity, which another filter may have used.
+  /// Returns false where they cannot.
   bool UseOwnRanks();
-  /// Finds the gradients of the fields that tint, if they do.
+  /// Finds the gradients of the fields that tint, if needed.
   void UpdateFieldGradients(vtkDataObject* input);
-  /// The newest time of all properties, Refine() apart, and of those and everything upstream.
+  /// Return the newest time of all properties except Refine(), and of these and everything
+  /// upstream.
   vtkMTimeType GetTimeOfProperties();
   vtkMTimeType GetTimeOfImage();
-  /// Whether an update has only to resume the image that is not finished.
+  /// Returns whether an update only resumes the unfinished image.
   bool Continues(vtkDataObject* input, vtkDataObject* bodies);
-  /// Up to how many cells rank 0 gathers.
+  /// Returns the maximum number of cells that rank 0 gathers.
   double MostGathered();
-  /// Everything of the inputs that the refractivity depends on.
+  /// Returns everything of the inputs that the refractivity depends on.
   std::vector<double> DescribeInputs(vtkDataObject* input, vtkDataObject* bodies);
-  /// Whether an image's own grid would take more than MediumMemory: then it becomes a tree.
+  /// Returns whether an image's own grid would exceed MediumMemory; it then becomes a tree.
   bool IsLargeImage(vtkDataObject* input) const;
-  /// The same of data that stay on their ranks, for all filters that have the same.
+  /// Describes inputs that stay on their ranks, equal for all filters with the same data.
   std::vector<double> DescribePieces(vtkDataObject* input, vtkDataObject* bodies);
-  /// Works on an image between updates. Whether an update has something to do now.
+  /// Works on an image between updates. Returns whether an update has something to do now.
   bool WorkOn();
-  /// Refine() there. Whether the next update has more to show.
+  /// Refines the image on rank 0. Returns whether the next update has more to show.
   bool RefineOnRank0();
-  /// Whether a new image can be begun between updates, `now` being GetTimeOfImage().
+  /// Returns whether a new image can begin between updates. `now`: GetTimeOfImage().
   bool CanBegin(vtkMTimeType now);
-  /// What is kept from an earlier image: the automatic k, and the refractivity of the surroundings. Unset where there is
-  /// none, or none counts.
+  /// Return the automatic k and ambient refractivity kept from an earlier image; unset where none
+  /// is or none applies.
   std::optional<double> KeptK();
   std::optional<double> KeptAmbient();
   filters::ImageCircumstances CircumstancesOf(std::vector<double> medium, std::vector<double> rays);
   schlieren::Image Begin(bool isPreview, double seconds, const schlieren::Monitor& monitor);
-  /// Makes the image of an exposure over time. False if aborted.
+  /// Makes the image of an exposure over time. Returns false if aborted.
   bool Expose(filters::ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram);
-  /// Hands what was found for the last image that was begun to the locks.
+  /// Passes what was found for the last image to the locks.
   void KeepFound(const schlieren::Image& image);
-  /// Reports progress of what is being made, or of an instant of it.
+  /// Reports the progress of the image, or of an instant of it.
   void Progress(double fraction);
-  /// Makes the image from the refractivity, or resumes it. False if aborted.
+  /// Makes the image from the refractivity, or resumes it. Returns false if aborted.
   bool Render(vtkImageData* output, vtkImageData* histogram, bool continues);
-  /// Hands out what there is of an image, where there is anything new. False if aborted.
+  /// Outputs an image, if anything in it is new. Returns false if aborted.
   bool Show(schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram);
   void ForgetImage();
-  /// Reports a problem of the inputs and properties of a time, and leaves the outputs empty.
+  /// Reports a problem of the inputs and properties at time `now`, and empties the outputs.
   void Fail(const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs);
 
   vtkNew<vtkRefractiveIndex> Medium;

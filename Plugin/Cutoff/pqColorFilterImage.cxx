@@ -15,8 +15,8 @@ namespace pqColorFilterImage
 namespace
 {
 
-constexpr int side = 256;        // pixels, of the wheel and at least of what is painted on
-constexpr int largestSide = 512; // pixels, of what is painted on
+constexpr int side = 256;        // pixels of the wheel, minimum of painted images
+constexpr int largestSide = 512; // pixels, maximum of painted images
 constexpr double colorWithoutLight = 0.35;
 constexpr int grey = 128;
 
@@ -116,7 +116,7 @@ void paint(
     dabs.addEllipse(QPointF((1 + place.x()) / 2 * width, (1 - place.y()) / 2 * height),
       brush.Radius * width, brush.Radius * height);
   }
-  // Without antialiasing: the eraser leaves no rim.
+  // Disables antialiasing, with which the eraser would leave a rim.
   QPainter(&image).fillPath(dabs, brush.Erases ? QBrush(underneath) : QBrush(brush.Color));
 }
 

@@ -8,42 +8,42 @@
 #include <QString>
 #include <QVector>
 
-/// A colour filter as an image that can be painted on. A place on it is k times a deflection, from -1 to 1
-/// both ways, v upwards.
+/// A colour filter as an image to paint on. A point is k times a deflection, -1 to 1 in u and v.
 namespace pqColorFilterImage
 {
 
-/// The wheel that a filter without an image is: the direction is the hue, the distance the saturation.
+/// Returns the colour of the wheel, the filter without an image: direction is hue, distance is
+/// saturation.
 QRgb wheelColor(const QPointF& place);
 QImage wheel();
 
-/// What the filter does to light there; beyond the image, as at its edge. A null image is the wheel.
+/// Returns the colour of an image, or of the wheel if it is null, clamped to its edge.
 QRgb colorAt(const QImage& image, const QPointF& place);
 
-/// A colour of the filter, greyed where no light (0 to 1) is, so that one sees where there is.
+/// Mixes a colour with grey by the light on it (0 to 1), to show where there is light.
 QRgb lit(QRgb color, double light);
 
-/// What a property holds: a file's name, a data URI or nothing. Null where that is no image.
+/// Decodes a property's value: a file name, a data URI or nothing. Null where that is no image.
 QImage decoded(const QString& text);
 
-/// What a property is to hold: a PNG with the image's texts in it.
+/// Encodes an image as PNG with its texts.
 QString encoded(const QImage& image);
 
-/// The image, large enough to be painted on and small enough to be sent while that is done.
+/// Resizes an image: large enough to paint on, small enough to send while painting.
 QImage paintable(const QImage& image);
 
 struct Brush
 {
   QColor Color = Qt::black;
-  double Radius = 0.04; ///< of the filter's side
-  bool Erases = false;  ///< what was underneath comes back
+  double Radius = 0.04; ///< fraction of the filter's side
+  bool Erases = false;  ///< restores what was underneath
 };
 
-/// Dabs a brush on some places of an image, as large as what is underneath.
+/// Paints dabs on an image of the same size as the one underneath.
 void paint(
   QImage& image, const QImage& underneath, const Brush& brush, const QVector<QPointF>& places);
 
-/// Places from one to the other, so close that a brush leaves no gaps.
+/// Interpolates points so densely that a brush leaves no gaps.
 QVector<QPointF> stroke(const QPointF& from, const QPointF& to, double radius);
 
 } // namespace pqColorFilterImage

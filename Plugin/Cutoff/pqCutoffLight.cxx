@@ -30,7 +30,7 @@ pqCutoffLight::pqCutoffLight(vtkImageData* histogram)
   this->BinWidth = histogram->GetSpacing()[0];
   this->Bins.resize(static_cast<std::size_t>(size) * size);
   const double scale = 1 / std::log1p(rays->GetRange()[1]);
-  std::vector<double> inRing(size); // rays by their distance from the middle, in half bins
+  std::vector<double> inRing(size); // rays by radius in half bins
   double all = 0;
   for (int row = 0; row < size; ++row)
   {

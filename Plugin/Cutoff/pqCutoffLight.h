@@ -8,27 +8,26 @@
 
 class vtkImageData;
 
-/// The histogram of the light on the cutoff plane, as brightnesses to be shown.
+/// Brightnesses of the histogram of the light on the cutoff plane.
 class pqCutoffLight
 {
 public:
-  /// No light.
   pqCutoffLight() = default;
 
-  /// Of the filter's second output, which may be null or empty.
+  /// Reads the filter's second output, which may be null or empty.
   explicit pqCutoffLight(vtkImageData* histogram);
 
   bool isEmpty() const { return this->Bins.empty(); }
 
-  /// From 0, no ray, to 1, where there are most; logarithmic.
+  /// Returns 0 for no ray to 1 for the most rays, on a logarithmic scale.
   double brightnessAt(const QPointF& deflection) const;
 
-  /// Nearly all rays are bent by less than this along u and along v, radians. 0 where there is no light.
+  /// Returns the deflection along u and v that nearly all rays are below, radians. 0 without light.
   double extent() const { return this->Extent; }
 
 private:
   int Size = 0; ///< along both axes
   double BinWidth = 0;
   double Extent = 0;
-  std::vector<float> Bins; ///< brightness, row by row, the lowest first
+  std::vector<float> Bins; ///< brightness, row by row from the lowest
 };

@@ -20,7 +20,7 @@ namespace
 {
 
 constexpr int imagePort = 0, histogramPort = 1;
-constexpr int patience = 100; // milliseconds in which no other image came
+constexpr int patience = 100; // milliseconds without another image
 
 int informationOf(vtkSMProxy* filter, const char* name)
 {
@@ -29,8 +29,8 @@ int informationOf(vtkSMProxy* filter, const char* name)
   return vtkSMPropertyHelper(property).GetAsInt();
 }
 
-/// Whether the image that there is has all pixels and rays. Another would be finished by being fetched, however
-/// long that takes. Of a filter inside of a representation, changes are announced when they are complete.
+/// Returns whether the image is finished. Fetching an unfinished one would first finish it. Filters
+/// in representations announce only finished images.
 bool isWhole(vtkSMProxy* filter)
 {
   if (filter->GetProperty("ImageSize")->GetIsInternal())

@@ -13,24 +13,24 @@ class QWidget;
 class vtkEventQtSlotConnect;
 class vtkSMProxy;
 
-/// Keeps the light on a filter's cutoff plane, wherever the filter runs; fetched while a widget that shows it is
-/// visible, and when the image is finished.
+/// Fetches the light on a filter's cutoff plane from the server when the image is finished and a
+/// widget shows it.
 class pqCutoffLightFetcher : public QObject
 {
   Q_OBJECT
 
 public:
-  /// Belongs to the widget.
+  /// The widget owns it.
   pqCutoffLightFetcher(vtkSMProxy* filter, QWidget* widget);
   ~pqCutoffLightFetcher() override;
 
-  /// While it waits, what is there stays.
+  /// Keeps the current light while waiting.
   void setWaiting(bool waits);
 
   const pqCutoffLight& light() const { return this->Light; }
 
 Q_SIGNALS:
-  /// There is another image; the light follows.
+  /// Schedules a fetch after a change of the image.
   void imageChanged();
   void lightChanged();
 
@@ -46,7 +46,7 @@ private:
   QWidget* Widget;
   QTimer Timer;
   bool Waits = false;
-  int FetchedImage = 0; ///< PictureCount
+  int FetchedImage = 0; ///< its PictureCount
   pqCutoffLight Light;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -12,10 +12,10 @@
 namespace
 {
 
-constexpr double reach = 8;           // pixels, of the mouse
+constexpr double reach = 8;           // pixels around the mouse
 constexpr double turnFraction = 0.84; // of half the square's side
-constexpr int digitsOfK = 4;          // of numbers that a mouse sets
-constexpr double offsetSteps = 1000;  // in the source's image
+constexpr int digitsOfK = 4;          // precision of dragging
+constexpr double offsetSteps = 1000;  // across the source's image
 constexpr double angleStep = 0.1;     // degrees
 constexpr double largeAngleStep = 15; // degrees
 
@@ -35,7 +35,7 @@ double rounded(double value, int digits)
     return value;
   }
   const int exponent = digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
-  // 0.123 is nearer to 123 / 10^3 than to 123 * 10^-3.
+  // Divides by powers of ten, because 0.123 is 123 / 10^3, not 123 * 10^-3.
   const double scale = std::pow(10., std::abs(exponent));
   return exponent > 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
 }
@@ -188,7 +188,7 @@ pqCutoff pqCutoffPlane::dragged(
     case DarkLine:
     case BrightLine:
     {
-      // Lines move away from the edge where that is fastened, else from undeflected light.
+      // Moves lines relative to the edge if that is fixed, else to undeflected light.
       const double place = handle == DarkLine ? 0 : 1;
       const double fixed = start.EdgeIsFastened ? start.deflectionOf(0.5) : 0;
       const double before = start.deflectionOf(place) - fixed;
@@ -226,7 +226,7 @@ pqCutoff pqCutoffPlane::dragged(
 //------------------------------------------------------------------------------
 double pqCutoffPlane::roundRange(double range, int step)
 {
-  constexpr double slack = 1e-9; // a round number is its own
+  constexpr double slack = 1e-9; // keeps round numbers
   int exponent = static_cast<int>(std::floor(std::log10(range) + slack));
   const double digits = range / std::pow(10., exponent);
   const double steps[] = { 1, 2, 5, 10 };

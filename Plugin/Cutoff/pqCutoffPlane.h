@@ -7,12 +7,12 @@
 
 #include <functional>
 
-/// A cutoff on its plane, where a point is a deflection (along u, along v) in radians.
+/// A cutoff in its plane, whose points are deflections (u, v) in radians.
 struct pqCutoff
 {
   enum Kinds // as vtkSchlierenFilter::Cutoffs
   {
-    NoCutoff = -1, ///< or one that has nothing to do with the deflection
+    NoCutoff = -1, ///< or one that does not depend on the deflection
     KnifeEdge = 0,
     Circular = 2,
     CircularComplement = 3,
@@ -22,63 +22,62 @@ struct pqCutoff
   };
 
   int Kind = NoCutoff;
-  bool HasEdge = false; ///< a straight one, else it is a circle or a square
+  bool HasEdge = false; ///< straight; else a circle or a square
   double K = 0;
-  double Angle = 0;      ///< degrees
-  double Offset = 0;     ///< of the edge, as a fraction of the source's image
-  bool Inverted = false; ///< knife edge and graded filter
-  bool IsOfDisc = false; ///< the source's image is a disc
-  bool IsSquare = false; ///< a colour filter that is an image, not the wheel
-  bool EdgeIsFastened =
-    false; ///< it stays where it is while k changes: Offset is in proportion to k
-  std::function<double(double)> Graded; ///< transmission, 0 to 1, over the filter's width, 0 to 1
+  double Angle = 0;            ///< degrees
+  double Offset = 0;           ///< of the edge, as a fraction of the source's image
+  bool Inverted = false;       ///< knife edge and graded filter
+  bool IsOfDisc = false;       ///< whether the source is a disc
+  bool IsSquare = false;       ///< whether a colour filter is an image, not the wheel
+  bool EdgeIsFastened = false; ///< changes of k keep the edge: Offset is in proportion to k
+  std::function<double(double)> Graded; ///< transmission, 0 to 1, across the filter's width, 0 to 1
 
-  /// The direction whose deflection the edge measures.
+  /// Returns the direction of the deflection that the edge measures.
   QPointF normal() const;
 
-  /// 1/2 - offset + k e, of an edge: dark at 0 and below, full light at 1 and above.
+  /// Returns 1/2 - offset + k e of an edge: dark at 0 and below, full light at 1 and above.
   double placeOf(const QPointF& deflection) const;
-  /// The deflection along the normal that has this place.
+  /// Inverts placeOf(): returns the deflection along the normal.
   double deflectionOf(double place) const;
 
-  /// Of all kinds but the colour filter: the fraction of the light that passes.
+  /// Returns the fraction of transmitted light, for all but colour filters.
   double transmission(const QPointF& deflection) const;
 };
 
-/// The cutoff plane as a square of pixels: what of a cutoff is where, and what it becomes by dragging.
+/// Maps the cutoff plane to a square of pixels, with handles to drag the cutoff by.
 class pqCutoffPlane
 {
 public:
   enum Handle
   {
     NoHandle,
-    EdgeLine,   ///< where half of the light passes
-    DarkLine,   ///< place 0
-    BrightLine, ///< place 1
+    EdgeLine,   ///< half transmission
+    DarkLine,   ///< placeOf() = 0
+    BrightLine, ///< placeOf() = 1
     TurnHandle,
-    SizeHandle ///< the circle or square of full scale
+    SizeHandle ///< circle or square of full scale
   };
 
-  /// Shows the deflections from -range to range both ways.
+  /// Shows deflections from -range to range along both axes.
   pqCutoffPlane(const QRectF& square, double range);
 
   QPointF pixelAt(const QPointF& deflection) const;
   QPointF deflectionAt(const QPointF& pixel) const;
   double deflectionPerPixel() const;
 
-  /// The handle that turns the edge.
+  /// Returns the position of the handle that turns the edge.
   QPointF turnHandle(const pqCutoff& cutoff) const;
   double turnRadius() const;
 
-  /// What of the cutoff can be dragged at this pixel.
+  /// Returns the handle at a pixel.
   Handle handleAt(const pqCutoff& cutoff, const QPointF& pixel) const;
 
-  /// The cutoff that was `start` when the mouse took a handle of it `from` a pixel `to` another. Rounded to
-  /// what a pixel resolves. With `inSteps`, angles are multiples of 15 degrees.
+  /// Returns the cutoff after dragging a handle of `start` from a pixel to another, rounded to the
+  /// resolution of a pixel. `inSteps`: angles are multiples of 15 degrees.
   pqCutoff dragged(const pqCutoff& start, Handle handle, const QPointF& from, const QPointF& to,
     bool inSteps) const;
 
-  /// The next larger or, with a negative step, smaller of 1, 2, 5, 10, 20 ...
+  /// Returns the next larger (smaller for a negative step) of 1, 2, 5, 10, 20 ...
   static double roundRange(double range, int step);
 
 private:
@@ -88,8 +87,8 @@ private:
   double Range;
 };
 
-/// With another sensitivity; the edge's offset goes along where it is fastened.
+/// Changes the sensitivity, and the offset if the edge is fixed.
 pqCutoff withSensitivity(pqCutoff cutoff, double k);
 
-/// To so many significant digits.
+/// Rounds to significant digits.
 double rounded(double value, int digits);

@@ -23,10 +23,10 @@ constexpr double turnStep = 1;                                      // degrees, 
 constexpr double sensitivityStep = 1.02;                            // per key
 constexpr double marginOfScale = 1.3;                               // around full scale
 constexpr double marginOfLight = 1.1;
-constexpr double leastRange = 1e-12; // radians, of what can be shown
+constexpr double leastRange = 1e-12; // radians, minimum that can be shown
 
 const QColor lineColor(255, 160, 0);
-constexpr int knife[] = { 40, 90, 160 }; // the colour of what stops light
+constexpr int knife[] = { 40, 90, 160 }; // colour of a stop
 constexpr double knifeOpacity = 0.75;
 
 struct Unit
@@ -120,7 +120,7 @@ void pqCutoffView::setLight(const pqCutoffLight& light)
 //------------------------------------------------------------------------------
 void pqCutoffView::fit()
 {
-  // What is being dragged must not run away from the mouse.
+  // Keeps the scale while a handle is dragged.
   if (!this->IsZoomed && !this->isGrabbed())
   {
     double range = marginOfLight * this->Light.extent();
@@ -177,7 +177,7 @@ QImage pqCutoffView::composed() const
       }
       else
       {
-        const double grey = light > 0 ? 60 + 195 * light : 0; // sRGB: even steps to the eye
+        const double grey = light > 0 ? 60 + 195 * light : 0; // sRGB: perceptually even steps
         const double stopped = knifeOpacity * (1 - this->Cutoff.transmission(deflection));
         line[column] = qRgb(blend(grey, knife[0], stopped), blend(grey, knife[1], stopped),
           blend(grey, knife[2], stopped));
@@ -389,7 +389,7 @@ void pqCutoffView::mouseDoubleClickEvent(QMouseEvent* event)
 //------------------------------------------------------------------------------
 void pqCutoffView::wheelEvent(QWheelEvent* event)
 {
-  // Else one could not scroll the panel past it.
+  // Leaves the wheel to the panel, which could not be scrolled otherwise.
   if (!this->hasFocus() || event->angleDelta().y() == 0)
   {
     event->ignore();
@@ -455,7 +455,7 @@ void pqCutoffView::keyPressEvent(QKeyEvent* event)
   pqCutoff cutoff = this->Cutoff;
   if (turns)
   {
-    // To the right is clockwise.
+    // Turns clockwise for Right.
     cutoff.Angle = std::fmod(cutoff.Angle + (right ? 360 - turnStep : turnStep), 360);
   }
   else if (moves)
@@ -496,7 +496,7 @@ void pqCutoffView::resizeEvent(QResizeEvent*) { this->changed(); }
 //------------------------------------------------------------------------------
 bool pqCutoffView::event(QEvent* event)
 {
-  // Escape would be a shortcut of the window.
+  // Overrides the window's shortcut Escape.
   if (event->type() == QEvent::ShortcutOverride && this->isGrabbed())
   {
     event->accept();

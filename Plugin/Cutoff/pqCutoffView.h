@@ -8,8 +8,8 @@
 #include <QImage>
 #include <QWidget>
 
-/// Draws the cutoff plane, the light on it and what the cutoff does to it; the cutoff's edge, scale and angle
-/// are dragged with the mouse or moved by keys.
+/// Draws the cutoff plane with the light, before and behind the cutoff. Mouse and keys change the
+/// cutoff's edge, scale and angle.
 class pqCutoffView : public QWidget
 {
   Q_OBJECT
@@ -20,19 +20,19 @@ public:
   explicit pqCutoffView(QWidget* parent = nullptr);
   ~pqCutoffView() override;
 
-  /// `image` is that of a colour filter; null: the wheel.
+  /// `image`: of a colour filter; null: the wheel.
   void setCutoff(const pqCutoff& cutoff, const QImage& image);
   const pqCutoff& cutoff() const { return this->Cutoff; }
   void setLight(const pqCutoffLight& light);
 
-  /// Between grabbed() and released(): what the cutoff was before, and what is being dragged.
+  /// Whether a handle is dragged, from grabbed() to released().
   bool isGrabbed() const { return this->Grabbed != pqCutoffPlane::NoHandle; }
   const pqCutoff& before() const { return this->Before; }
   pqCutoffPlane::Handle handle() const { return this->Grabbed; }
 
-  /// The largest deflection shown along both axes, radians.
+  /// Returns the largest deflection shown along both axes, radians.
   double range() const { return this->Range; }
-  /// Where the plane is drawn, pixels of the widget.
+  /// Returns the drawn square, pixels of the widget.
   QRectF square() const;
   double side() const { return this->square().width(); }
 
@@ -43,7 +43,7 @@ public:
 Q_SIGNALS:
   void grabbed();
   void dragged();
-  /// The cutoff stays as it is, or, if not `keep`, was put back.
+  /// The new cutoff is kept or, if not `keep`, the old one was restored.
   void released(bool keep);
 
 protected:
@@ -79,5 +79,5 @@ private:
   pqCutoffPlane::Handle Hovered = pqCutoffPlane::NoHandle, Grabbed = pqCutoffPlane::NoHandle;
   QPointF GrabbedAt;
   bool ByKeys = false;
-  mutable QImage Composed; ///< null: has to be made again
+  mutable QImage Composed; ///< null: outdated
 };

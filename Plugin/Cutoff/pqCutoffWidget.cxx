@@ -32,7 +32,7 @@ static_assert(int(pqCutoff::KnifeEdge) == Filter::KNIFE_EDGE &&
   int(pqCutoff::ColorFilter) == Filter::COLOR_FILTER &&
   int(pqCutoff::NumericalSchlieren) == Filter::NUMERICAL_SCHLIEREN);
 
-constexpr int digits = 4; // of numbers that a mouse sets
+constexpr int digits = 4; // precision of dragging
 
 double valueOf(vtkSMProxy* proxy, const char* property)
 {
@@ -47,7 +47,7 @@ vtkPiecewiseFunction* gradedFilterOf(vtkSMProxy* proxy)
   return points && points->GetSize() > 0 ? points : nullptr;
 }
 
-/// The cutoff of the image, as the filter has it now.
+/// Returns the cutoff with the filter's current values.
 pqCutoff cutoffOf(vtkSMProxy* proxy)
 {
   pqCutoff cutoff;
@@ -77,7 +77,7 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
   }
   if (!std::isfinite(cutoff.K) || !std::isfinite(cutoff.Offset))
   {
-    cutoff.K = cutoff.Offset = 0; // optics without a width
+    cutoff.K = cutoff.Offset = 0; // optics of zero width
   }
   if (vtkPiecewiseFunction* function = gradedFilterOf(proxy))
   {

@@ -18,8 +18,8 @@ class QLabel;
 class vtkSMPropertyGroup;
 class vtkEventQtSlotConnect;
 
-/// Shows the light on the cutoff plane and edits the cutoff there, live: the knife edge, its angle and the
-/// sensitivity are those of the image, and what is dragged is at once in the image.
+/// Edits the cutoff on its plane, over the light there. Dragging the knife edge, its angle or the
+/// sensitivity changes the image at once.
 class pqCutoffWidget : public pqPropertyWidget
 {
   Q_OBJECT

@@ -29,7 +29,7 @@ vtkSmartPointer<vtkSMSourceProxy> newFilter(const char* name, vtkSMProxy* input,
   return filter;
 }
 
-/// Updates end soon while it lives: an unfinished image is continued, but not to its end.
+/// Limits updates: continues an unfinished image, but does not finish it.
 class ShortUpdates
 {
 public:

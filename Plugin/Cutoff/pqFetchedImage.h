@@ -10,7 +10,7 @@
 class vtkImageData;
 class vtkSMProxy;
 
-/// An output of a filter with some of its point arrays, wherever the filter runs, at the time that is shown. Null
-/// where there is none.
+/// Fetches an output of a filter, with some of its point arrays, from the server at the current
+/// time. Null if there is none.
 vtkSmartPointer<vtkImageData> fetchedImage(
   vtkSMProxy* filter, unsigned int port, const std::vector<std::string>& arrays);

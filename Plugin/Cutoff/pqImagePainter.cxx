@@ -35,8 +35,8 @@ namespace
 {
 
 constexpr int imagePort = 0;
-constexpr float beforeTheView = 10;  // priority: a view does not turn while one paints
-constexpr double finestPlace = 1024; // of the filter's side: what is distinguished
+constexpr float beforeTheView = 10;  // priority that keeps the view from turning
+constexpr double finestPlace = 1024; // resolution of the filter's side
 
 vtkSMRenderViewProxy* renderViewOf(pqView* view)
 {
@@ -55,8 +55,8 @@ bool shows(pqView* view, vtkSMProxy* filter)
     pqRepresentationRefiner::benchesIn(view).contains(filter);
 }
 
-/// Where the plane of an image lies in a view: that of the filter's output is z = 0; that of a representation goes through
-/// the focal point, and its coordinates are those along the view's axes.
+/// The plane of an image in a view: z = 0 for a filter's output; for a representation, the plane
+/// through the focal point with the view's axes.
 struct ImagePlane
 {
   double Right[3] = { 1, 0, 0 }, Up[3] = { 0, 1, 0 }, Normal[3] = { 0, 0, 1 }, Height = 0;
@@ -74,7 +74,7 @@ struct ImagePlane
   }
 };
 
-/// Where the line of sight through a pixel of the window meets the plane.
+/// Intersects the line of sight through a pixel of the window with the plane.
 bool placeUnder(const int pixel[2], vtkRenderer* renderer, const ImagePlane& plane, QPointF& place)
 {
   double ends[2][4];
@@ -281,7 +281,7 @@ QVector<QPointF> pqImagePainter::placesAround(const QPointF& position) const
   const double* origin = this->Deflection->GetOrigin();
   const double* spacing = this->Deflection->GetSpacing();
   const int* extent = this->Deflection->GetExtent();
-  // In pixels from the centre of the first.
+  // Computes pixels from the centre of the first one.
   const double column = (position.x() - origin[0]) / spacing[0] - extent[0];
   const double row = (position.y() - origin[1]) / spacing[1] - extent[2];
   const double radius = this->BrushRadius * std::min(size[0], size[1]);
@@ -308,7 +308,7 @@ QVector<QPointF> pqImagePainter::placesAround(const QPointF& position) const
       {
         continue;
       }
-      // Beyond the filter light has the colour of its edge.
+      // Clamps to the filter, whose edge colours extend beyond it.
       const QPointF place(qBound(-1., u, 1.), qBound(-1., v, 1.));
       const QPair<int, int> cell(static_cast<int>(std::lround(place.x() * finestPlace / 2)),
         static_cast<int>(std::lround(place.y() * finestPlace / 2)));

@@ -19,8 +19,8 @@ class vtkObject;
 class vtkRenderWindowInteractor;
 class vtkSMProxy;
 
-/// Paints on a colour filter by brushing over its image in the render views that show it: where the rays of the
-/// brushed pixels meet the cutoff plane, the filter is painted (Brownlee et al. 2011, fig. 9).
+/// Paints a colour filter by brushing over its image in render views: paints the filter where rays
+/// of the brushed pixels meet the cutoff plane (Brownlee et al. 2011, fig. 9).
 class pqImagePainter : public QObject
 {
   Q_OBJECT
@@ -29,21 +29,21 @@ public:
   explicit pqImagePainter(vtkSMProxy* filter, QObject* parent = nullptr);
   ~pqImagePainter() override;
 
-  /// Takes the left mouse button in the views. False where no view shows the image.
+  /// Captures the left mouse button in the views. Returns false if no view shows the image.
   bool start();
   void stop();
   bool isOn() const { return !this->Views.isEmpty(); }
 
 public Q_SLOTS:
-  /// As a fraction of the image's shorter side.
+  /// Sets the radius as a fraction of the image's shorter side.
   void setBrushRadius(double radius) { this->BrushRadius = radius; }
 
 Q_SIGNALS:
   void strokeBegan();
-  /// Places of the filter, each coordinate from -1 to 1, v upwards.
+  /// Sends points of the filter, each coordinate from -1 to 1, v upwards.
   void brushed(const QVector<QPointF>& places);
   void strokeEnded();
-  /// By Escape, or because the views are gone.
+  /// Painting has ended, by Escape or with the views.
   void stopped();
 
 protected:
@@ -64,9 +64,9 @@ private:
   pqView* Pressed = nullptr;
   double BrushRadius = 0.04;
   double K = 0;
-  int FetchedImage = 0; ///< PictureCount
+  int FetchedImage = 0; ///< its PictureCount
   vtkSmartPointer<vtkImageData> Deflection;
-  QPointF Last; ///< place of the mouse in the image
+  QPointF Last; ///< mouse position in the image
   bool HasLast = false;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -67,7 +67,7 @@ void pqLiveEdit::finish()
   {
     return;
   }
-  // What can be undone is a change from the first values, and so is what is traced.
+  // Restores the first values, from which the undo step and the trace begin.
   {
     SCOPED_UNDO_EXCLUDE();
     this->push(this->Before);

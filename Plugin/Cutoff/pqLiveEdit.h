@@ -10,23 +10,24 @@
 
 class vtkSMProxy;
 
-/// Changes properties of a filter while the mouse is down, in the image too, as one step that can be undone
-/// and one entry of a trace. Nothing else that waits for Apply is touched.
+/// Applies changes of properties during a mouse drag at once, as one undo step and trace entry.
+/// Keeps other changes that wait for Apply.
 class pqLiveEdit
 {
 public:
   pqLiveEdit(vtkSMProxy* filter, const QString& label);
 
-  /// Whether the filter is known to have made an image (PictureCount): until then properties wait for Apply.
+  /// Returns whether the filter has made an image (PictureCount); before that, properties wait for
+  /// Apply.
   static bool isPossible(vtkSMProxy* filter);
 
-  /// Values of these properties, which are shown.
+  /// Applies values for display.
   void show(const QMap<QString, QVariant>& values);
 
   /// Keeps the last values.
   void finish();
 
-  /// Goes back to the first values.
+  /// Restores the first values.
   void cancel();
 
 private:

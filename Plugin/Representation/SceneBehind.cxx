@@ -30,7 +30,7 @@ namespace
 
 constexpr int channels = 4; // of the framebuffer
 
-/// The smallest and the largest depth of a box.
+/// Returns the smallest and the largest depth of a box.
 std::pair<double, double> depthsOf(const double bounds[6], vtkCamera* camera)
 {
   const double* eye = camera->GetPosition();
@@ -47,7 +47,7 @@ std::pair<double, double> depthsOf(const double bounds[6], vtkCamera* camera)
   return { nearest, farthest };
 }
 
-/// While it is there, a renderer has another camera.
+/// Sets another camera of a renderer during its lifetime.
 class OtherCamera
 {
 public:
@@ -66,7 +66,7 @@ private:
   vtkSmartPointer<vtkCamera> Before;
 };
 
-/// While it is there, a window that is drawn in tiles draws all of them.
+/// Draws all tiles of a tiled window during its lifetime.
 class AllTiles
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a view shows behind a flow.
+// Renders what a view shows behind a flow.
 #pragma once
 
 #include "vtkImageData.h"
@@ -13,18 +13,18 @@ class vtkCamera;
 class vtkProp;
 class vtkRenderer;
 
-/// What a renderer would draw without flows drawn as Schlieren, and where.
+/// Renders a scene without flows drawn as Schlieren.
 class SceneBehind
 {
 public:
   explicit SceneBehind(vtkRenderer* renderer);
 
-  /// Draws what is behind a depth (distance from the camera along its direction), with the renderer's background, as a
-  /// camera of the renderer, whose clipping range this changes, sees it in so many pixels: RGB bytes. Only while the
-  /// renderer draws. Null where OpenGL cannot.
+  /// Renders what lies behind a depth (distance along the camera's direction), with the renderer's
+  /// background: RGB bytes of so many pixels. Changes the camera's clipping range. Only during a
+  /// rendering. Null if OpenGL fails.
   vtkSmartPointer<vtkImageData> Draw(vtkCamera* camera, const int size[2], double depth) const;
 
-  /// How far behind a depth the middle of it all is; negative where there is nothing.
+  /// Returns the distance from a depth to the middle of the scene; negative for an empty one.
   double GetDistance(double depth) const;
 
 private:
@@ -32,5 +32,5 @@ private:
   std::vector<vtkProp*> Props;
 };
 
-/// The largest depth of a box from a camera.
+/// Returns the largest depth of a box.
 double backOf(const double bounds[6], vtkCamera* camera);

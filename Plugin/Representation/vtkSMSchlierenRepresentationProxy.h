@@ -4,8 +4,8 @@
  * @class   vtkSMSchlierenRepresentationProxy
  * @brief   fetches images of vtkSchlierenRepresentation from a server that cannot draw
  *
- * The client draws there, and alone knows camera and size in time: it requests each image when it draws. Wherever images
- * are traced, updates of the data are announced by the proxy of the filter inside, as by that of any filter.
+ * The client, which alone knows camera and size, requests each image when it draws. Updates of the
+ * data are announced by the proxy of the filter inside, as by any filter's.
  */
 #ifndef vtkSMSchlierenRepresentationProxy_h
 #define vtkSMSchlierenRepresentationProxy_h

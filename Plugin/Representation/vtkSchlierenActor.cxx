@@ -32,20 +32,20 @@
 namespace
 {
 
-/// Seconds for the image while the camera moves. With what else a rendering takes, nothing blocks for 70 ms.
+/// Time for an image while the camera moves; the rendering stays below 70 ms.
 constexpr double previewSeconds = 0.04;
 constexpr int coarsest = 16;
 
-/// The coarsest that the bench makes: one pixel shows whether there is an image.
+/// The bench's maximum; one pixel shows whether there is an image.
 constexpr int reductionAtFirst = 64;
 
-/// Degrees; the bench takes no more.
+/// The bench's maximum, degrees.
 constexpr double widestAngle = 169;
 
-/// How far before the far plane the image lies, as a fraction of the depth of the view.
+/// Distance of the image from the far plane, as a fraction of the view's depth.
 constexpr double beforeFarPlane = 1e-4;
 
-/// Bytes of an image without colours, of which 1 is full scale, or 2 where undisturbed light is 1.
+/// Converts intensities to bytes. `fullScale`: 1, or 2 if undisturbed light is 1.
 vtkSmartPointer<vtkUnsignedCharArray> greyOf(vtkDataArray* intensity, double fullScale)
 {
   vtkNew<vtkUnsignedCharArray> grey;
@@ -61,8 +61,8 @@ vtkSmartPointer<vtkUnsignedCharArray> greyOf(vtkDataArray* intensity, double ful
   return grey;
 }
 
-/// While this is there, nobody hears of the bench's progress: ParaView's window would draw its progress bar, and with it
-/// the view, in the midst of drawing the view.
+/// Hides the bench's progress during its lifetime: ParaView's progress bar would render the view
+/// again during a rendering.
 class Silent
 {
 public:
@@ -171,7 +171,7 @@ void vtkSchlierenActor::SetBench(vtkSchlierenFilter* bench)
   this->FailedTime = 0;
   if (bench)
   {
-    bench->FaceFlatDataOff(); // the camera looks where it looks
+    bench->FaceFlatDataOff(); // the camera has priority
     constexpr float beforeAllOthers = 100;
     for (const unsigned long event :
       { vtkCommand::StartEvent, vtkCommand::ProgressEvent, vtkCommand::EndEvent })
@@ -197,8 +197,8 @@ vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
   camera->GetDirectionOfProjection(view.Direction.data());
   camera->GetViewUp(view.Up.data());
   camera->GetFocalPoint(view.FocalPoint.data());
-  // vtkWindowToImageFilter draws an image that is larger than the window in tiles, each with a camera of its own; what is
-  // traced is the whole.
+  // Undoes tiling: vtkWindowToImageFilter draws larger images in tiles with a camera each; the
+  // whole is traced.
   const double tiles = renderer->GetRenderWindow()->GetTileScale()[1];
   const double half = std::min(0.5 * vtkMath::RadiansFromDegrees(widestAngle),
     std::asin(
@@ -209,7 +209,8 @@ vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
     view.ParallelScale = camera->GetDistance() * std::tan(half);
     view.ViewAngle = 2 * vtkMath::DegreesFromRadians(half);
   }
-  // The window's size is that of all tiles. The renderer's own is still the old one while a layout of views is captured.
+  // Uses the window's size, which is that of all tiles; the renderer's is outdated while a layout
+  // is captured.
   const int* size = renderer->GetRenderWindow()->GetSize();
   const double* port = renderer->GetViewport();
   for (std::size_t axis = 0; axis < 2; ++axis)
@@ -251,7 +252,8 @@ void vtkSchlierenActor::SetFillsView(vtkRenderer* renderer)
 void vtkSchlierenActor::AddTo(vtkRenderer* renderer)
 {
   renderer->AddActor(this);
-  // What composites the images of several processes looks for it at the beginning, and puts it back at the end.
+  // Suspends FXAA before, and restores it after, compositing between processes, which also restores
+  // it.
   constexpr float beforeAllOthers = 100, afterAllOthers = -100;
   renderer->AddObserver(vtkCommand::StartEvent, this->SuspendFXAA, beforeAllOthers);
   renderer->AddObserver(vtkCommand::EndEvent, this->RestoreFXAA, afterAllOthers);
@@ -331,7 +333,7 @@ void vtkSchlierenActor::TraceUpTo(double seconds)
   this->Bench->SetTimeLimit(seconds);
   if (!(seconds > 0))
   {
-    this->Bench->Refine(); // what has been begun with a limit
+    this->Bench->Refine(); // resumes what began with a limit
   }
   this->Bench->Update();
   this->Finished = this->Bench->GetFinished();
@@ -348,12 +350,12 @@ void vtkSchlierenActor::TracePreview()
   const vtkTypeInt64 before = this->Bench->GetPictureCount();
   const double begin = vtkTimerLog::GetUniversalTime();
   this->Bench->Update();
-  // Ranks work together and so have to make the same image: what each of them measures does not count.
+  // Ignores measured times with several ranks, which must make the same image.
   if (!this->HasOtherRanks && this->Bench->GetPictureCount() != before)
   {
     const double seconds = vtkTimerLog::GetUniversalTime() - begin;
     const double measured = seconds * this->Reduction * this->Reduction / pixels;
-    // One delay by something else is not taken at its word.
+    // Damps single delays.
     this->SecondsPerPixel =
       std::min(0.5 * (this->SecondsPerPixel + measured), 20 * this->SecondsPerPixel);
   }
@@ -373,7 +375,7 @@ void vtkSchlierenActor::Trace(int occasion, bool isMoved)
   }
   else
   {
-    this->Bench->Update(); // shows what Refine() has made
+    this->Bench->Update(); // shows the result of Refine()
     this->Finished = this->Reduction == 1 && this->Bench->GetFinished();
   }
 }
@@ -413,7 +415,7 @@ int vtkSchlierenActor::DrawImage(vtkViewport* viewport)
   {
     return 0;
   }
-  // ParaView's views request 5 images per second while they are turned, else for 0.002.
+  // Recognizes interaction by ParaView's desired rate of 5 images per second instead of 0.002.
   const int occasion = this->IsForScreenshot                  ? SCREENSHOT
     : renderer->GetRenderWindow()->GetDesiredUpdateRate() > 1 ? TURNED
                                                               : STILL;
@@ -449,7 +451,7 @@ vtkImageData* vtkSchlierenActor::Image(const View& view, int occasion)
   const Silent silent(this->Silence);
   this->Trace(occasion, this->LookThrough(view));
   this->NoteTimes();
-  if (this->Bench->GetOutput()->GetNumberOfPoints() == 0) // it has failed, or rank 0 has it
+  if (this->Bench->GetOutput()->GetNumberOfPoints() == 0) // it failed, or rank 0 has it
   {
     return nullptr;
   }
@@ -463,7 +465,7 @@ vtkImageData* vtkSchlierenActor::ImageForElsewhere(const View& view, int occasio
   this->IsDrawnElsewhere = true;
   if (this->Bench)
   {
-    this->Bench->SetBackgroundScene(nullptr, -1); // nobody here knows it
+    this->Bench->SetBackgroundScene(nullptr, -1); // unknown here
   }
   if (occasion == STILL && this->HasSeen && view == this->Seen && this->Bench && this->HasData)
   {
@@ -536,7 +538,7 @@ void vtkSchlierenActor::UpdateScene(vtkRenderer* renderer, const View& view)
   {
     return;
   }
-  // Of all tiles of a large screenshot.
+  // Uses the aspect of all tiles of a large screenshot.
   vtkCamera* camera = renderer->GetActiveCamera();
   auto whole = vtkSmartPointer<vtkCamera>::Take(renderer->MakeCamera());
   whole->DeepCopy(camera);
@@ -554,7 +556,7 @@ void vtkSchlierenActor::UpdateScene(vtkRenderer* renderer, const View& view)
 }
 
 //------------------------------------------------------------------------------
-// The image's coordinates are those of the view: x to the right, y upwards.
+// Places the quad by the view's coordinates: x to the right, y upwards.
 void vtkSchlierenActor::PlaceQuad(vtkRenderer* renderer)
 {
   const double* pixel = this->Pixels->GetSpacing();
@@ -568,7 +570,7 @@ void vtkSchlierenActor::PlaceQuad(vtkRenderer* renderer)
   vtkMath::Normalize(right);
   vtkMath::Cross(right, direction, up);
   const double depth = this->DepthOfImage(camera);
-  // It has its size where the focal point is.
+  // Scales from the focal point's depth.
   const double scale = camera->GetParallelProjection() ? 1 : depth / camera->GetDistance();
   const double middle[2] = { vtkMath::Dot(focalPoint, right), vtkMath::Dot(focalPoint, up) };
   const double* eye = camera->GetPosition();

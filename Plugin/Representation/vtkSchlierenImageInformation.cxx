@@ -53,7 +53,7 @@ void vtkSchlierenImageInformation::CopyToStream(vtkClientServerStream* stream)
   *stream << vtkClientServerStream::Reply << (bytes ? 1 : 0);
   if (bytes)
   {
-    // A grey image has its bytes three times.
+    // Sends one of the three equal bytes of a grey image.
     const unsigned char* rgb = bytes->GetPointer(0);
     const vtkIdType pixels = bytes->GetNumberOfTuples();
     bool isGrey = bytes->GetNumberOfComponents() == 3;

@@ -20,7 +20,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * Null where there is none.
+   * Returns null if there is none.
    */
   vtkImageData* GetImage() const { return this->Image; }
 

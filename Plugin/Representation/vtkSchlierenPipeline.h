@@ -4,8 +4,8 @@
  * @class   vtkSchlierenPipeline
  * @brief   The executive of filters whose ranks wait for each other.
  *
- * VTK does not run a filter where something upstream of it has failed, which may be so on one rank alone: the others would
- * wait for it. This runs the filter all the same, where there are several ranks, after LackInput().
+ * VTK does not run a filter after an error upstream, even if that is on one rank and the others
+ * wait for it. With several ranks, this executive calls LackInput() and runs the filter.
  */
 #ifndef vtkSchlierenPipeline_h
 #define vtkSchlierenPipeline_h

@@ -30,13 +30,13 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-/// vtkPVView knows whether it is rendered for a screenshot, but only classes derived from it can read that.
+/// Reads the protected flag of vtkPVView for screenshots.
 struct Captured : vtkPVView
 {
   static bool Is(vtkPVView* view) { return (view->*(&Captured::GetInCaptureScreenshot))(); }
 };
 
-/// Whether processes with data can draw, too.
+/// Returns whether processes with data can draw, too.
 bool canServerDraw(vtkView* view)
 {
   auto* renderView = vtkPVRenderView::SafeDownCast(view);
@@ -49,7 +49,7 @@ vtkRenderer* rendererOf(vtkView* view)
   return renderView ? renderView->GetRenderer() : nullptr;
 }
 
-/// This process and how many there are.
+/// Returns this rank and the number of ranks.
 std::pair<int, int> ranks()
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
@@ -145,7 +145,7 @@ int vtkSchlierenRepresentation::FillInputPortInformation(int, vtkInformation* in
 }
 
 //------------------------------------------------------------------------------
-// The same as the bench requests, so that nothing upstream runs twice.
+// Requests the same as the bench, so that upstream filters run once.
 int vtkSchlierenRepresentation::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
@@ -281,7 +281,7 @@ int vtkSchlierenRepresentation::ProcessViewRequest(
 int vtkSchlierenRepresentation::RespondToView(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
-  // For ParaView, what is not an input cannot change what is drawn of the data.
+  // Reports changes of properties, of which ParaView does not expect another drawing.
   if (request == vtkPVView::REQUEST_UPDATE() && this->Actor->IsChanged())
   {
     this->MarkModified();

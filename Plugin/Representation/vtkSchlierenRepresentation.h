@@ -4,13 +4,11 @@
  * @class   vtkSchlierenRepresentation
  * @brief   draws flow data in a render view as the image that vtkSchlierenFilter makes of them
  *
- * The image has the camera and the size of the view. It lies behind all surfaces of the view; see vtkSchlierenActor.
- *
- * An update, which can be aborted and reports progress, finds the refractivity. Rays are traced when the view is
- * rendered: coarsely while it is turned, and whenever TimeSlice is positive, progressively afterwards, in calls of
- * vtkPVRenderView::StreamingUpdate().
- *
- * Where the server cannot draw, it traces the image as well; the client's representation requests it when it draws.
+ * The image has the camera and the size of the view, behind all surfaces; see vtkSchlierenActor. An
+ * update, with progress and abort, computes the refractivity. Rays are traced when the view is
+ * rendered: coarsely while it is turned and, if TimeSlice is positive, progressively afterwards, by
+ * vtkPVRenderView::StreamingUpdate(). A server that cannot draw traces the image for the client,
+ * whose representation requests it when it draws.
  */
 #ifndef vtkSchlierenRepresentation_h
 #define vtkSchlierenRepresentation_h
@@ -34,35 +32,35 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The vtkSchlierenFilter that makes the image; its input, view and size are set by this representation. Null on
-   * clients that do not process data.
+   * Sets the vtkSchlierenFilter that makes the image; this representation sets its input, view and
+   * size. Null on clients that do not process data.
    */
   void SetBench(vtkObject* bench);
 
   /**
-   * Seconds that a rendering, and a streaming update, may trace for, so that whoever requests streaming updates sees
-   * the image improve; 0 (the default): each image is complete. Not negative.
+   * Sets the tracing time of a rendering or streaming update, seconds, not negative; 0 (the
+   * default): images are complete.
    */
   void SetTimeSlice(double seconds);
 
   /**
-   * Whether the image that was drawn last is complete, and how many pixels along each axis one of it stands for.
+   * Return whether the last image is complete, and its reduction; see vtkSchlierenActor.
    */
   bool GetFinished();
   int GetReduction();
 
   ///@{
   /**
-   * Of a server that cannot draw: traces an image for its client, which has the camera and the size and fetches
-   * GetTracedImage() (null: there is none). `request`: direction, up, focal point, parallel scale, columns and rows,
-   * and one of vtkSchlierenActor::Occasions.
+   * Traces an image on a server that cannot draw, for the client to fetch by GetTracedImage()
+   * (null: it failed). `request`: direction, up, focal point, parallel scale, columns, rows and one
+   * of vtkSchlierenActor::Occasions.
    */
   void TraceForClient(const double request[14]);
   VTK_WRAPEXCLUDE vtkImageData* GetTracedImage() const { return this->TracedImage; }
   ///@}
 
   /**
-   * Of a client: what requests that of its server, and returns the image.
+   * Sets, on a client, the function that requests an image of its server.
    */
   using Request = std::function<vtkSmartPointer<vtkImageData>(const double request[14])>;
   VTK_WRAPEXCLUDE void SetRequest(Request request);
@@ -90,20 +88,20 @@ private:
   vtkSchlierenRepresentation(const vtkSchlierenRepresentation&) = delete;
   void operator=(const vtkSchlierenRepresentation&) = delete;
 
-  /// Does what ParaView requests, which no exception may reach: it becomes a message.
+  /// Turns exceptions, which ParaView does not expect, into messages.
   int Guarded(const std::function<int()>& work);
   int RespondToView(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output);
   void PassTimeToBench();
   void UseRequest();
-  /// A message where another flow is shown instead; one, until that has changed.
+  /// Reports once, until that changes, that another flow is shown instead.
   void TellIfHidden();
 
   vtkNew<vtkSchlierenActor> Actor;
   Request RequestOfServer;
   vtkSmartPointer<vtkImageData> TracedImage;
   vtkNew<vtkPolyData>
-    Nothing; // to be delivered: only the image leaves this process, as part of the view
+    Nothing; // delivered data: only the image leaves this process, as part of the view
   bool IsHidden = false;
   double Bounds[6];
 };

@@ -14,10 +14,10 @@
 namespace
 {
 
-// Of a property that selects an array.
+// Elements of a property that selects an array.
 constexpr unsigned int elements = 5, associationElement = 3, nameElement = 4;
 
-/// The density is for those flows alone whose index follows of it: then others' choice is left to the filter.
+/// Chooses a density only for flows whose index follows from it; others are left to the filter.
 FlowDefaults defaultsFor(const std::string& property, const std::vector<FlowArray>& arrays)
 {
   if (property == "Density")
@@ -45,20 +45,20 @@ void vtkSMSchlierenArrayDomain::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 int vtkSMSchlierenArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useUnchecked)
 {
-  // Without an input there is no information, which the superclass does not expect where it has a string for no array.
+  // Skips inputs without information, for which the superclass fails on a string for no array.
   vtkPVDataInformation* input = this->GetInputDataInformation("Input");
   const std::string name = property->GetXMLName();
   vtkSMPropertyHelper selection(property);
   selection.SetUseUnchecked(useUnchecked);
   if (!input || name == "Mask" || selection.GetNumberOfElements() != elements)
   {
-    return 0; // as the XML has it
+    return 0; // the XML's value
   }
   const FlowDefaults defaults = defaultsFor(name, arraysOf(input));
   this->Chosen = defaults.arrayOf(name);
   if (this->Chosen.empty())
   {
-    return 0; // what has not been set, ParaView may request again
+    return 0; // makes ParaView try again
   }
   selection.Set(associationElement, std::to_string(defaults.association).c_str());
   selection.Set(nameElement, this->Chosen.c_str());
@@ -83,7 +83,7 @@ void vtkSMSchlierenArrayDomain::Update(vtkSMProperty* requestingProperty)
     this->Chosen == selection.GetAsString(nameElement);
   if (isByItself && !isThere && !arrays.empty())
   {
-    // Scripts get the active source as their input first.
+    // Chooses again, because scripts get the active source as their first input.
     if (!this->SetDefaultValues(property, false))
     {
       const char* none = this->GetNoneString();

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMSchlierenArrayDomain
- * @brief   the arrays of the input, of which one is chosen by itself only where it is known
+ * @brief   the arrays of the input, with a default only if its name is recognized
  *
- * ParaView chooses the active scalars, or else the first array, whatever these are. Here it is the array that
- * flowDefaults() chooses for the property (Density, IndexArray, Temperature, Pressure or Humidity), or none: the filter then
- * decides when it has the data, or says what there is.
+ * Instead of ParaView's default, the active scalars or the first array, it chooses the array of
+ * flowDefaults() for its property (Density, IndexArray, Temperature, Pressure or Humidity), or
+ * none: the filter then decides when it has the data, or reports the arrays.
  */
 #ifndef vtkSMSchlierenArrayDomain_h
 #define vtkSMSchlierenArrayDomain_h
@@ -25,7 +25,7 @@ public:
 
   int SetDefaultValues(vtkSMProperty* property, bool useUnchecked) override;
 
-  /// Chooses again where the input has become another one that has not the array that was chosen here.
+  /// Chooses again for another input without the array that was chosen.
   void Update(vtkSMProperty* requestingProperty) override;
 
 protected:

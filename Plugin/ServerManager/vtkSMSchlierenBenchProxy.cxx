@@ -22,6 +22,6 @@ void vtkSMSchlierenBenchProxy::CreateVTKObjects()
   }
   this->Superclass::CreateVTKObjects();
   this->Location &= vtkPVSession::SERVERS;
-  // Widgets read them as soon as there is a panel, and sources get theirs by their first update.
+  // Reads information before panels do; sources get theirs by their first update.
   this->UpdatePropertyInformation();
 }

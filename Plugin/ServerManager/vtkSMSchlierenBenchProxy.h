@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMSchlierenBenchProxy
- * @brief   the proxy of the filter inside of a representation, which the servers alone make use of
+ * @brief   the proxy of the filter inside of a representation, on servers only
  *
- * ParaView creates proxies that are values of a representation's property wherever the representation is, the client
- * included. There the filter has no input, and would be the one that answers what information properties request.
+ * ParaView creates such a proxy's object on the client, too. There the filter has no input, but
+ * would answer for information properties.
  */
 #ifndef vtkSMSchlierenBenchProxy_h
 #define vtkSMSchlierenBenchProxy_h
@@ -24,7 +24,7 @@ protected:
   vtkSMSchlierenBenchProxy() = default;
   ~vtkSMSchlierenBenchProxy() override = default;
 
-  /// From then on the client is left out.
+  /// Creates objects, from then on without the client.
   void CreateVTKObjects() override;
 
 private:

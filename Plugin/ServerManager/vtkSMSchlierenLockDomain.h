@@ -4,12 +4,10 @@
  * @class   vtkSMSchlierenLockDomain
  * @brief   makes LockedK or LockedAmbient of the proxy of vtkSchlierenFilter follow the filter
  *
- * After each update its property, as LockedK, has what the filter has kept from an earlier image (the property with
- * "Information" at the end of its name), so that state files and scripts that are made of the session give the same
- * image.
- *
- * It is a domain because every proxy has its domains, however it is made; a class of proxy with a name of its own would
- * be missing in ParaView's help.
+ * After each update it copies the value that the filter has kept from an earlier image, the
+ * information property whose name ends in "Information", to its property, so that state files and
+ * scripts of the session give the same image. It is a domain because every proxy has its domains,
+ * however it is made, while a class of proxies of its own would be missing in ParaView's help.
  */
 #ifndef vtkSMSchlierenLockDomain_h
 #define vtkSMSchlierenLockDomain_h
@@ -24,7 +22,7 @@ public:
   vtkTypeMacro(vtkSMSchlierenLockDomain, vtkSMDomain);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Does nothing: what is allowed never changes.
+  /// Does nothing: allowed values never change.
   void Update(vtkSMProperty* requestingProperty) override;
 
 protected:

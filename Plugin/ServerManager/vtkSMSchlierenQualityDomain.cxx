@@ -80,7 +80,7 @@ void vtkSMSchlierenQualityDomain::Follow(vtkSMProperty* modified)
   Helper quality(this->GetProperty());
   if (quality.GetNumberOfElements() == 0)
   {
-    return; // its definition is still being read
+    return; // the XML is still being read
   }
   const auto isPreset = [this](int preset)
   {

@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMSchlierenQualityDomain
- * @brief   makes Quality of the proxy of vtkSchlierenFilter set the properties that it stands for
+ * @brief   makes Quality of the proxy of vtkSchlierenFilter set the properties of its presets
  *
- * Its property is Quality, its required properties are those that vtkSchlierenFilter::GetQualitySetting()
- * names. Whoever sets Quality to a preset sets them, too; whoever sets one of them sets Quality to the
- * preset whose values they then have, or to Custom. The same holds for the unchecked values, those that
- * a properties panel shows before they are applied.
- *
- * So Quality is but a name for the others' values, and only these are sent to the server. A state file,
- * too, brings back their values, even if the presets have changed since it was written.
- *
- * It is a domain because every proxy has its domains, however it is made.
+ * Its property is Quality; its required properties are those of
+ * vtkSchlierenFilter::GetQualitySetting(). Setting Quality to a preset sets them, and setting one
+ * of them sets Quality to the preset with these values, or to Custom. The same applies to unchecked
+ * values, shown in panels before Apply. Only the other properties are sent to the server, and state
+ * files restore their values, even if presets have changed. It is a domain because every proxy has
+ * its domains, however it is made.
  */
 #ifndef vtkSMSchlierenQualityDomain_h
 #define vtkSMSchlierenQualityDomain_h
@@ -27,7 +24,7 @@ public:
   vtkTypeMacro(vtkSMSchlierenQualityDomain, vtkSMDomain);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Does nothing: what is allowed never changes.
+  /// Does nothing: allowed values never change.
   void Update(vtkSMProperty* requestingProperty) override;
 
 protected:
@@ -42,7 +39,7 @@ private:
 
   void OnModified(vtkObject* property, unsigned long event, void* data);
 
-  /// Makes the other properties follow the one that was modified, by way of `Helper`.
+  /// Makes the other properties follow a modified one, through `Helper`.
   template <class Helper>
   void Follow(vtkSMProperty* modified);
 

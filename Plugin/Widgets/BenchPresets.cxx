@@ -12,7 +12,7 @@ namespace
 
 using Filter = vtkSchlierenFilter;
 
-/// What the others are when a preset does not say otherwise: the filter's defaults.
+/// Defaults of the filter, for properties that a preset does not mention.
 const std::vector<PresetSetting> defaults = {
   { "Cutoff", Filter::KNIFE_EDGE, nullptr },
   { "KnifeEdgeAngle", 0, nullptr },

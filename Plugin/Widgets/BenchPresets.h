@@ -5,21 +5,21 @@
 #include <string>
 #include <vector>
 
-/// A property of the Schlieren filter and what a preset sets it to: a text, or a number.
+/// A property of the Schlieren filter and its value in a preset: a text or a number.
 struct PresetSetting
 {
   const char* property;
   double number;
-  const char* text; ///< null: the number counts
+  const char* text; ///< null: the value is the number
 };
 
-/// A bench as it is set up in laboratories.
+/// A bench as set up in laboratories.
 struct BenchPreset
 {
   const char* name;
   std::vector<PresetSetting> settings;
 };
 
-/// All of them. Each sets all properties that any of them sets, so that it leads to the same bench whatever was
-/// set before.
+/// Returns all presets. Each sets the same properties, so that the result does not depend on
+/// earlier values.
 const std::vector<BenchPreset>& benchPresets();

@@ -6,7 +6,7 @@
 #include <QGridLayout>
 #include <QWidget>
 
-/// Puts a widget behind the others of a property's row.
+/// Adds a widget behind the others of a property's row.
 inline void appendToRow(QWidget* row, QWidget* added)
 {
   QLayout* layout = row->layout();
@@ -24,7 +24,7 @@ inline void appendToRow(QWidget* row, QWidget* added)
   }
 }
 
-/// Puts a widget below the others of a property's row.
+/// Adds a widget below the others of a property's row.
 inline void appendBelow(QWidget* row, QWidget* added)
 {
   QLayout* layout = row->layout();
@@ -36,7 +36,7 @@ inline void appendBelow(QWidget* row, QWidget* added)
   {
     if (box->direction() == QBoxLayout::LeftToRight || box->direction() == QBoxLayout::RightToLeft)
     {
-      // No row has more than this one line.
+      // Rows have only one line.
       box->setDirection(QBoxLayout::TopToBottom);
     }
     box->addWidget(added);

@@ -17,7 +17,7 @@ vtkSMArrayListDomain* domainOf(vtkSMProperty* offering)
   return offering ? offering->FindDomain<vtkSMArrayListDomain>() : nullptr;
 }
 
-/// An array may be on offer for points and for cells: its name counts once.
+/// Lists each name once, although points and cells may both have it.
 QStringList namesOf(vtkSMArrayListDomain* domain)
 {
   QStringList names;
@@ -36,7 +36,7 @@ pqArrayComboBox::pqArrayComboBox(vtkSMProperty* offering, QWidget* parentObject)
   : QComboBox(parentObject)
   , Domain(domainOf(offering))
 {
-  // Long names must not widen the panel.
+  // Keeps long names from widening the panel.
   this->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   this->setMinimumContentsLength(4);
   if (this->Domain)

@@ -11,8 +11,8 @@ class vtkEventQtSlotConnect;
 class vtkSMArrayListDomain;
 class vtkSMProperty;
 
-/// Chooses one of the arrays that another property of the proxy offers, whatever the input is then. A name
-/// that the input does not have stays as it is and is offered, too.
+/// Chooses one of the arrays that another property of the proxy offers. Keeps and lists a name that
+/// the input does not have.
 class pqArrayComboBox : public QComboBox
 {
   Q_OBJECT
@@ -24,7 +24,7 @@ public:
 
   void setArray(const QString& name);
 
-  /// The first array on offer that is not among `taken`; empty where there is none.
+  /// Returns the first offered array that is not in `taken`; empty if there is none.
   static QString firstBut(const QStringList& taken, vtkSMProperty* offering);
 
 private Q_SLOTS:

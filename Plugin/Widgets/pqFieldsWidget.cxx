@@ -45,7 +45,7 @@ enum Column
 const char* const group = "piecewise_functions";
 const std::string prefix = "SchlierenField"; // of the functions' names
 
-/// What the filter takes where no colours are given.
+/// Returns the filter's default colour.
 QColor colorOf(int row) { return QColor::fromHsvF(std::fmod(row * 0.61803398875, 1), 1, 1); }
 
 void complete(QVariantList& list, int count)
@@ -60,7 +60,7 @@ void complete(QVariantList& list, int count)
   }
 }
 
-/// A new straight line from 0 to 1, registered under a name that no other has.
+/// Registers a straight line from 0 to 1 under a new name.
 vtkSmartPointer<vtkSMProxy> newFunction(vtkSMSessionProxyManager* manager)
 {
   int number = 1;
@@ -87,14 +87,14 @@ QLineEdit* newLimitEdit(const QString& limit)
   return edit;
 }
 
-/// Whether the index model is Transfer Functions, as the panel shows it.
+/// Returns whether the panel shows the index model Transfer Functions.
 bool usesFunctions(vtkSMProxy* proxy)
 {
   constexpr int transferFunctions = 5;
   return vtkSMUncheckedPropertyHelper(proxy, "IndexModel").GetAsInt() == transferFunctions;
 }
 
-/// Shows the widget where the fields matter. The filter Refractive Index has no ColorByField.
+/// Shows the widget where fields are used. The filter Refractive Index has no ColorByField.
 class Decorator : public pqPropertyWidgetDecorator
 {
 public:
@@ -280,7 +280,7 @@ void pqFieldsWidget::rangeEdited(int row)
   this->completeLists();
   const QString from = this->cell<QLineEdit>(row, FROM)->text();
   const QString to = this->cell<QLineEdit>(row, TO)->text();
-  // One limit alone waits for the other.
+  // Waits until both limits are given.
   const bool given = !from.isEmpty() && !to.isEmpty();
   const double range[2] = { given ? from.toDouble() : 0, given ? to.toDouble() : 0 };
   if (this->Ranges[2 * row].toDouble() != range[0] ||
@@ -341,7 +341,7 @@ void pqFieldsWidget::rowSelected(int row)
       function ? vtkPiecewiseFunction::SafeDownCast(function->GetClientSideObject()) : nullptr,
       true);
   }
-  // Without these, Color By Field takes the fields as they are.
+  // Hides the editor for Color By Field alone, which uses the fields without functions.
   const bool used = usesFunctions(this->proxy());
   this->Editor->setVisible(used && function);
   this->Title->setVisible(used || row < 0);
@@ -398,7 +398,7 @@ void pqFieldsWidget::unregisterUnused(Functions candidates)
   const Functions used = this->usedFunctions();
   for (const vtkSmartPointer<vtkSMProxy>& function : qAsConst(candidates))
   {
-    // Copied properties share their functions with another filter.
+    // Keeps functions that copied properties share with another filter.
     if (used.contains(function) || function->GetNumberOfConsumers() > 0)
     {
       continue;
@@ -407,7 +407,7 @@ void pqFieldsWidget::unregisterUnused(Functions candidates)
     vtkSMSessionProxyManager* manager = function->GetSessionProxyManager();
     const char* registered = manager->GetProxyName(group, function);
     const std::string name = registered ? registered : "";
-    if (name.rfind(prefix, 0) == 0) // else it is not ours
+    if (name.rfind(prefix, 0) == 0) // only our own
     {
       manager->UnRegisterProxy(group, name.c_str(), function);
     }
@@ -420,7 +420,7 @@ void pqFieldsWidget::apply()
   const Functions before = this->usedFunctions();
   if (this->RowFunctions != before)
   {
-    const Functions now = this->RowFunctions; // setting them reads them back
+    const Functions now = this->RowFunctions; // a copy, because setting it reads them back
     std::vector<vtkSMProxy*> proxies(now.begin(), now.end());
     this->FunctionsProperty->SetProxies(static_cast<unsigned int>(proxies.size()), proxies.data());
   }

@@ -16,16 +16,13 @@ class vtkPiecewiseFunction;
 class vtkSMPropertyGroup;
 class vtkSMProxyProperty;
 
-/// Edits the fields that are taken through transfer functions, one in a row: the array, its range (empty:
-/// that of the data) and, where the filter has FieldColors, its colour; below the table, ParaView's editor
-/// shows the transfer function of the selected row, where the index model is Transfer Functions. These
-/// are the properties Fields, FieldRanges, FieldColors and TransferFunctions.
-///
-/// The functions are ParaView's opacity functions "SchlierenField1", ...: so state files and scripts
-/// know how to bring them back. A point that is moved is set at once in the function, and in the image
-/// with Apply.
-///
-/// Shown for IndexModel Transfer Functions and for ColorByField.
+/// Edits the fields of transfer functions, one in a row: the array, its range (empty: that of the
+/// data) and, for filters with FieldColors, its colour; below the table, with the index model
+/// Transfer Functions, ParaView's editor shows the function of the selected row. The properties are
+/// Fields, FieldRanges, FieldColors and TransferFunctions. The functions are ParaView's opacity
+/// functions "SchlierenField1", ..., which state files and scripts can restore. Moving a point
+/// changes the function at once and the image with Apply. Shown for the index model Transfer
+/// Functions and for ColorByField.
 class pqFieldsWidget : public pqRowsWidget
 {
   Q_OBJECT
@@ -73,12 +70,12 @@ private:
   void completeLists();
   void rangeEdited(int row);
   Functions usedFunctions() const;
-  void unregisterUnused(Functions candidates); // a copy: it takes them out of Created
+  void unregisterUnused(Functions candidates); // a copy, which the function removes from Created
 
   QVariantList Fields, Ranges, Colors;
-  Functions RowFunctions;      // null: none is needed yet
-  Functions Created;           // by this widget, of which some may be needed no more
-  vtkSMProxy* Shown = nullptr; // the function in the editor, one of RowFunctions
+  Functions RowFunctions;      // null: not needed yet
+  Functions Created;           // by this widget; some may be unused
+  vtkSMProxy* Shown = nullptr; // the one of RowFunctions in the editor
   bool HasColors;
   QLabel* Title;
   pqTransferFunctionWidget* Editor;

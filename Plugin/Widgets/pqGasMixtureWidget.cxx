@@ -27,12 +27,12 @@ enum Column
   MOLAR_MASS
 };
 
-// A gas that nothing is known of begins as air.
+// Defaults of unknown gases: those of air.
 constexpr double airConstant = 2.26e-4;
 constexpr double airMolarMass = 0.0289647;
 const char* const custom = "Custom";
 
-/// The gas's name, where it was given by its formula.
+/// Returns the gas's name for a formula.
 QString nameOf(const QString& gas)
 {
   for (int i = 0; i < vtkGasTable::GetNumberOfGases(); ++i)
@@ -72,7 +72,7 @@ QLineEdit* newNumberEdit()
 void showNumber(QLineEdit* edit, double value, bool editable)
 {
   edit->setEnabled(editable);
-  // What the user has typed is left as it is where it means the same.
+  // Keeps the user's text if it has the same value.
   if (edit->text().isEmpty() || edit->text().toDouble() != value)
   {
     edit->setText(QString::number(value, 'g', editable ? 12 : 4));
@@ -234,7 +234,7 @@ void pqGasMixtureWidget::showRow(int row)
   const QSignalBlocker blocker(gas);
   if (gas->findText(name) < 0)
   {
-    gas->addItem(name); // a mistake of a script, which Apply reports
+    gas->addItem(name); // an unknown gas of a script, which Apply reports
   }
   gas->setCurrentIndex(gas->findText(name));
   gas->setToolTip(QString::fromStdString(vtkGasTable::GetSource(name.toStdString())));

@@ -9,10 +9,9 @@
 class vtkEventQtSlotConnect;
 class vtkSMPropertyGroup;
 
-/// Edits the species of a gas mixture, one in a row: the array with its fraction, the gas, and the gas's
-/// constant and molar mass, which can be changed where the gas is Custom and come from the table of
-/// gases (vtkGasTable) elsewhere. These are the properties MixtureArrays, MixtureGases,
-/// MixtureConstants and MixtureMolarMasses.
+/// Edits the species of a gas mixture, one in a row: the fraction's array, the gas, and its
+/// constant and molar mass, editable for Custom and else from vtkGasTable. The properties are
+/// MixtureArrays, MixtureGases, MixtureConstants and MixtureMolarMasses.
 class pqGasMixtureWidget : public pqRowsWidget
 {
   Q_OBJECT

@@ -18,8 +18,7 @@
 namespace
 {
 
-constexpr double airConstant =
-  2.26e-4; // the default of the constants of gases that the table has not
+constexpr double airConstant = 2.26e-4; // default for gases that are not in the table
 constexpr int digits = 4;
 
 } // namespace

@@ -11,9 +11,9 @@
 class QLabel;
 class vtkEventQtSlotConnect;
 
-/// Says below the choice of a gas which Gladstone-Dale constant it stands for, before it is applied:
-/// `<PropertyWidgetDecorator type="SchlierenGasNote" constant="GladstoneDaleConstant"/>`, where `constant` is
-/// the property that counts for a gas of the user's own.
+/// Shows the Gladstone-Dale constant below the choice of a gas, before Apply:
+/// `<PropertyWidgetDecorator type="SchlierenGasNote" constant="GladstoneDaleConstant"/>`, where
+/// `constant` is the property for a custom gas.
 class pqGasNoteDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

@@ -178,7 +178,7 @@ void pqImageView::drawBrush(QPainter& painter) const
   {
     painter.setRenderHint(QPainter::Antialiasing);
     const double radius = this->BrushRadius * filterSide;
-    for (const QColor& color : { Qt::black, Qt::white }) // seen on any colour
+    for (const QColor& color : { Qt::black, Qt::white }) // visible on any colour
     {
       painter.setPen(QPen(color, color == Qt::black ? 3 : 1));
       painter.drawEllipse(this->pixelAt(this->Brush), radius, radius);

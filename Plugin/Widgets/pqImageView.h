@@ -8,8 +8,8 @@
 #include <QVector>
 #include <QWidget>
 
-/// A small view of an image. A colour filter is drawn as a square with the axes k eps_u and k eps_v from
-/// -1 to 1, with the light on it, and signals where a brush paints: the mouse's, or that of the keyboard.
+/// A small view of an image. A colour filter is a square with axes k eps_u and k eps_v from -1 to 1
+/// and the light on it, and signals strokes of the mouse's or the keyboard's brush.
 class pqImageView : public QWidget
 {
   Q_OBJECT
@@ -20,19 +20,19 @@ public:
 
   bool isColorFilter() const { return this->IsColorFilter; }
 
-  /// A null image leaves the view empty, or with the wheel that a colour filter without an image is.
+  /// Sets an image; null: an empty view, or the colour wheel of a colour filter.
   void setImage(const QImage& image);
 
-  /// Of a colour filter: the light to be drawn on it, and k.
+  /// Sets the light to draw on a colour filter, and k.
   void setLight(const pqCutoffLight& light, double k);
 
 public Q_SLOTS:
-  /// As a fraction of the filter's side.
+  /// Sets the radius as a fraction of the filter's side.
   void setBrushRadius(double radius);
 
 Q_SIGNALS:
   void strokeBegan();
-  /// The brush has been at these places, each coordinate from -1 to 1, v upwards.
+  /// Sends points of a stroke, each coordinate from -1 to 1, v upwards.
   void brushed(const QVector<QPointF>& places);
   void strokeEnded();
 
@@ -57,10 +57,10 @@ private:
   const bool IsColorFilter;
   const int Margin;
   QImage Image;
-  mutable QImage Shown; ///< null: has to be made again
+  mutable QImage Shown; ///< null: outdated
   pqCutoffLight Light;
   double K = 0;
   double BrushRadius = 0.04;
-  QPointF Brush; ///< where it is
+  QPointF Brush; ///< its position
   bool IsBrushShown = false, IsDown = false;
 };

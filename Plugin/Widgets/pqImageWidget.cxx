@@ -33,13 +33,13 @@
 namespace
 {
 
-// Texts in a PNG: its file's name, and what is underneath the paint.
+// Keys of texts in a PNG: the file's name, and the image underneath the paint.
 const QString nameKey = "Title", underneathKey = "Underneath", wheelName = "wheel";
-constexpr int largestSide = 2048; // pixels: the image goes into every state file
+constexpr int largestSide = 2048; // pixels, for the sake of state files
 constexpr int pauseOfStroke = 40; // milliseconds
-constexpr int usualBrush = 8;     // per cent of the filter's side, the diameter
+constexpr int usualBrush = 8;     // diameter, per cent of the filter's side
 
-/// An image without transparency and not too large, for a PNG. What is transparent lets all light pass.
+/// Blends with white, which lets all light pass, and limits the size.
 QImage opaque(const QImage& read)
 {
   QImage image(read.size(), QImage::Format_RGB888);
@@ -89,7 +89,7 @@ pqImageWidget::pqImageWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWi
   grid->addWidget(this->Clear, 0, 2);
   if (isFilter)
   {
-    this->setShowLabel(false); // the filter takes all of a narrow panel
+    this->setShowLabel(false); // the filter fills a narrow panel
     this->addPainting(grid);
   }
 
@@ -108,7 +108,7 @@ QAbstractButton* pqImageWidget::newButton(const char* name, const QString& text,
   auto* button = new QPushButton(text, this);
   button->setObjectName(name);
   button->setToolTip(tip);
-  button->setMinimumWidth(1); // else three of them are wider than the panel
+  button->setMinimumWidth(1); // else three buttons are wider than the panel
   return button;
 }
 
@@ -171,7 +171,7 @@ void pqImageWidget::addPainting(QGridLayout* grid)
   QObject::connect(fill, &QAbstractButton::clicked, this, &pqImageWidget::fill);
   QObject::connect(this->Save, &QAbstractButton::clicked, this, &pqImageWidget::save);
 
-  // The one stack of the window knows all strokes.
+  // Uses the window's undo stack, which has all strokes.
   if (pqUndoStack* stack = undoStack())
   {
     const auto showUndo = [undo](bool can, const QString& label)
@@ -423,4 +423,4 @@ void pqImageWidget::save()
 }
 
 //------------------------------------------------------------------------------
-void pqImageWidget::clear() { this->setImage(QString("")); } // a null one would not be sent
+void pqImageWidget::clear() { this->setImage(QString("")); } // a null string would not be sent

@@ -18,19 +18,15 @@ class QAbstractButton;
 class QGridLayout;
 class QLabel;
 
-/// Shows the image that a text property names or holds, loads another one into it, or has the user
-/// paint one. What is loaded is read where the window runs, and the property then holds all of it as a PNG
-/// ("data:image/png;base64,..."): state files keep it, and servers need not find a file.
+/// Shows the image of a text property, loads another one into it, or lets the user paint one. The
+/// window reads loaded files, and the property then contains a PNG ("data:image/png;base64,..."),
+/// so that state files keep it, and servers need not find a file.
 ///
-/// A hint in the XML names what the image is laid out over:
-///
-///     <SchlierenImage plane="deflection"/>
-///
-/// is a colour filter on the cutoff plane, drawn as a square with the axes k eps_u and k eps_v from -1 to
-/// 1; the colour wheel stands there where the property is empty. It can be painted on, here or through the
-/// image in a view, and each stroke is in the image at once and undone at once. The eraser brings back
-/// what was there before the first stroke, which is kept in the PNG. Without the hint, the image is
-/// shown as is.
+/// The hint `<SchlierenImage plane="deflection"/>` in the XML marks a colour filter on the cutoff
+/// plane: a square with the axes k eps_u and k eps_v from -1 to 1, or the colour wheel if the
+/// property is empty. The user paints on it here or through the image in a view; each stroke
+/// changes the image at once and is one undo step. The eraser restores what was there before the
+/// first stroke, which the PNG keeps.
 class pqImageWidget : public pqPropertyWidget
 {
   Q_OBJECT
@@ -72,11 +68,11 @@ private:
   QLabel* Note;
   QAbstractButton *Clear, *Save = nullptr, *Light = nullptr, *OnImage = nullptr;
 
-  // Of a colour filter.
+  // The brush of a colour filter.
   pqColorFilterImage::Brush Brush;
   QImage Canvas, Underneath;
   bool IsPainting = false;
-  QTimer Pause; ///< until what has been painted is shown
+  QTimer Pause; ///< until a stroke is applied
   std::unique_ptr<pqLiveEdit> Edit;
   pqCutoffLightFetcher* Fetcher = nullptr;
   pqImagePainter* Painter = nullptr;

@@ -43,7 +43,7 @@ void pqKeepKDecorator::onChoice()
   vtkSMProxy* filter = this->parentWidget()->proxy();
   const bool was = this->WasAutomatic;
   this->WasAutomatic = isAutomaticInPanel(choice);
-  // The image has an automatic k, and the user wants another one: nothing has been applied yet.
+  // Acts if the applied k is automatic and the user has unchecked it.
   if (was && !this->WasAutomatic && vtkSMPropertyHelper(choice).GetAsInt() != 0)
   {
     filter->UpdatePropertyInformation(filter->GetProperty("KScaleUsed"));

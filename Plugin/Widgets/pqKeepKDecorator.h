@@ -8,8 +8,8 @@
 
 class vtkEventQtSlotConnect;
 
-/// Lets K Scale begin with the k in use where the user switches Auto K Scale off in the panel: so the image stays as it
-/// is. Scripts, undo and state files set both themselves.
+/// Sets K Scale to the k in use when the user switches off Auto K Scale in the panel, which keeps
+/// the image. Scripts, undo and state files set both themselves.
 class pqKeepKDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

@@ -35,7 +35,7 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(smProxy);
   if (this->Source)
   {
-    // ParaView itself updates it when the output's extent is requested, before the filter has run.
+    // Updates after the filter, unlike ParaView, which updates before, with the output's extent.
     QObject::connect(this->Source.data(),
       QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), this,
       &pqNoteWidget::refresh);
@@ -60,7 +60,8 @@ pqNoteWidget::~pqNoteWidget() = default;
 //------------------------------------------------------------------------------
 void pqNoteWidget::changeEvent(QEvent* event)
 {
-  // ParaView disables what cannot be changed, and paints it like a line for typing then.
+  // Keeps the widget enabled: ParaView disables read-only widgets, which then look like a line
+  // edit.
   if (event->type() == QEvent::EnabledChange && this->testAttribute(Qt::WA_ForceDisabled))
   {
     this->setEnabled(true);
@@ -74,8 +75,8 @@ void pqNoteWidget::refresh() { this->proxy()->UpdatePropertyInformation(this->pr
 //------------------------------------------------------------------------------
 void pqNoteWidget::showText()
 {
-  // As long as it does not signal its updates to the window, there are more to come soon. Each new text makes the
-  // panel arrange all its rows again.
+  // Skips updates that the filter does not signal to the window, because more follow, and each new
+  // text makes the panel arrange its rows.
   if (this->Source && this->Source->signalsBlocked())
   {
     return;

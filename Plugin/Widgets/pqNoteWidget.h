@@ -12,8 +12,7 @@ class QLabel;
 class pqPipelineSource;
 class vtkEventQtSlotConnect;
 
-/// Shows a filter's text property, to be read and copied but not changed: ParaView would
-/// show a line for typing.
+/// Shows a filter's text property, to read and copy: ParaView would show a line edit.
 class pqNoteWidget : public pqPropertyWidget
 {
   Q_OBJECT
@@ -31,6 +30,6 @@ private Q_SLOTS:
 
 private:
   QLabel* Label;
-  QPointer<pqPipelineSource> Source; // what it is a note of
+  QPointer<pqPipelineSource> Source; // the filter
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

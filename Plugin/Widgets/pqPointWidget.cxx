@@ -63,7 +63,7 @@ void pqPointWidget::setPoint(const QVariantList& point)
 //------------------------------------------------------------------------------
 void pqPointWidget::onModified()
 {
-  // The link hears of values, and not that there are none any more.
+  // Clears the point, because the link does not report removed values.
   if (vtkSMUncheckedPropertyHelper(this->property()).GetNumberOfElements() == 0)
   {
     this->setPoint({});
@@ -73,7 +73,7 @@ void pqPointWidget::onModified()
 //------------------------------------------------------------------------------
 void pqPointWidget::edited(int axis)
 {
-  // Only what has been typed: what is shown may be rounded.
+  // Uses only edited texts, because the others may be rounded.
   if (this->Edits[axis]->text() != this->textOf(axis))
   {
     if (this->Point.isEmpty())

@@ -12,8 +12,8 @@ class QLineEdit;
 class QToolButton;
 class vtkEventQtSlotConnect;
 
-/// Edits a point that may be none: three coordinates below each other, and a button that takes them away. ParaView
-/// would show a table that takes any number of points, with room for one of three columns.
+/// Edits an optional point: three coordinates below each other, and a button to clear it. ParaView
+/// would show a table for any number of points, with room for one of three columns.
 class pqPointWidget : public pqPropertyWidget
 {
   Q_OBJECT
@@ -23,7 +23,7 @@ public:
   pqPointWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
   ~pqPointWidget() override;
 
-  /// Three numbers, or none.
+  /// Returns three numbers, or none.
   QVariantList point() const { return this->Point; }
   void setPoint(const QVariantList& point);
 

@@ -29,7 +29,8 @@ QMap<QString, QVariant> valuesOf(const BenchPreset& preset)
   return values;
 }
 
-/// As one step of the cutoff plane below: in the image at once, and whatever else waits for Apply waits on.
+/// Applies a preset as one step of the cutoff's editor: at once, without other changes that wait
+/// for Apply.
 void applyPreset(vtkSMProxy* filter, const BenchPreset& preset)
 {
   pqLiveEdit edit(filter, QObject::tr("Bench: %1").arg(preset.name));
@@ -41,12 +42,12 @@ void applyPreset(vtkSMProxy* filter, const BenchPreset& preset)
     if (pqSMAdaptor::getElementProperty(property, pqSMAdaptor::UNCHECKED) !=
       pqSMAdaptor::getElementProperty(property))
     {
-      property->ClearUncheckedElements(); // typed before, not applied
+      property->ClearUncheckedElements(); // discards edits that were not applied
     }
   }
 }
 
-/// To be seen in the panel, and to be applied.
+/// Shows a preset in the panel for Apply.
 void showPreset(vtkSMProxy* filter, const BenchPreset& preset)
 {
   for (const PresetSetting& setting : preset.settings)
@@ -93,13 +94,13 @@ pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidge
           return;
         }
         showPreset(filter, preset);
-        // The panel listens to its widgets only: now there is something to apply.
+        // Enables Apply, because the panel observes only its widgets.
         Q_EMIT this->parentWidget()->changeAvailable();
         Q_EMIT this->parentWidget()->changeFinished();
       });
   }
   button->setMenu(menu);
-  // Together no wider than ParaView's panel is without asking for room.
+  // Limits the width to ParaView's default panel.
   constexpr int fewestLetters = 8;
   for (QComboBox* box : parentObject->findChildren<QComboBox*>())
   {

@@ -4,8 +4,8 @@
 
 #include "pqPropertyWidgetDecorator.h"
 
-/// Puts a button behind a property whose menu sets up a bench of BenchPresets.h, which is in the image at once; before
-/// the first image it waits for Apply.
+/// Adds a menu behind a property that sets up a bench of BenchPresets.h: at once in the image or,
+/// before the first image, with Apply.
 class pqPresetsDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

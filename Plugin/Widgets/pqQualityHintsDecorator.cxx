@@ -49,7 +49,7 @@ QString hintFor(int quality)
                                         : hint;
 }
 
-/// Draws the entries of a list with what they mean.
+/// Draws the entries of a list with descriptions.
 class Hints : public QStyledItemDelegate
 {
 public:

@@ -4,8 +4,8 @@
 
 #include "pqPropertyWidgetDecorator.h"
 
-/// Says in the list of the presets of Quality what each takes, so that it shows which is faster and which is finer;
-/// in the XML this would be a part of the names that scripts use.
+/// Describes the presets of Quality in its list. In the XML the texts would change the names that
+/// scripts use.
 class pqQualityHintsDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

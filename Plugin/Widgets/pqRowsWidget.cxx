@@ -48,13 +48,13 @@ pqRowsWidget::pqRowsWidget(vtkSMProxy* smproxy, vtkSMPropertyGroup* group,
   this->Table->setObjectName("Table");
   this->Table->setHorizontalHeaderLabels(headers);
   this->Table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  // The panel is narrow, and has a scroll bar of its own.
+  // Leaves scrolling to the narrow panel.
   this->Table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   this->Table->horizontalHeader()->setMinimumSectionSize(24);
   this->Table->verticalHeader()->hide();
   this->Table->setSelectionBehavior(QAbstractItemView::SelectRows);
   this->Table->setSelectionMode(QAbstractItemView::SingleSelection);
-  this->Table->setTabKeyNavigation(false); // Tab goes from cell to cell and then out of the table
+  this->Table->setTabKeyNavigation(false); // Tab leaves the table after the last cell
   this->Layout->addWidget(this->Table);
 
   auto* buttons = new QHBoxLayout;
@@ -106,7 +106,7 @@ void pqRowsWidget::refresh()
     {
       for (int column = 0; column < this->Table->columnCount(); ++column)
       {
-        this->cellWidget(row, column)->setObjectName(QString()); // it is deleted some time later
+        this->cellWidget(row, column)->setObjectName(QString()); // because it is deleted later
       }
     }
     this->Table->setRowCount(now);

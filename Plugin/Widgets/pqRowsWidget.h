@@ -12,18 +12,16 @@ class QTableWidget;
 class QToolButton;
 class vtkSMPropertyGroup;
 
-/// What the editors of several lists have in common: a table with a row for each entry of the first list,
-/// a widget in each cell, and buttons that add and remove rows.
-///
-/// The lists are Qt properties of the subclass, linked with those of the proxy, so that Apply, Reset,
-/// undo and scripts work as with any other property. What the user edits completes all lists, so that
-/// they never differ in length.
+/// Base of editors of several lists: a table with a row for each entry of the first list, a widget
+/// in each cell, and buttons to add and remove rows. The lists are Qt properties of the subclass,
+/// linked with those of the proxy, so that Apply, Reset, undo and scripts work as usual. Each edit
+/// completes all lists to the same length.
 class pqRowsWidget : public pqPropertyWidget
 {
   Q_OBJECT
 
 public:
-  /// `what` completes "Add ..."; `note` stands below the table.
+  /// `what` completes "Add ..."; `note` is below the table.
   pqRowsWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, const QStringList& headers,
     const QString& what, const QString& note, QWidget* parent = nullptr);
 
@@ -32,10 +30,10 @@ protected:
   QBoxLayout* below() const { return this->Layout; }
   int currentRow() const;
 
-  /// Makes the table show what the lists hold; to be called when one of them has changed.
+  /// Updates the table. Call it when a list has changed.
   void refresh();
 
-  /// A widget for a cell, which selects its row when it gets the focus.
+  /// Sets a cell's widget, which selects its row when it gets the focus.
   void setCell(int row, int column, QWidget* widget, const QString& name);
   template <class Widget>
   Widget* cell(int row, int column) const
@@ -43,7 +41,7 @@ protected:
     return qobject_cast<Widget*>(this->cellWidget(row, column));
   }
 
-  /// Signals changes of one list or several by the user.
+  /// Signals that the user has changed lists.
   virtual void emitChanges() = 0;
 
   virtual int rows() const = 0;
@@ -53,7 +51,7 @@ protected:
   virtual void removeFromLists(int row) = 0;
   virtual void rowSelected(int row);
 
-  /// Sets `list`, an entry of which takes `perRow` values, and shows it.
+  /// Sets `list`, with `perRow` values for each row, and shows it.
   void setList(QVariantList& list, const QVariantList& values);
 
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -13,7 +13,7 @@
 namespace
 {
 
-/// The label that the panel has put before a property's widget, or above it; null where there is none.
+/// Finds the label before or above a property's widget; null if there is none.
 QLabel* labelOf(QWidget* property)
 {
   QWidget* panel = property->parentWidget();
@@ -39,7 +39,7 @@ pqUnitDecorator::pqUnitDecorator(vtkPVXMLElement* element, pqPropertyWidget* par
   : pqPropertyWidgetDecorator(element, parentObject)
   , Unit(QString::fromUtf8(element->GetAttributeOrEmpty("unit")))
 {
-  parentObject->installEventFilter(this); // the label is not there yet
+  parentObject->installEventFilter(this); // waits for the label
 }
 
 //------------------------------------------------------------------------------

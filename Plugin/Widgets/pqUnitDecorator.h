@@ -6,9 +6,9 @@
 
 #include <QString>
 
-/// Writes a property's unit behind its name in the panel: `<PropertyWidgetDecorator type="SchlierenUnit"
-/// unit="mm"/>`. Behind the value it would be out of sight, because ParaView's panel is often wider than its
-/// dock; in the XML label Python would take it for a part of the property's name.
+/// Adds a property's unit to its name in the panel: `<PropertyWidgetDecorator type="SchlierenUnit"
+/// unit="mm"/>`. Behind the value it could be out of sight in narrow panels; in the XML label it
+/// would change the property's Python name.
 class pqUnitDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

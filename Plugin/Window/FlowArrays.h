@@ -10,13 +10,13 @@
 
 #include <vector>
 
-/// The arrays of points and cells, from the description that a server sends of its data.
+/// Lists the arrays of points and cells in a server's description of its data.
 inline std::vector<FlowArray> arraysOf(vtkPVDataInformation* data)
 {
   std::vector<FlowArray> arrays;
   if (!data)
   {
-    return arrays; // a proxy may be made without an input
+    return arrays; // the proxy has no input
   }
   for (const FlowArray::Association association : { FlowArray::Points, FlowArray::Cells })
   {

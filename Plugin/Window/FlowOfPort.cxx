@@ -15,7 +15,7 @@
 namespace
 {
 
-/// A property that repeats its command for each of the values.
+/// Sets a property that repeats its command for each value.
 void setStrings(vtkSMProxy* filter, const char* name, const std::vector<std::string>& values)
 {
   vtkSMPropertyHelper property(filter, name);
@@ -53,7 +53,7 @@ QString problemOfFlow(pqOutputPort* port)
   {
     return notApplied(port->getSource());
   }
-  port->getSourceProxy()->UpdatePipeline(); // made by a script, it may have no data yet
+  port->getSourceProxy()->UpdatePipeline(); // data of a script may not be up to date
   vtkPVDataInformation* info = port->getDataInformation();
   if (info->IsNull() || info->GetNumberOfCells() < 1)
   {
@@ -100,7 +100,7 @@ void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
   }
   for (const auto& [property, scale] : defaults.scales)
   {
-    // The filter knows the unit in a name, also when another array is chosen.
+    // Leaves units in names to the filter, which then also applies them to arrays chosen later.
     const std::string quantity = property.substr(0, property.find("Scale"));
     if (scaleByUnit(quantity, defaults.arrayOf(quantity)) != 0)
     {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the window knows of a flow: from the description that a server sends of its data.
+// Reads a flow from a server's description of its data.
 #pragma once
 
 #include "FlowDefaults.h"
@@ -12,17 +12,17 @@ class pqOutputPort;
 class pqPipelineSource;
 class vtkSMProxy;
 
-/// Whether a source has been made by Apply; and what to say where not.
+/// Return whether a source has been applied, and a message for one that has not.
 bool isApplied(pqPipelineSource* source);
 QString notApplied(pqPipelineSource* source);
 
-/// Why no image can be made of these data and what to do about it; empty: it can.
+/// Returns why no image can be made of these data, with a remedy; empty if one can.
 QString problemOfFlow(pqOutputPort* port);
 
 std::vector<FlowArray> arraysOfFlow(pqOutputPort* port);
 
-/// The range of an array; {0, -1} where there is none. Field data too: as for any filter that gives a
-/// number in it.
+/// Returns the range of an array, or {0, -1}. Finds field data, too, such as numbers in a filter's
+/// output.
 std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name);
 
 /// Sets the properties of a Schlieren or RefractiveIndex filter.

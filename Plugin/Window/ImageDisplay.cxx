@@ -30,9 +30,9 @@ void setValue(vtkSMProxy* proxy, const char* name, int value)
   }
 }
 
-/// ParaView's editor of colour maps, where it is open, fits the map to the data whenever MapScalars changes, and
-/// warns where these do not have the array yet. Coloured by no array, it finds nothing to do; also when this is
-/// undone, because each step is an update of its own.
+/// Sets MapScalars without colouring by an array: an open editor of colour maps would else fit the
+/// map to the data and warn if these lack the array. Undo restores it in the same order, because
+/// each step is an update of its own.
 void setMapScalars(vtkSMProxy* representation, int value)
 {
   if (valueOf(representation, "MapScalars") == value)
@@ -65,7 +65,7 @@ void ImageDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
   {
     vtkSMTransferFunctionProxy::ApplyPreset(colors, "Grayscale", false);
     vtkSMTransferFunctionProxy::RescaleTransferFunction(colors, 0, white(filter));
-    // The default makes room for light that gathers, and all else would darken.
+    // Disables rescaling, whose range for converging light would darken all else.
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", colors);
     vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode").Set(-1);
     colors->UpdateVTKObjects();

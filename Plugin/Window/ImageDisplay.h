@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How the image of a Schlieren filter is to be seen: in grey as on film, or in its own colours.
+// Displays the image of a Schlieren filter in grey, like film, or in its own colours.
 #pragma once
 
 class vtkSMProxy;
@@ -9,14 +9,14 @@ class vtkSMProxy;
 namespace ImageDisplay
 {
 
-/// Shows what the filter's cutoff makes: Intensity in grey, from 0 to 1, of a shadowgraph to 2, with a
-/// colour map that no other image shares; or Color as it is.
+/// Shows Intensity in grey, from 0 to 1 (for a shadowgraph to 2), with a separate colour map, or
+/// Color as it is, depending on the cutoff.
 void apply(vtkSMProxy* representation, vtkSMProxy* filter);
 
-/// What apply() chooses by the filter's cutoff: what is white; 0: the image has its own colours.
+/// Returns the intensity that apply() maps to white; 0: the image has its own colours.
 double white(vtkSMProxy* filter);
 
-/// Whether it is shown by one of the arrays that apply() chooses, with colours of its own.
+/// Returns whether the display still is one of apply().
 bool isApplied(vtkSMProxy* representation);
 
 } // namespace ImageDisplay

@@ -10,28 +10,29 @@ class pqRenderView;
 class pqServer;
 class pqView;
 
-/// Which views show the images of which filters.
+/// Finds the views that show images of filters.
 namespace imagesInViews
 {
 
 bool isSchlieren(pqPipelineSource* source);
 
-/// The Schlieren filter whose image this is made from: itself, or one upstream; null where there is none.
+/// Returns the Schlieren filter that an image is from: the source or one upstream; null if there is
+/// none.
 pqPipelineSource* filterOf(pqPipelineSource* source);
 
-/// The 3-D view that is meant: the active one, or another one beside it. Null where all show images of filters.
+/// Returns the active 3-D view, or another one in its layout. Null if all show images of filters.
 pqRenderView* scene(pqServer* server);
 
-/// All filters that make images, of all servers.
+/// Lists the filters that make images, of all servers.
 QList<pqPipelineSource*> filters();
 
-/// The visible views that show something of a filter, or something made from it.
+/// Lists the visible views of a filter's outputs and of what is made from them.
 QList<QPointer<pqView>> showing(pqPipelineSource* filter);
 
-/// The filters whose images are visible in a view.
+/// Lists the filters whose images are visible in a view.
 QList<pqPipelineSource*> imagesIn(pqView* view);
 
-/// Whether a view looks straight onto a plane.
+/// Returns whether a view looks onto a plane.
 bool isFlat(pqView* view);
 
 } // namespace imagesInViews

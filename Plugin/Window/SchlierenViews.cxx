@@ -59,10 +59,10 @@ void setInt(vtkSMProxy* proxy, const char* name, int value)
   vtkSMPropertyHelper(proxy, name).Set(value);
 }
 
-/// Pixels of the screen that the view covers.
+/// Returns the size of the view in pixels of the screen.
 std::array<int, 2> sizeOf(pqView* view)
 {
-  // Widgets that have just been put into a layout have their sizes after this.
+  // Lays out widgets that are new in a layout.
   QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);
   const QWidget* widget = view->widget();
   const double pixels = widget->devicePixelRatioF();
@@ -70,21 +70,21 @@ std::array<int, 2> sizeOf(pqView* view)
     std::max(1, int(std::lround(widget->height() * pixels))) };
 }
 
-/// Makes a view one for the image of a filter.
+/// Adapts a view to the image of a filter.
 void flatten(vtkSMProxy* view)
 {
   setInt(view, "InteractionMode", vtkPVRenderView::INTERACTION_MODE_2D);
   setInt(view, "CameraParallelProjection", 1);
   setInt(view, "OrientationAxesVisibility", 0);
   setInt(view, "CenterAxesVisibility", 0);
-  setInt(view, "UseFXAA", 0); // it would smear the image's own edges
+  setInt(view, "UseFXAA", 0); // FXAA would blur edges in the image
   setInt(view, "UseColorPaletteForBackground", 0);
   const double darkGrey[3] = { 0.2, 0.2, 0.2 };
   vtkSMPropertyHelper(view, "Background").Set(darkGrey, 3);
   view->UpdateVTKObjects();
 }
 
-/// Why the server cannot make images; empty where it can.
+/// Returns why the server cannot make images; empty if it can.
 QString problemOfServer(pqServer* server)
 {
   if (server->proxyManager()->HasDefinition("filters", "Schlieren"))
@@ -97,21 +97,21 @@ QString problemOfServer(pqServer* server)
     "Plugins, and load Schlieren.so under Remote Plugins.";
 }
 
-/// The proxy of the filter inside of a representation.
+/// Returns the proxy of the filter inside of a representation.
 vtkSMProxy* benchOf(vtkSMProxy* representation)
 {
   return vtkSMPropertyHelper(representation, "SchlierenBench").GetAsProxy();
 }
 
-/// The representation in a view that draws this flow as Schlieren; null where none does.
+/// Returns the representation in a view that draws this flow as Schlieren; null if none does.
 vtkSMProxy* drawnAsSchlieren(pqOutputPort* flow, pqView* view)
 {
   pqDataRepresentation* shown = view ? flow->getRepresentation(view) : nullptr;
   return shown && pqRepresentationRefiner::isSchlieren(shown) ? shown->getProxy() : nullptr;
 }
 
-/// Copies what is set on a Schlieren filter, or on one inside of a representation, but for the flow, the camera and the
-/// size.
+/// Copies the settings of a Schlieren filter, or of one inside of a representation, except flow,
+/// camera and size.
 void copySettings(vtkSMProxy* from, vtkSMProxy* to)
 {
   auto properties = vtkSmartPointer<vtkSMPropertyIterator>::Take(to->NewPropertyIterator());
@@ -127,7 +127,7 @@ void copySettings(vtkSMProxy* from, vtkSMProxy* to)
     }
     if (property->FindDomain<vtkSMProxyListDomain>())
     {
-      // Each has a curve of its own.
+      // Copies curves, which filters do not share.
       vtkSMProxy* curve = vtkSMPropertyHelper(property).GetAsProxy();
       curve->Copy(vtkSMPropertyHelper(pattern).GetAsProxy());
       curve->UpdateVTKObjects();
@@ -137,7 +137,7 @@ void copySettings(vtkSMProxy* from, vtkSMProxy* to)
   }
 }
 
-/// Renders a view once as it is when its image is complete.
+/// Renders a view once, with complete images.
 void renderCompletely(pqRenderView* view, vtkSMProxy* representation)
 {
   SCOPED_UNDO_EXCLUDE();
@@ -150,11 +150,11 @@ void renderCompletely(pqRenderView* view, vtkSMProxy* representation)
   representation->UpdateVTKObjects();
 }
 
-/// Makes the views of one flow and everything around them.
+/// Makes the views of a flow.
 class Builder
 {
 public:
-  /// `pattern`: what has the settings that are to be used; null: they are chosen for the flow.
+  /// `pattern`: the proxy whose settings are used; null: defaults for the flow.
   explicit Builder(pqOutputPort* flow, vtkSMProxy* pattern)
     : Flow(flow)
     , Pattern(pattern)
@@ -169,7 +169,7 @@ public:
     switch (arrangement)
     {
       case Arrangement::OneImage:
-        // A 3-D view that there was not before may have taken the cell.
+        // Keeps the cell, unless a new 3-D view has taken it.
         if (cell.layout && !cell.layout->GetView(cell.number))
         {
           this->Views.push_back(this->addView(cell.layout, cell.number));
@@ -202,7 +202,7 @@ public:
     }
     else
     {
-      this->Views[0]->forceRender(); // which finds the ambient refractivity
+      this->Views[0]->forceRender(); // finds the ambient refractivity
     }
     showAsVolume(this->Flow, this->Scene, this->Defaults, benchOf(this->Images[0]));
     pqActiveObjects::instance().setActiveView(this->Views[0]);
@@ -218,7 +218,7 @@ public:
     return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
 
-  /// Shows the image of a filter in a view of its own, where it fills it.
+  /// Shows the image of a filter in a view of its own, which it fills.
   void show(pqPipelineSource* filter)
   {
     this->findScene();
@@ -233,7 +233,7 @@ public:
     vtkSMProxy* representation = this->Controller->Show(filter->getSourceProxy(), 0, window);
     if (representation)
     {
-      // ParaView shows the outline of data that are not there yet.
+      // Avoids the outline that ParaView shows without data.
       vtkSMPropertyHelper type(representation, "Representation");
       if (std::strcmp(type.GetAsString(), "Outline") == 0)
       {
@@ -245,7 +245,7 @@ public:
     }
     {
       SM_SCOPED_TRACE(CallMethod).arg(window).arg("ResetCamera").arg(true);
-      window->ResetCamera(true); // which fills the view
+      window->ResetCamera(true); // fills the view
     }
     const auto redo = [id = ProxyById(window), setCamera = cameraSetter(window, window)]()
     {
@@ -269,7 +269,7 @@ public:
   }
 
 private:
-  /// The 3-D view, one that shows the flow where there was none.
+  /// Finds the 3-D view, or makes one that shows the flow.
   void findScene()
   {
     this->Scene = imagesInViews::scene(this->Server);
@@ -289,10 +289,10 @@ private:
     }
   }
 
-  /// Empty views beside the 3-D view: one to its right, or three, with which it makes a square.
+  /// Adds views beside the 3-D view: one to its right, or three that form a square with it.
   void addViews(int number)
   {
-    // A script may have made a view without a place.
+    // Puts the view of a script into a layout.
     if (!vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy()))
     {
       this->Controller->AssignViewToLayout(this->Scene->getViewProxy());
@@ -308,8 +308,8 @@ private:
       const int underScene = layout->SplitVertical(left, 0.5) + 1;
       cells = { right, underScene, right + 1 };
     }
-    // ParaView's toolbar shows the axes of a view that becomes active after one without: in the middle of making
-    // it, which traces would not survive.
+    // Activates the 3-D view, because ParaView's toolbar shows the axes of the first active view,
+    // which traces would not survive while that is made.
     pqActiveObjects::instance().setActiveView(this->Scene);
     for (const int cell : cells)
     {
@@ -326,7 +326,7 @@ private:
     return view;
   }
 
-  /// Steps back in a 3-D view that has become narrow, so that what was in its middle is seen.
+  /// Moves the camera of a narrowed 3-D view back, so that its content stays visible.
   void keepInSight(const std::array<int, 2>& before, const std::array<int, 2>& now)
   {
     const double factor =
@@ -373,7 +373,7 @@ private:
     this->Images.push_back(shown);
   }
 
-  /// Lets the new views see what the 3-D view does, with no axes over the image's middle.
+  /// Links the new views to the 3-D view's camera, without axes in the middle of images.
   void useCameraOfScene()
   {
     for (pqRenderView* view : this->Views)
@@ -394,7 +394,7 @@ private:
     }
   }
 
-  /// Gives all images the automatic k of one.
+  /// Sets the automatic k of one image in all.
   void useOneKOf(std::size_t image)
   {
     vtkSMProxy* bench = benchOf(this->Images[image]);
@@ -421,7 +421,7 @@ private:
   pqServer* Server;
   FlowDefaults Defaults;
   pqRenderView* Scene = nullptr;
-  std::vector<pqRenderView*> Views; ///< new ones
+  std::vector<pqRenderView*> Views; ///< new views
   std::vector<vtkSMProxy*> Images;  ///< representations in them
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> Controller;
 };

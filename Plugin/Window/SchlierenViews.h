@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The selected flow drawn as Schlieren beside its 3-D view, in one step.
+// Draws the selected flow as Schlieren beside its 3-D view, in one step.
 #pragma once
 
 #include <QString>
@@ -26,20 +26,20 @@ struct Cell
   int number = 0;
 };
 
-/// What was made of the data, or, where nothing could be made, why.
+/// The views that were made, or the reason why not.
 struct Result
 {
   bool isMade;
-  bool isSure; ///< whether the user need not look after what was chosen
+  bool isSure; ///< whether the choice needs no check by the user
   QString message;
 };
 
-/// Makes views whose cameras are linked with that of the 3-D view, and what they show: one undo step. Where a Schlieren
-/// filter or what is made from its image is selected, it is that filter's flow and settings that are used; where the
-/// active view draws the flow as Schlieren, those settings. `cell`: where one image is to be.
+/// Adds views, linked to the 3-D view's camera, as one undo step. Uses the flow and settings of the
+/// selected Schlieren filter (or that of a selected image), or the settings of the active view's
+/// representation. `cell`: for one image.
 Result add(Arrangement arrangement, const Cell& cell = {});
 
-/// Shows the image of a Schlieren filter in a flat view of its own beside the 3-D view, in grey.
+/// Shows the image of a Schlieren filter in grey in a flat view beside the 3-D view.
 void show(pqPipelineSource* filter);
 
 } // namespace SchlierenViews

@@ -64,7 +64,7 @@ void link(vtkSMCameraLink* cameras, const std::string& name, vtkSMProxy* first, 
   first->GetSessionProxyManager()->RegisterLink(name.c_str(), cameras);
 }
 
-/// ParaView clears the undo stack when a link goes, here in the middle of undoing: so it gets none.
+/// Hides the undo stack, which ParaView clears when a link is removed, here during an undo.
 void unlink(vtkSMCameraLink* cameras, const std::string& name, vtkSMProxy* view)
 {
   pqApplicationCore* core = pqApplicationCore::instance();
@@ -112,7 +112,7 @@ std::function<void()> cameraSetter(vtkSMRenderViewProxy* from, vtkSMProxy* to)
   {
     camera.emplace_back(name, vtkSMPropertyHelper(from, name).GetDoubleArray());
   }
-  // ParaView shows planes in its 2-D mode, which is parallel whatever the projection is, from far away.
+  // Keeps the 2-D mode, in which ParaView shows planes from far away in parallel projection.
   const int mode = vtkSMPropertyHelper(from, "InteractionMode").GetAsInt();
   const int isParallel = vtkSMPropertyHelper(from, "CameraParallelProjection").GetAsInt();
   return [camera, mode, isParallel, id = ProxyById(to)]()
@@ -153,7 +153,7 @@ void linkCameras(pqRenderView* firstView, pqRenderView* secondView)
   vtkNew<vtkSMCameraLink> cameras;
   link(cameras, name, first, second);
 
-  // Later steps of the undo stack know this very link by its number, so that it is kept.
+  // Keeps the link, because later steps of the undo stack refer to it by its number.
   const vtkSmartPointer<vtkSMCameraLink> kept = cameras.GetPointer();
   const ProxyById one(first);
   const ProxyById other(second);

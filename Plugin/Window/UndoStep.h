@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What ParaView's undo stack leaves out: cameras, and links between them.
+// Adds steps that ParaView's undo stack lacks: cameras, and links between them.
 #pragma once
 
 #include "vtkSMSession.h"
@@ -13,24 +13,24 @@ class pqRenderView;
 class vtkSMProxy;
 class vtkSMRenderViewProxy;
 
-/// Adds a step to the undo set that is being made. What it takes must be there then: see ProxyById.
+/// Adds a step to the current undo set. Its functions must find proxies by ProxyById.
 void addUndoStep(std::function<void()> undo, std::function<void()> redo);
 
-/// A proxy that undoing may delete and redoing may make anew.
+/// A reference to a proxy that undo may delete and redo may make again.
 class ProxyById
 {
 public:
   explicit ProxyById(vtkSMProxy* proxy);
-  vtkSMProxy* get() const; ///< null while it is not there
+  vtkSMProxy* get() const; ///< null while it does not exist
 
 private:
   vtkWeakPointer<vtkSMSession> Session;
   vtkTypeUInt32 Id;
 };
 
-/// The camera that a view has, to be set in a view.
+/// Returns a function that sets the present camera of a view in another one.
 std::function<void()> cameraSetter(vtkSMRenderViewProxy* from, vtkSMProxy* to);
 
-/// Links the cameras of two views, as Tools > Add Camera Link does. Unlike that it can be undone, as the last
-/// part of the undo set that is being made.
+/// Links the cameras of two views, like Tools > Add Camera Link, as the last step of the current
+/// undo set.
 void linkCameras(pqRenderView* first, pqRenderView* second);

@@ -30,8 +30,7 @@
 namespace
 {
 
-/// The array's value where its refractivity is that of the surroundings; NaN where that takes several
-/// arrays to know.
+/// Returns the array's value at the ambient refractivity; NaN if that depends on several arrays.
 double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
 {
   vtkPVArrayInformation* array =
@@ -67,8 +66,8 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
   return std::nan("");
 }
 
-/// The value, or an end of the range where it is beyond: the nearer one where they are the same but for
-/// rounding, so that two nodes of a function do not lie where a table cannot part them.
+/// Clamps to the range, and to the nearer end if equal up to rounding, because tables do not
+/// separate nodes that close.
 double withinRange(double value, const std::array<double, 2>& range)
 {
   const double margin = 1e-3 * (range[1] - range[0]);
@@ -79,7 +78,7 @@ double withinRange(double value, const std::array<double, 2>& range)
   return value > range[0] + margin && value < range[1] ? value : range[0];
 }
 
-/// Clear at the ambient value, dim where the field differs most from it.
+/// Makes the ambient value transparent and the values most different from it dim.
 void setOpacity(vtkSMProxy* opacity, const std::array<double, 2>& range, double ambient)
 {
   constexpr double most = 0.5;
@@ -119,7 +118,7 @@ void showAsVolume(
   {
     return;
   }
-  // Somebody's colours and opacities of this array stay.
+  // Keeps the user's colours and opacities of this array.
   const std::string& array = defaults.arrays.front().second;
   const std::string name = array + ".PiecewiseFunction";
   vtkSMSessionProxyManager* manager = flow->getServer()->proxyManager();

@@ -7,8 +7,8 @@ class pqRenderView;
 class vtkSMProxy;
 struct FlowDefaults;
 
-/// Shows a flow as a volume, coloured by what its index is made of, where it was not shown or was an
-/// outline. What is like the surroundings is clear: `bench` is a Schlieren filter that has made an image of it.
-/// Does nothing to other data than images.
+/// Shows a flow, if hidden or an outline, as a volume coloured by the array of its index and
+/// transparent at the ambient value. `bench`: a Schlieren filter that has made an image of it.
+/// Ignores data other than images.
 void showAsVolume(
   pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults, vtkSMProxy* bench);

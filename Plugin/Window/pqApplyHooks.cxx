@@ -43,7 +43,7 @@ void pqApplyHooks::setUp()
   {
     for (pqPropertiesPanel* panel : window->findChildren<pqPropertiesPanel*>())
     {
-      // Slots are called in the order in which they have been connected; unregistering leaves them connected.
+      // Reconnects ParaView's slot between ours: slots run in the order of connection.
       if (!QObject::disconnect(panel, nullptr, behavior, nullptr))
       {
         continue;
@@ -61,7 +61,7 @@ void pqApplyHooks::setUp()
 //------------------------------------------------------------------------------
 void pqApplyHooks::beforeOne(pqProxy* proxy)
 {
-  // ParaView shows what is new.
+  // Precedes ParaView, which shows new sources.
   auto* source = qobject_cast<pqPipelineSource*>(proxy);
   if (!source || source->modifiedState() != pqProxy::UNINITIALIZED)
   {
@@ -71,7 +71,7 @@ void pqApplyHooks::beforeOne(pqProxy* proxy)
   if (imagesInViews::isSchlieren(source))
   {
     SchlierenViews::show(source);
-    // ParaView has nothing to show any more.
+    // Marks the source as shown, so that ParaView does not show it again.
     vtkNew<pqProxyModifiedStateUndoElement> shown;
     shown->SetSession(source->getServer()->session());
     shown->MadeUnmodified(source);
@@ -83,7 +83,7 @@ void pqApplyHooks::beforeOne(pqProxy* proxy)
 //------------------------------------------------------------------------------
 void pqApplyHooks::beforeAll()
 {
-  // ParaView updates the views that need it.
+  // Precedes ParaView, which updates such views.
   const QList<pqView*> views =
     pqApplicationCore::instance()->getServerManagerModel()->findItems<pqView*>();
   if (std::any_of(views.begin(), views.end(),

@@ -10,8 +10,8 @@
 
 class pqProxy;
 
-/// What the plugin does when the user presses Apply: ParaView's own updates are short, images are refined
-/// afterwards, and a new Schlieren filter gets a view of its own.
+/// Extends Apply: ParaView's own updates are short, images are refined afterwards, and a new
+/// Schlieren filter gets a view of its own.
 class pqApplyHooks : public QObject
 {
   Q_OBJECT
@@ -19,7 +19,7 @@ class pqApplyHooks : public QObject
 public:
   explicit pqApplyHooks(QObject* parent);
 
-  /// Sets them up around what ParaView does; to be called when its window is there. Once is enough.
+  /// Connects to the window, which must exist. Further calls do nothing.
   void setUp();
 
 private:

@@ -29,7 +29,7 @@
 namespace
 {
 
-/// A property of a source: ImageDisplay::white() of its cutoff so far.
+/// Qt property of a source: the last ImageDisplay::white() of its cutoff.
 constexpr const char* lastWhite = "SchlierenWhite";
 
 } // namespace

@@ -12,9 +12,9 @@ class vtkObject;
 class vtkPVXMLElement;
 class vtkSMProxyLocator;
 
-/// Keeps images displayed as their filters' cutoffs want it, whoever changes a cutoff: grey, twice as
-/// wide for a shadowgraph, or in colour. Lets alone what has been coloured by something else. Views of images get
-/// their FXAA back from state files: ParaView itself takes that of its settings then.
+/// Adapts the display of images to changes of their filters' cutoffs: grey, with twice the range
+/// for a shadowgraph, or colour, unless the user has coloured them. Restores FXAA of such views
+/// from state files, where ParaView uses its settings.
 class pqImageDisplayKeeper : public QObject
 {
   Q_OBJECT

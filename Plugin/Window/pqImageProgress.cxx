@@ -40,7 +40,7 @@ pqProgressWidget* progressBar()
   return window ? window->findChild<pqProgressWidget*>() : nullptr;
 }
 
-/// What the user does, or what may render: a pipeline that is being updated must not be updated.
+/// Returns whether an event may cause an update or a rendering, which must not nest.
 bool isForLater(QObject* receiver, QEvent* event)
 {
   switch (event->type())
@@ -62,7 +62,7 @@ bool isForLater(QObject* receiver, QEvent* event)
     case QEvent::ShortcutOverride:
     case QEvent::TouchBegin:
     case QEvent::Wheel:
-      return receiver->isWidgetType(); // those of a window are sent on to its widgets
+      return receiver->isWidgetType(); // windows pass events to their widgets
     default:
       return false;
   }
@@ -153,7 +153,7 @@ void pqImageProgress::show(const QString& what, int percent)
 //------------------------------------------------------------------------------
 void pqImageProgress::enableAbort(pqProgressWidget* bar, bool isEnabled)
 {
-  // ParaView 6.1 signals to nobody else that the button was pressed.
+  // Observes the button, whose signal ParaView 6.1 sends to nobody else.
   QObject::connect(
     bar, &pqProgressWidget::abortPressed, this, &pqImageProgress::abort, Qt::UniqueConnection);
   bar->enableAbort(isEnabled);
@@ -197,7 +197,8 @@ void pqImageProgress::letAbort(vtkObject* filter)
   this->enableAbort(bar, true);
   const QScopedValueRollback<vtkAlgorithm*> executing(
     this->Executing, vtkAlgorithm::SafeDownCast(filter));
-  // ParaView lets nothing be pressed meanwhile, the window that the button is in included.
+  // Unblocks events, because ParaView blocks them during updates, those of the button's window
+  // included.
   const bool wasUnblocked = manager()->unblockEvents(true);
   QCoreApplication::instance()->installEventFilter(this);
   QCoreApplication::processEvents(

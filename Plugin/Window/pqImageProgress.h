@@ -14,8 +14,8 @@ class vtkAlgorithm;
 class vtkEventQtSlotConnect;
 class vtkObject;
 
-/// ParaView's progress bar and its abort button, while images are refined and, with the builtin server, while
-/// Apply waits for a refractive index.
+/// Shows ParaView's progress bar and abort button while images are refined and, with the builtin
+/// server, while Apply computes a refractive index.
 class pqImageProgress : public QObject
 {
   Q_OBJECT
@@ -25,7 +25,7 @@ public:
   ~pqImageProgress() override;
 
 protected:
-  /// While Apply or a view waits: nothing but the abort button answers.
+  /// Blocks all but the abort button during updates and renderings.
   bool eventFilter(QObject* receiver, QEvent* event) override;
 
 private Q_SLOTS:
@@ -41,7 +41,7 @@ private:
   void enableAbort(pqProgressWidget* bar, bool isEnabled);
 
   bool IsRefining = false;
-  vtkAlgorithm* Executing = nullptr; ///< while its progress is shown
+  vtkAlgorithm* Executing = nullptr; ///< whose progress is shown
   QElapsedTimer SinceEvents;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

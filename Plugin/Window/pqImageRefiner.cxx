@@ -32,14 +32,14 @@
 namespace
 {
 
-// Seconds that are traced at a time; a rendering comes on top of that.
+// Tracing time of a turn, seconds; the rendering adds to it.
 constexpr double timeSlice = 0.040;
 
-// Milliseconds. What is over before is not reported, and no report comes sooner after another.
+// Milliseconds: shorter work is not reported, and neither are changes within that time.
 constexpr qint64 unreported = 500;
 constexpr qint64 reportPeriod = 250;
 
-// Milliseconds, where something else must be over first.
+// Milliseconds until the next try, where something else must end first.
 constexpr int retryPeriod = 10;
 
 pqPipelineSource* sourceOf(vtkSMProxy* filter)
@@ -48,9 +48,8 @@ pqPipelineSource* sourceOf(vtkSMProxy* filter)
     filter);
 }
 
-/// While there is one, the window shows a filter's image and does nothing else with its updates. Its progress
-/// bar stands still, which paints the window each time it moves; its menus and panels do not hear of them: they look
-/// at the data again and draw their icons anew. Either would take longer than a slice.
+/// Blocks a filter's signals during its update: the progress bar would paint the window at each
+/// step, and menus and panels would read the data again, both slower than a turn.
 class QuietWindow
 {
 public:
@@ -75,7 +74,7 @@ public:
   QuietWindow& operator=(const QuietWindow&) = delete;
 
 private:
-  QPointer<pqPipelineSource> Source; // may end meanwhile
+  QPointer<pqPipelineSource> Source; // may be deleted meanwhile
   pqProgressManager* Manager = pqApplicationCore::instance()->getProgressManager();
   QObject Owner;
 };
@@ -110,15 +109,15 @@ void setTimeLimit(vtkSMProxy* filter, double seconds)
   filter->UpdateProperty("TimeLimit");
 }
 
-/// Without a time limit: lets the next update finish the image, if there is anything left. With one: works on it, and
-/// lets the next update show what is new, if anything is.
+/// Requests more of an image: without a limit, the next update finishes it; with one, works on it,
+/// and the next update shows the result.
 void requestMore(vtkSMProxy* filter)
 {
   SCOPED_UNDO_EXCLUDE();
   filter->InvokeCommand("Refine");
 }
 
-/// vtkPVView knows whether it is rendered for a screenshot, but only classes derived from it can read that.
+/// Reads the protected flag of vtkPVView for screenshots.
 struct Captured : vtkPVView
 {
   static bool is(vtkPVView* view) { return view && (view->*(&Captured::GetInCaptureScreenshot))(); }
@@ -169,7 +168,7 @@ pqImageRefiner* pqImageRefiner::instance()
 //------------------------------------------------------------------------------
 void pqImageRefiner::watch(pqView* view)
 {
-  // Before ParaView looks whether there is anything to update.
+  // Connects before ParaView tests whether to update.
   this->Connection->Connect(
     view->getProxy(), vtkCommand::StartEvent, this, SLOT(onStartRender(vtkObject*)), nullptr, 1);
   this->Connection->Connect(
@@ -181,7 +180,7 @@ void pqImageRefiner::watchAnimation(pqProxy* item)
 {
   if (auto* scene = qobject_cast<pqAnimationScene*>(item))
   {
-    // ParaView 5.11 has deprecated signals of the same names.
+    // Uses old syntax, because ParaView 5.11 has deprecated signals of the same names.
     this->connect(
       scene, SIGNAL(beginPlay(vtkObject*, unsigned long, void*, void*)), SLOT(onBeginPlay()));
     this->connect(
@@ -239,7 +238,7 @@ void pqImageRefiner::takeTurn()
   if (this->IsBusy || this->IsPlaying || pqRepresentationRefiner::isAnyBeingTurned() ||
     (source && source->getServer()->isProcessingPending()))
   {
-    // Among others, this is an event loop within someone's update or rendering.
+    // Retries later, for example in an event loop within an update or a rendering.
     this->Timer.start(retryPeriod);
     return;
   }
@@ -254,11 +253,10 @@ void pqImageRefiner::takeTurn()
     const QScopedValueRollback<bool> busy(this->IsBusy, true);
     isUnfinished = this->takeTurn(job);
   }
-  source = sourceOf(job.Filter); // rendering may have been its end
+  source = sourceOf(job.Filter); // rendering may have deleted it
   if (source && (!isUnfinished || (!job.IsAnnounced && job.ShownCount >= 0)))
   {
-    job.IsAnnounced =
-      true; // what panels say of the image is nearly right from the first samples on
+    job.IsAnnounced = true; // panels show nearly the final values from the first samples on
     Q_EMIT source->dataUpdated(source);
   }
   if (source && isUnfinished && !this->hasJob(job.Filter))
@@ -285,12 +283,12 @@ bool pqImageRefiner::takeTurn(Job& job)
   }
   setTimeLimit(filter, timeSlice);
   requestMore(filter);
-  // An update takes as long as a slice, whether there is anything to show or not.
+  // Updates only for a new image, because an update takes as long as a turn.
   if (imageCount(filter) != job.ShownCount || isFinished(filter))
   {
     update(filter, views.front());
     const vtkIdType count = imageCount(filter);
-    // Nothing is what is left of an image that failed.
+    // Shows images that failed, too, which have no points.
     if (count != job.ShownCount || filter->GetDataInformation(0)->GetNumberOfPoints() == 0)
     {
       job.ShownCount = count;
@@ -301,7 +299,7 @@ bool pqImageRefiner::takeTurn(Job& job)
   setTimeLimit(filter, 0);
   if (isUnfinished)
   {
-    requestMore(filter); // whoever else updates gets all of it
+    requestMore(filter); // other updates get all of it
   }
   return isUnfinished;
 }
@@ -367,7 +365,7 @@ void pqImageRefiner::stop()
     {
       const QuietWindow quiet(source);
       const QList<QPointer<pqView>> views = imagesInViews::showing(source);
-      // What is there is made the filter's output, so that rendering does not request more.
+      // Outputs the present image, so that the rendering does not request more.
       setTimeLimit(filter, 0.01);
       if (!views.isEmpty())
       {
@@ -434,7 +432,7 @@ void pqImageRefiner::unlimit()
     {
       continue;
     }
-    setTimeLimit(filter, 0); // first: with a limit a request may end without anything new to show
+    setTimeLimit(filter, 0); // before the request, which may do nothing with a limit
     if (!isFinished(filter))
     {
       requestMore(filter);

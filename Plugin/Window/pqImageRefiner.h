@@ -20,36 +20,34 @@ class vtkObject;
 class vtkSMProxy;
 class vtkSMSourceProxy;
 
-/// Brings the images of Schlieren filters up to date in the window, in pieces so short that it always
-/// answers.
-///
-/// A turn is one update of one filter, ended by its TimeLimit, and a rendering of the views that show it;
-/// between turns the window does whatever else there is to do, and filters take turns in a circle. So are updates by
-/// the rendering of a view. Outside these a filter that is not finished is ready for more, without a limit: whatever
-/// else updates it (a screenshot, an animation, a script, saving data) gets the complete image.
+/// Refines the images of Schlieren filters in the window, in turns that are short enough for it to
+/// respond.
+/// A turn is an update of a filter, limited by TimeLimit, and a rendering of its views; filters
+/// take turns. Updates by a rendering are limited, too. At all other times unfinished filters have
+/// no limit, so that screenshots, animations, scripts and saved data have complete images.
 class pqImageRefiner : public QObject
 {
   Q_OBJECT
 
 public:
-  /// The one of this program; made by the first call.
+  /// Returns the only instance; the first call makes it.
   static pqImageRefiner* instance();
 
-  /// Shows the image of a filter, or of one inside of a representation, whose properties have changed and been pushed
-  /// (UpdateVTKObjects), in all views that show it.
+  /// Shows the image of a filter, or of one inside of a representation, in all its views after
+  /// UpdateVTKObjects().
   void refine(vtkSMProxy* filter);
 
-  /// Leaves all images as they are that are being refined, until something else changes them.
+  /// Stops refining all images until something else changes them.
   void stop();
 
-  /// Whether there are ShortUpdates.
+  /// Returns whether there are ShortUpdates.
   bool isShort() const { return this->NumberOfShortUpdates > 0; }
 
-  /// Whether an animation is played, whose frames may be saved: each image is complete.
+  /// Returns whether an animation plays, whose frames, perhaps saved, are complete.
   bool isPlaying() const { return this->IsPlaying; }
 
-  /// While there is one, updates of all filters are as short as turns, and what they leave unfinished is
-  /// refined afterwards. Filters' properties are not to be pushed meanwhile: the undo stack would keep the limit.
+  /// Limits updates of all filters to a turn during its lifetime; unfinished images are refined
+  /// afterwards. Do not push properties meanwhile, or the undo stack would have the limit.
   class ShortUpdates
   {
   public:
@@ -60,10 +58,10 @@ public:
   };
 
 Q_SIGNALS:
-  /// Views now show another image of the filter.
+  /// Views show another image of the filter.
   void imageChanged(vtkSMProxy* filter);
 
-  /// What is being refined for some time now, and how much of it is there; nothing any more: empty.
+  /// Reports an image that is refined for some time, and its completed fraction; empty: none is.
   void progressed(const QString& what, int percent);
 
 private Q_SLOTS:
@@ -80,8 +78,8 @@ private:
   struct Job
   {
     vtkWeakPointer<vtkSMSourceProxy> Filter;
-    vtkIdType ShownCount = -1; ///< PictureCount of the image that views show
-    bool IsAnnounced = false;  ///< panels know that there is one
+    vtkIdType ShownCount = -1; ///< PictureCount of the image in views
+    bool IsAnnounced = false;  ///< panels have been notified of it
     QElapsedTimer Since{};
   };
 
@@ -98,12 +96,12 @@ private:
   void show(vtkSMSourceProxy* filter, const QList<QPointer<pqView>>& views);
   bool hasJob(vtkSMSourceProxy* filter) const;
 
-  QList<Job> Jobs; // the next one first
+  QList<Job> Jobs; // in the order of turns
   QTimer Timer;
   bool IsBusy = false;
   bool IsPlaying = false;
-  QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // while a view renders, and by ShortUpdates
+  QList<vtkWeakPointer<vtkSMSourceProxy>> Limited; // during renderings and ShortUpdates
   int NumberOfShortUpdates = 0;
-  QElapsedTimer SinceReport; // valid while something is reported
+  QElapsedTimer SinceReport; // valid during reports
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -26,7 +26,7 @@ namespace
 const QString labelName = "SchlierenStatus";
 constexpr int margin = 6; // pixels
 
-/// At the lower left, where there is room for it: for each word, and not over most of an image.
+/// Places the label at the lower left if its words fit and do not cover most of an image.
 void place(QLabel* label, QWidget* view)
 {
   label->setWordWrap(false);
@@ -61,7 +61,7 @@ pqImageStatus::pqImageStatus(QObject* parentObject)
 {
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqImageStatus::watch);
-  // A view that is being destroyed still sends signals, but can no longer be queried.
+  // Forgets views early, because they signal but cannot be queried while destroyed.
   QObject::connect(model, &pqServerManagerModel::preViewRemoved, this,
     [this](pqView* view) { view->disconnect(this); });
   QObject::connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this,
@@ -97,7 +97,7 @@ void pqImageStatus::show(pqRenderView* view)
   QWidget* widget = view->widget();
   if (!widget)
   {
-    return; // the view is about to go
+    return; // the view is being deleted
   }
   QStringList lines;
   if (imagesInViews::isFlat(view))

@@ -7,8 +7,8 @@
 class pqRenderView;
 class pqView;
 
-/// Writes at the lower left of views how complete the images are that they show: the Status of filters and of those
-/// inside of representations. Not part of what is saved.
+/// Shows the status of images, of filters and of those inside of representations, at the lower left
+/// of views. Not saved.
 class pqImageStatus : public QObject
 {
   Q_OBJECT
@@ -17,7 +17,7 @@ public:
   explicit pqImageStatus(QObject* parent);
 
 protected:
-  /// The widgets of views: their size has changed.
+  /// Watches the size of views.
   bool eventFilter(QObject* widget, QEvent* event) override;
 
 private:

@@ -24,7 +24,7 @@
 namespace
 {
 
-/// Seconds that are traced at a time: the window answers in between.
+/// Tracing time between responses of the window, seconds.
 constexpr double timeSlice = 0.04;
 constexpr int pauseMilliseconds = 1;
 
@@ -43,14 +43,15 @@ bool isUnfinished(pqRepresentation* representation)
   {
     return false;
   }
-  // The representation itself is on the client, too, where it knows nothing.
+  // Reads from the server, because the client's own representation knows nothing.
   bench->UpdatePropertyInformation(bench->GetProperty("Finished"));
   bench->UpdatePropertyInformation(bench->GetProperty("Status"));
   return vtkSMPropertyHelper(bench, "Finished").GetAsInt() == 0 ||
     std::strncmp(vtkSMPropertyHelper(bench, "Status").GetAsString(), "Preview", 7) == 0;
 }
 
-/// Whether the images are traced by who draws the view: then updates of a stream improve them; else each drawing does.
+/// Returns whether the process that draws also traces: then streaming updates refine images; else
+/// each rendering does.
 bool isTracedWhereDrawn(pqView* view)
 {
   auto* client = vtkPVRenderView::SafeDownCast(view->getProxy()->GetClientSideObject());
@@ -150,7 +151,7 @@ void pqRepresentationRefiner::watch(pqView* view)
 void pqRepresentationRefiner::refineLater(pqView* view)
 {
   const QList<pqRepresentation*> shown = view->getRepresentations();
-  // One timer for each view: streaming updates render, too.
+  // Uses one timer for each view, because streaming updates render, too.
   if (isBeingTurned(view) || view->property("SchlierenIsRefined").toBool() ||
     std::none_of(shown.begin(), shown.end(), isSchlieren))
   {

@@ -9,9 +9,9 @@ class pqRepresentation;
 class pqView;
 class vtkSMProxy;
 
-/// Lets images of data that are drawn as Schlieren appear coarse and improve while the window waits for the user: it
-/// limits what one rendering traces, and requests streaming updates of their views until all images are complete.
-/// ParaView's own pqViewStreamingBehavior serves the active view alone, and only with a global switch.
+/// Refines images of representations while the window is idle: limits the tracing of a rendering,
+/// and requests streaming updates of views until images are complete. ParaView's
+/// pqViewStreamingBehavior serves only the active view, and depends on a global setting.
 class pqRepresentationRefiner : public QObject
 {
   Q_OBJECT
@@ -19,16 +19,17 @@ class pqRepresentationRefiner : public QObject
 public:
   explicit pqRepresentationRefiner(QObject* parent);
 
-  /// Whether a representation is visible and draws its data as Schlieren.
+  /// Returns whether a representation is visible and draws its data as Schlieren.
   static bool isSchlieren(pqRepresentation* representation);
 
-  /// The proxies of the filters inside of the representations that a view draws as Schlieren.
+  /// Lists the proxies of the filters inside of the representations that a view draws as Schlieren.
   static QList<vtkSMProxy*> benchesIn(pqView* view);
 
-  /// Whether the user turns or moves what a render view shows.
+  /// Returns whether the user turns or moves a render view.
   static bool isAnyBeingTurned();
 
-  /// Shows what has changed of the proxy of the filter inside of a representation; of no effect for others.
+  /// Renders the views of a filter inside of a representation after changes of its proxy; ignores
+  /// others.
   static void renderViewsOf(vtkSMProxy* bench);
 
 private Q_SLOTS:

@@ -23,7 +23,7 @@ pqSchlierenStart::~pqSchlierenStart() = default;
 //------------------------------------------------------------------------------
 void pqSchlierenStart::startup()
 {
-  // A plugin that is loaded again starts another one.
+  // Starts only one instance, even if the plugin is loaded again.
   static QPointer<pqSchlierenStart> first;
   if (first || !pqApplicationCore::instance())
   {
@@ -34,7 +34,7 @@ void pqSchlierenStart::startup()
   new pqImageDisplayKeeper(this);
   new pqRepresentationRefiner(this);
   new pqImageProgress(this);
-  // ParaView's window may come after its plugins.
+  // Waits for ParaView's window, which may come after its plugins.
   auto* hooks = new pqApplyHooks(this);
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
     &pqServerManagerModel::sourceAdded, hooks, [hooks](pqPipelineSource*) { hooks->setUp(); });

@@ -4,7 +4,7 @@
 
 #include <QObject>
 
-/// Sets up what the plugin does in ParaView's window without being called.
+/// Starts the plugin's automatic functions in ParaView's window.
 class pqSchlierenStart : public QObject
 {
   Q_OBJECT

@@ -46,13 +46,13 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
   {
     if (qobject_cast<pqViewFrame*>(widget))
     {
-      this->addToEmpty(widget); // those from before the plugin was loaded
+      this->addToEmpty(widget); // cells from before the plugin was loaded
     }
   }
   QObject::connect(&pqActiveObjects::instance(), &pqActiveObjects::sourceChanged, this,
     &pqSchlierenToolBar::updateActions);
   this->updateActions();
-  // When ParaView has put it somewhere.
+  // Waits until ParaView has placed it.
   QTimer::singleShot(0, this, [this]() { this->makeRoom(); });
 }
 
@@ -77,7 +77,7 @@ void pqSchlierenToolBar::frameConnected(pqViewFrame* frame, pqView* view)
 //------------------------------------------------------------------------------
 void pqSchlierenToolBar::addToEmpty(QWidget* frame)
 {
-  // ParaView's buttons, by their text.
+  // Inserts the button by its text among ParaView's.
   auto* list = frame->findChild<QWidget*>("ConvertActionsFrame");
   auto* layout = list ? qobject_cast<QBoxLayout*>(list->layout()) : nullptr;
   if (!layout)
@@ -111,7 +111,7 @@ void pqSchlierenToolBar::addToEmpty(QWidget* frame)
             cell->property("FRAME_INDEX").toInt() }));
       }
     },
-    Qt::QueuedConnection); // the button goes with the empty cell
+    Qt::QueuedConnection); // the button is deleted with the empty cell
 }
 
 //------------------------------------------------------------------------------
@@ -120,7 +120,7 @@ QAction* pqSchlierenToolBar::addArrangement(const char* name, const QString& tex
 {
   auto* action = new QAction(QIcon(QString(":/Schlieren/%1.svg").arg(name)), text, this);
   action->setObjectName(QString("action%1").arg(name));
-  action->setToolTip(hint); // no status tip: it would clear the message below the window
+  action->setToolTip(hint); // a status tip would clear the message below the window
   this->addAction(action);
   QWidget* button = this->widgetForAction(action);
   button->setObjectName(name);
@@ -153,7 +153,7 @@ void pqSchlierenToolBar::makeRoom()
   auto* window = qobject_cast<QMainWindow*>(this->parentWidget());
   const QByteArray places =
     pqApplicationCore::instance()->settings()->value("MainWindow/Layout").toByteArray();
-  QByteArray name; // as QMainWindow::saveState() writes it
+  QByteArray name; // the format of QMainWindow::saveState()
   for (const QChar letter : this->objectName())
   {
     name.append(static_cast<char>(letter.row())).append(static_cast<char>(letter.cell()));
@@ -189,7 +189,7 @@ void pqSchlierenToolBar::showResult(const SchlierenViews::Result& result)
     {
       vtkOutputWindowDisplayWarningText(line.constData());
     }
-    // Not at once: what the button still has to do would clear it.
+    // Waits, because the button's remaining work would clear it.
     QTimer::singleShot(1000, this,
       [message = result.message]()
       {

@@ -11,8 +11,8 @@
 class QAction;
 class QMessageBox;
 
-/// The toolbar Schlieren, the menu of the same name with the same actions, and the first of them among the views that
-/// ParaView offers in an empty cell of a layout.
+/// The toolbar and menu Schlieren, whose first action is also among the views for an empty cell of
+/// a layout.
 class pqSchlierenToolBar : public QToolBar, public pqViewFrameActionsInterface
 {
   Q_OBJECT
@@ -25,7 +25,7 @@ public:
   void frameConnected(pqViewFrame* frame, pqView* view) override;
 
 private Q_SLOTS:
-  /// Enables what fits the selected source.
+  /// Enables the actions that fit the selected source.
   void updateActions();
 
 private:
@@ -34,7 +34,7 @@ private:
   void addMenu();
   void addToEmpty(QWidget* frame);
 
-  /// Moves to the last row of toolbars, where there is room, unless the user has placed it before.
+  /// Moves to the last row of toolbars, where there is room, unless the user has moved it before.
   void makeRoom();
   void showResult(const SchlierenViews::Result& result);
 

@@ -46,7 +46,8 @@ void AmrFaces::addDomain()
   }
 }
 
-/// `gas`: what is to have gas, beside (`isAbove`: behind, along the axis) a cell of the level that has none.
+/// Adds the face of the cell `gas`, if it has gas, to the cell before it (`isAbove`) or behind it
+/// along the axis, which has none.
 void AmrFaces::addFace(
   std::size_t level, const Counts& gas, std::size_t axis, bool isAbove, bool isHidden)
 {
@@ -110,7 +111,7 @@ std::int32_t AmrFaces::pointAt(std::size_t level, const Counts& corner)
   std::uint64_t key = 0;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    // A level has less than a million cells along an axis, see findLevels().
+    // findLevels() limits levels to a million cells along an axis.
     key = key << 20 | static_cast<std::uint64_t>(corner[i] * ratio[i]);
   }
   std::vector<Point>& points = this->Faces.surface.points;
@@ -120,7 +121,7 @@ std::int32_t AmrFaces::pointAt(std::size_t level, const Counts& corner)
     Point place;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      // The same to the last bit on all ranks, whichever level they find it on.
+      // Computes the point from its index on the finest level, so that all ranks get the same bits.
       place[i] = this->Origin[i] + corner[i] * ratio[i] * finest.spacing[i];
     }
     points.push_back(place);

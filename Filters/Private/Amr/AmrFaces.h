@@ -11,19 +11,17 @@
 namespace filters
 {
 
-/// What a cell of a level is.
+/// The state of a cell of a level.
 enum class CellState : unsigned char
 {
-  None,    ///< no block of this level or a finer one has it
-  Refined, ///< finer blocks cover it
+  None,    ///< not in a block of this or a finer level
+  Refined, ///< covered by finer blocks
   Gas,
   Solid
 };
 
-/**
- * The faces between the gas of adaptive meshes and cells that hold none, each as large as the smaller of the two cells
- * beside it.
- */
+/// Collects the faces between gas and cells without gas. Each is as large as the smaller cell
+/// beside it.
 class AmrFaces
 {
 public:
@@ -32,10 +30,11 @@ public:
   struct Level
   {
     std::array<double, 3> spacing;
-    Counts cells; // of the domain
+    Counts cells; // cells of the domain
   };
 
-  /// `origin`: the domain's first corner. `levels`: coarsest first. `stateOf`: of cells in the domain.
+  /// `origin`: first corner of the domain. `levels`: coarsest first. `stateOf`: the state of a cell
+  /// in the domain.
   AmrFaces(
     const std::array<double, 3>& origin, std::vector<Level> levels, StateOf stateOf, Extent extent)
     : Origin(origin)
@@ -46,10 +45,10 @@ public:
     this->Faces.extent = extent;
   }
 
-  /// The faces around a cell without gas.
+  /// Adds the faces around a cell without gas.
   void addAround(std::size_t level, const Counts& cell, bool isHidden);
 
-  /// The faces of the domain.
+  /// Adds the faces at the border of the domain.
   void addDomain();
 
   BoundaryFaces take() { return std::move(this->Faces); }
@@ -66,11 +65,11 @@ private:
   StateOf State;
   std::size_t Axes;
   BoundaryFaces Faces;
-  std::unordered_map<std::uint64_t, std::int32_t> Points; // by their place on the finest level
+  std::unordered_map<std::uint64_t, std::int32_t> Points; // by index on the finest level
 };
 
-/// Puts triangles and points in an order that does not depend on who has found them: of those that are as near, the first
-/// counts. Of the same ones one stays.
+/// Sorts triangles and points, so that their order does not depend on ranks, and removes duplicate
+/// triangles.
 void sortTriangles(BoundaryFaces& faces);
 
 } // namespace filters

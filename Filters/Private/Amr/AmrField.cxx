@@ -21,18 +21,18 @@ namespace
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Cells around one that its reconstruction reads, and one for places on a border.
+/// Number of cells around one that its reconstruction reads, plus one for points on a border.
 constexpr int reach = 3;
 
-constexpr double rounding = 1e-6;           // of places, in cells
-constexpr double atBorder = 0.5 - rounding; // from a cell's centre
+constexpr double rounding = 1e-6;           // of positions, in cells
+constexpr double atBorder = 0.5 - rounding; // distance from a cell's centre
 
 void inTurn(std::ptrdiff_t rows, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& work)
 {
   work(0, rows);
 }
 
-/// A place on a face between cells belongs to the cell behind it, however it is rounded.
+/// Assigns positions on a face between cells to the cell behind it, regardless of rounding.
 double onFaces(double cells)
 {
   const double face = std::round(cells);
@@ -153,7 +153,7 @@ BoundaryFaces AmrField::faces() const
   return faces.take();
 }
 
-/// Returns n where each nth cell at the border of the domain is looked at.
+/// Returns n if each nth cell at the border of the domain is sampled.
 int AmrField::outerCellsForOne() const
 {
   double cells = 0;
@@ -206,7 +206,7 @@ std::vector<WeightedValue> AmrField::outerValues() const
   return values;
 }
 
-/// The cells of a level that a box meets, with some around them.
+/// Returns the cells of a level that meet a box, and `margin` cells around them.
 CellBox AmrField::cellsIn(const Level& level, const schlieren::Box& box, int margin) const
 {
   CellBox cells{ { 0, 0, 0 }, { 0, 0, 1 } };
@@ -223,7 +223,7 @@ CellBox AmrField::cellsIn(const Level& level, const schlieren::Box& box, int mar
   return cells;
 }
 
-/// N of the cells of a level in a box; NaN in solids and outside of the domain.
+/// Returns N of a level's cells in a box; NaN in solids and outside of the domain.
 std::vector<double> AmrField::valuesIn(std::size_t number, const CellBox& box) const
 {
   const Level& level = this->Levels[number];
@@ -246,7 +246,7 @@ std::vector<double> AmrField::valuesIn(std::size_t number, const CellBox& box) c
         });
     });
   const CellBox inside = intersection(box, { { 0, 0, 0 }, level.cells });
-  CellBox missing{ box.end, box.begin }; // around those that no block has
+  CellBox missing{ box.end, box.begin }; // bounds of the cells that no block has
   forCells(inside.begin, inside.size(),
     [&](int i, int j, int k)
     {
@@ -296,7 +296,7 @@ std::vector<double> AmrField::valuesIn(std::size_t number, const CellBox& box) c
   return sums;
 }
 
-/// The coarsest level that is no coarser than a lattice, or the finest there is where the lattice lies.
+/// Returns the coarsest level that resolves a lattice, or the finest one that has blocks there.
 std::size_t AmrField::levelFor(const schlieren::Lattice& lattice) const
 {
   const schlieren::Box box = boxAround(lattice, 0);
@@ -356,7 +356,8 @@ CellTree::Content AmrField::contentOf(const schlieren::Box& box) const
         {
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
-            // The spline has more detail than one voxel of the size of a cell shows.
+            // Halves the size, because the spline has more detail than voxels of the cell's size
+            // resolve.
             content.cellSize[axis] = std::min(content.cellSize[axis], level.spacing[axis] / 2);
           }
         }
@@ -371,10 +372,10 @@ void AmrField::sample(
   const std::size_t number = this->levelFor(lattice);
   const Level& level = this->Levels[number];
   schlieren::Box all{}, part{};
-  std::array<std::vector<double>, 3> middles; // cells of the level, from the domain's corner
+  std::array<std::vector<double>, 3> middles; // in cells of the level from the domain's corner
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    // Outside of the domain, as at its border.
+    // Clamps points outside of the domain to its border.
     const auto middleOf = [&](int point)
     {
       const double at = lattice.first[axis] + point * lattice.spacing[axis] - this->Origin[axis];
@@ -392,7 +393,7 @@ void AmrField::sample(
     part.low[axis] = placeOf(points.begin[axis]);
     part.high[axis] = placeOf(points.end[axis] - 1);
   }
-  // What a part of the lattice reads is what all of it would read there.
+  // Reads the cells that the points depend on, but none that the whole lattice would not read.
   const CellBox box =
     intersection(this->cellsIn(level, all, reach), this->cellsIn(level, part, cellsOfSpline));
   std::vector<double> found = this->valuesIn(number, box);

@@ -21,61 +21,64 @@ namespace filters
 {
 
 /**
- * N, or another field, in the cells of adaptive meshes, and what is between the cells.
+ * Reconstructs N, or another field, from cell means of adaptive meshes.
  *
- * Values of a lattice are made of cells of one level: the coarsest that is no coarser than the lattice. A cell under finer
- * blocks has the mean of the finer cells, and one that no block of its level holds has the mean over its place of a
- * polynomial through the next coarser level (fourth degree, one axis after the other); so the borders of blocks and levels
- * do not show. Points take the values of the same polynomials, not means: a medium has values at its points.
- *
- * Cells that are hidden or whose value is not finite are solid.
+ * Samples a lattice from cells of one level: the coarsest one whose cells are no larger than the
+ * lattice's spacing. There, cells under finer blocks have the mean of the finer cells; cells that
+ * no block of the level has get their means from a polynomial of fourth degree through the next
+ * coarser level, axis by axis, which hides the borders of blocks and levels. Points get values, not
+ * means. Hidden cells and cells whose value is not finite are solid.
  */
 class AmrField
 {
 public:
-  /// `levels`: of all blocks; turned, where they are flat (see turnedAcrossZ). `source` has their
-  /// images. To `tally` is added what is wrong with their values.
+  /// `levels`: those of all ranks' blocks, turned if flat (see turnedAcrossZ()). `source` has the
+  /// blocks of this rank. Counts doubtful values in `tally`.
   AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
     const WorkProgress& progress = WorkProgress());
 
   int flatAxis() const { return this->FlatAxis; }
-  std::int64_t ownCells() const { return this->OwnCells; } // with values
-  schlieren::Box bounds() const { return this->Bounds; }   // of the domain
+  std::int64_t ownCells() const { return this->OwnCells; } // cells with values
+  schlieren::Box bounds() const { return this->Bounds; }   // bounds of the domain
   std::array<double, 3> voxelShape() const { return this->Levels[0].spacing; }
 
-  /// The faces around cells without gas, and those of gas beside what no block holds.
+  /// Returns the faces around cells without gas, and those of gas beside cells that no block has.
   BoundaryFaces faces() const;
 
-  /// Values of cells at the border of the domain, each with an area; of more than a million each nth.
+  /// Returns the values at the border of the domain, weighted by area; of more than a million, each
+  /// nth.
   std::vector<WeightedValue> outerValues() const;
 
-  /// Of cells within a few cells of a box; see CellTree::content(). lowest > highest: there are none.
+  /// Returns the content of the cells within a few cells of a box; see CellTree::content(). lowest
+  /// > highest: none.
   CellTree::Content contentOf(const schlieren::Box& box) const;
-  /// Whether one of the cells holds the place. Outside of a domain that is a box, as at its border.
+  /// Returns whether a cell contains the point. Points outside of a box-shaped domain are clamped
+  /// to it.
   bool hasGasAt(const Point& place) const;
-  /// The same of all points of a lattice.
+  /// Returns hasGasAt() for all points of a lattice.
   std::vector<unsigned char> gasAt(const schlieren::Lattice& lattice) const;
-  /// At those points of a lattice whose indices are in `points`; NaN in solids.
+  /// Samples the points of a lattice whose indices are in `points`; NaN in solids.
   void sample(const schlieren::Lattice& lattice, const CellBox& points, double* values) const;
 
 private:
-  /// What a value depends on is no more cells of the lattice's level away: two coefficients of the spline, of which each
-  /// depends on two cells more. Of the next coarser level it is half as far, and what a polynomial reads.
+  /// Maximum distance, in cells of the lattice's level, of the cells that a value depends on: two
+  /// spline coefficients, each of which reads two more cells. Interpolation from coarser levels
+  /// reads fewer.
   static constexpr int cellsOfSpline = 4;
 
-  /// Cells of a level that are known: those of a block, or the means of a finer block's.
+  /// Known cells of a level: those of a block, or means of a finer block's cells.
   struct Block
   {
     CellBox box;
     std::vector<double> means;
-    std::vector<float> parts; // of a cell that its mean is of; 0: not known
-    std::vector<bool> solids; // which of the cells that are not known; empty: none
-    bool isOfLevel;           // rather than finer
+    std::vector<float> parts; // known fraction of each cell; 0: unknown
+    std::vector<bool> solids; // whether unknown cells are solid; empty: none is
+    bool isOfLevel;           // instead of a finer level
 
-    bool isEmpty() const; // nothing is known of any cell
+    bool isEmpty() const; // no cell is known
     bool isSolid(std::size_t cell) const { return !this->solids.empty() && this->solids[cell]; }
 
-    /// Values of parts of the block, for contentOf(); lowest > highest: none.
+    /// Range of values in a piece of the block, for contentOf(); lowest > highest: no values.
     struct Range
     {
       double lowest, highest;
@@ -91,18 +94,18 @@ private:
     Counts cells;
     std::vector<AmrBlock> all; // blocks of the level
     std::unique_ptr<const BoxBins> binsOfAll;
-    std::unique_ptr<const BoxBins> covered; // by finer blocks
+    std::unique_ptr<const BoxBins> covered; // cells that finer blocks cover
     std::vector<Block> blocks;
     std::unique_ptr<const BoxBins> bins;
   };
-  /// Cells of a block that are looked at together, along each axis.
+  /// Edge length, in cells, of the pieces whose ranges are stored.
   static constexpr int pieceEdge = 8;
   static Block coarser(const Block& block, const Counts& ratio);
   void addOwn(std::size_t level, Block block);
   void sortBlocks();
   void findMissingCells();
   int outerCellsForOne() const;
-  /// Along which there are several cells.
+  /// Returns the number of axes with several cells.
   std::size_t axes() const { return this->FlatAxis >= 0 ? 2 : 3; }
   CellBox cellsIn(const Level& level, const schlieren::Box& box, int margin) const;
   std::vector<double> valuesIn(std::size_t level, const CellBox& box) const;
@@ -114,7 +117,7 @@ private:
   schlieren::Box Bounds;
   std::vector<Level> Levels;
   std::int64_t OwnCells = 0;
-  // Cells of the coarsest level that no block has; empty: the domain is a box, with blocks all over.
+  // Cells of the coarsest level that no block has; empty: the blocks fill the domain.
   std::vector<bool> AreMissing;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cells an AmrField knows: those of its blocks, and their means on coarser levels.
+// Collects the cells that an AmrField knows: those of its blocks, and their means on coarser
+// levels.
 #include "Amr/AmrField.h"
 
 #include <algorithm>
@@ -18,10 +19,10 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What a polynomial through cells of the next coarser level reads on each side.
+/// Number of coarser cells on each side that a polynomial reads.
 constexpr int cellsOfPolynomial = 2;
 
-/// The cells of a block that are no copies.
+/// Returns the cells of a block that are not copies.
 CellBox ownBoxOf(const AmrBlock& block)
 {
   CellBox box;
@@ -33,7 +34,7 @@ CellBox ownBoxOf(const AmrBlock& block)
   return box;
 }
 
-/// Calls visit(box) for the pieces of a box.
+/// Calls visit(box) for all pieces of a box.
 template <class Visit>
 void forPieces(const CellBox& box, int pieceEdge, const Visit& visit)
 {
@@ -56,7 +57,7 @@ void forPieces(const CellBox& box, int pieceEdge, const Visit& visit)
     });
 }
 
-/// Those of a coarser level that a box meets.
+/// Returns the cells of the coarser level that a box meets.
 CellBox coarserBox(const CellBox& box, const Counts& ratio)
 {
   CellBox coarse;
@@ -99,7 +100,7 @@ void AmrField::Block::findRanges()
     });
 }
 
-/// The means over the cells of the next coarser level.
+/// Averages a block over the cells of the next coarser level.
 AmrField::Block AmrField::coarser(const Block& block, const Counts& ratio)
 {
   Block result{};
@@ -177,7 +178,7 @@ AmrField::AmrField(
   this->sortBlocks();
 }
 
-/// With what it says of coarser levels.
+/// Adds a block and its means on all coarser levels.
 void AmrField::addOwn(std::size_t level, Block block)
 {
   block.findRanges();
@@ -192,7 +193,6 @@ void AmrField::addOwn(std::size_t level, Block block)
   }
 }
 
-/// Puts them into bins.
 void AmrField::sortBlocks()
 {
   for (Level& level : this->Levels)
@@ -206,7 +206,7 @@ void AmrField::sortBlocks()
   }
 }
 
-/// Those of the coarsest level that no block has.
+/// Finds the cells of the coarsest level that no block has.
 void AmrField::findMissingCells()
 {
   const CellBox domain{ { 0, 0, 0 }, this->Levels[0].cells };

@@ -19,15 +19,15 @@ namespace filters
 namespace
 {
 
-/// Part of a cell by which a block may miss its lattice: blocks are often placed in single precision.
+/// Tolerance, in cells, of block positions: they are often in single precision.
 constexpr double latticeTolerance = 0.02;
 
-/// Cells of the coarsest lattice, in cells of blocks.
+/// Maximum ratio of the cells of the coarsest lattice to those of all blocks.
 constexpr std::size_t maxEmpty = 8;
 
 bool isNearlyWhole(double x) { return std::abs(x - std::round(x)) < latticeTolerance; }
 
-/// Cells along each axis; 1 along the axis that is flat.
+/// Returns the cells along each axis; 1 along a flat axis.
 Counts cellsOf(vtkImageData* image)
 {
   Counts points;
@@ -35,7 +35,7 @@ Counts cellsOf(vtkImageData* image)
   return { std::max(points[0] - 1, 1), std::max(points[1] - 1, 1), std::max(points[2] - 1, 1) };
 }
 
-/// The first corner; along a flat axis, half a unit before the plane.
+/// Returns the first corner; along a flat axis, half a unit before the plane.
 std::array<double, 3> cornerOf(vtkImageData* image, int flat)
 {
   std::array<double, 3> corner;
@@ -48,7 +48,7 @@ std::array<double, 3> cornerOf(vtkImageData* image, int flat)
   return corner;
 }
 
-/// The axis along which an image has one point: -1 for none, -2 where there are several.
+/// Returns the axis along which an image has one point; -1: none, -2: several.
 int flatAxisOf(vtkImageData* image)
 {
   int flat = -1;
@@ -73,7 +73,7 @@ std::array<double, 3> spacingOf(vtkImageData* image, int flat)
   return spacing;
 }
 
-/// Finds the cells that are no copies of other blocks' cells.
+/// Finds the cells that are not copies from other blocks.
 void findOwnCells(vtkDataSet* data, AmrImage& image)
 {
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
@@ -101,8 +101,8 @@ void findOwnCells(vtkDataSet* data, AmrImage& image)
     });
 }
 
-/// Puts the images on levels, coarsest first, with positions yet to be found. Empty where they are not all flat along
-/// the same axis.
+/// Sorts the images by level, coarsest first, without positions. Empty if they are not all flat
+/// along the same axis.
 std::vector<AmrLevel> sortedByLevel(const std::vector<AmrImage>& images)
 {
   std::vector<AmrLevel> levels;
@@ -134,7 +134,7 @@ std::vector<AmrLevel> sortedByLevel(const std::vector<AmrImage>& images)
   return levels;
 }
 
-/// Finds where the blocks lie. Returns whether there is such a lattice.
+/// Finds the positions of blocks on a common lattice. Returns whether there is one.
 bool place(
   const std::vector<AmrImage>& images, std::vector<AmrLevel>& levels, std::array<double, 3>& origin)
 {
@@ -157,7 +157,7 @@ bool place(
         high = std::max(high, cornerOn(block) + block.cells[axis] * level.spacing[axis]);
       }
     }
-    // A whole number of coarsest cells, in step with the coarsest blocks.
+    // Extends the domain by whole coarsest cells from a coarsest block.
     const double anchor = cornerOn(levels[0].blocks[0]);
     origin[axis] = anchor - std::ceil((anchor - low) / coarsest - latticeTolerance) * coarsest;
     const double cells = std::ceil((high - origin[axis]) / coarsest - latticeTolerance);
@@ -225,7 +225,7 @@ std::optional<AmrLevels> findLevels(const std::vector<AmrImage>& images)
     return std::nullopt;
   }
   found.flat = images[0].flat;
-  // Blocks far apart: a lattice over all of them would be empty.
+  // Rejects blocks so far apart that a common lattice would be mostly empty.
   std::size_t cells = 0;
   for (const AmrLevel& level : found.levels)
   {
@@ -268,7 +268,7 @@ AmrLevels turnedAcrossZ(AmrLevels levels)
   {
     return levels;
   }
-  // The order of cells stays as it is: x is before y, and only one layer is across.
+  // Keeps the order of cells: x is before y, and there is one layer across the plane.
   const auto flat = static_cast<std::size_t>(levels.flat);
   const std::size_t along = flat == 0 ? 1 : 0, up = flat == 2 ? 1 : 2;
   const auto turn = [&](auto& of) { of = { of[along], of[up], of[flat] }; };

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-/// The blocks and levels of adaptive meshes whose cells hold the values.
+/// The levels and blocks of adaptive meshes with values in cells.
 namespace filters
 {
 
@@ -24,54 +24,56 @@ inline std::size_t volume(const Counts& n)
     static_cast<std::size_t>(n[2]);
 }
 
-/// What is needed of an image with values in its cells to find its level.
+/// The geometry of an image with values in cells.
 struct AmrImage
 {
-  std::array<double, 3> corner; // along a flat axis, half a unit before the plane
+  std::array<double, 3> corner; // along a flat axis: half a unit before the plane
   std::array<double, 3> spacing;
   Counts cells; // along a flat axis: 1
   Counts ownBegin,
-    ownEnd; // those that are no copies from others: a box, around which the copies lie
-  int flat; // the axis along which it has one layer of points; -1: none
+    ownEnd; // the box of cells that are not copies, which surround it
+  int flat; // axis with one layer of points; -1: none
 };
-/// Nothing where the leaf is no such image: it has point arrays, is turned, or has one point along several axes.
+/// Returns nothing for other leaves: with point arrays, turned, or with one point along several
+/// axes.
 std::optional<AmrImage> amrImageOf(const Leaf& leaf);
 
-/// A block, and where it lies on the lattice of its level.
+/// A block and its position on the lattice of its level.
 struct AmrBlock
 {
-  std::size_t leaf;         // the image's number
-  std::array<int, 3> first; // its first cell
+  std::size_t leaf;         // index of the image
+  std::array<int, 3> first; // first cell
   std::array<int, 3> cells;
-  std::array<int, 3> ownBegin, ownEnd; // those within the block that are no copies from others
+  std::array<int, 3> ownBegin, ownEnd; // cells of the block that are not copies
 };
 
-/// All blocks of one spacing, coarsest level first.
+/// All blocks of one spacing.
 struct AmrLevel
 {
   std::array<double, 3> spacing;
-  std::array<int, 3> cells; // of the domain
+  std::array<int, 3> cells; // cells of the domain
   std::vector<AmrBlock> blocks;
 };
 
 struct AmrLevels
 {
   std::vector<AmrLevel> levels;
-  int flat;                     // the axis along which the data have one layer of points; -1: none
-  std::array<double, 3> origin; // the domain's first corner
+  int flat;                     // axis with one layer of points; -1: none
+  std::array<double, 3> origin; // first corner of the domain
 
-  schlieren::Box bounds() const; // of the domain
+  schlieren::Box bounds() const; // bounds of the domain
 };
 
-/// Nothing where they are not on one lattice.
+/// Returns nothing if the images do not fit into one lattice.
 std::optional<AmrLevels> findLevels(const std::vector<AmrImage>& images);
-/// Nothing where the leaves are no such images, too.
+/// Returns nothing if amrImageOf() does so for a leaf, or if the images do not fit into one
+/// lattice.
 std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves);
 
-/// Gives flat levels another depth than one unit, about the same plane.
+/// Sets the depth of flat levels, by default one unit, about the same plane.
 void setDepth(AmrLevels& levels, double depth);
 
-/// Flat levels in the axes of directionAcross().
+/// Turns flat levels to the axes of directionAcross().
 AmrLevels turnedAcrossZ(AmrLevels levels);
 
 /// Calls visit(i, j, k) for all cells from `first` on, x fastest.
@@ -95,7 +97,7 @@ inline Counts ratioOf(const Counts& fine, const Counts& coarse)
   return { fine[0] / coarse[0], fine[1] / coarse[1], fine[2] / coarse[2] };
 }
 
-/// Cells of a level, from `begin` to before `end`.
+/// The cells of a level in [begin, end).
 struct CellBox
 {
   Counts begin, end;
@@ -123,14 +125,14 @@ struct CellBox
 CellBox boxOf(const AmrBlock& block);
 CellBox intersection(const CellBox& a, const CellBox& b);
 
-/// Boxes in about as many equal bins, so that few are looked at for each box in question.
+/// Sorts boxes into about as many bins of equal size, for fast queries.
 class BoxBins
 {
 public:
   explicit BoxBins(std::vector<CellBox> boxes);
 
-  /// Calls visit(number, cells) for parts of the boxes that lie in `box`: together they are all that does, each cell of
-  /// a box once.
+  /// Calls visit(number, cells) for disjoint boxes of cells that together cover the intersections
+  /// with `box`.
   template <class Visit>
   void forPartsIn(const CellBox& box, const Visit& visit) const
   {
@@ -183,13 +185,14 @@ private:
   std::vector<std::vector<std::size_t>> Bins;
 };
 
-/// Of the blocks of a level.
+/// Sorts the blocks of a level into bins.
 BoxBins binsOf(const AmrLevel& level);
 
-/// The cells of a level that finer blocks cover.
+/// Sorts the cells of a level that finer blocks cover into bins.
 BoxBins coveredCells(const std::vector<AmrLevel>& levels, std::size_t level);
 
-/// N of the block's cells, NaN in solids; and which of them are its own, with no finer block over them.
+/// N of a block's cells, NaN in solids, and which of them are neither copies nor under finer
+/// blocks.
 struct AmrValues
 {
   std::vector<double> values;

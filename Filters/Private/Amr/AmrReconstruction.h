@@ -11,18 +11,18 @@
 namespace filters
 {
 
-/// What five neighbouring cells, of edge 1 and with known means, say of the mean over an interval: the
-/// polynomial of fourth degree that has these means. So no order is lost, and the parts of a cell have the
-/// cell's mean (Colella & Woodward 1984 do so in their equation 1.6).
+/// Computes the mean over an interval from the means of five neighbouring cells of edge 1, by the
+/// polynomial of fourth degree that has these means. It is conservative: subintervals of a cell
+/// average to the cell's mean (as in Colella & Woodward 1984, equation 1.6).
 struct Reconstruction
 {
   std::array<double, 5> weights;
 
-  /// The interval is `width` wide around `centre`, measured from the centre of the middle cell.
+  /// The interval has the width `width`; `centre` is relative to that of the middle cell.
   Reconstruction(double centre, double width)
   {
-    // The integral over x is a polynomial of fifth degree through six faces; cell k adds to the faces
-    // behind it.
+    // Integrates to a polynomial of fifth degree through six faces; cell k adds to the faces behind
+    // it.
     constexpr int faces = 6;
     this->weights.fill(0);
     for (int face = 0; face < faces; ++face)
@@ -43,8 +43,8 @@ struct Reconstruction
     }
   }
 
-  /// The cells from the left to the right; those that are NaN are extrapolated. NaN where the middle is.
-  /// Sums differences, so that what is uniform stays so to the last bit.
+  /// Returns the mean from the cells, left to right. Extrapolates NaN cells; NaN if the middle cell
+  /// is. Sums differences, so that uniform values stay exactly uniform.
   double operator()(const std::array<double, 5>& cells) const
   {
     std::array<double, 4> step;
@@ -57,7 +57,7 @@ struct Reconstruction
     {
       return cells[2]; // NaN, or alone
     }
-    // At first straight on, and as a parabola where a third cell is known.
+    // Extrapolates linearly first, and by a parabola if a third cell is known.
     const bool hasLeft = isKnown(step[1]), hasRight = isKnown(step[2]);
     if (!hasLeft)
     {
@@ -80,7 +80,8 @@ struct Reconstruction
   }
 };
 
-/// The lines of cells along one axis of a box. Cells of a line are `stride` apart, and as many lines lie side by side.
+/// The lines of cells along one axis of a box: the cells of a line are `stride` apart, and as many
+/// lines lie side by side.
 struct LinesAlong
 {
   LinesAlong(const Counts& cells, std::size_t axis)
@@ -92,9 +93,10 @@ struct LinesAlong
   std::ptrdiff_t stride, count;
 };
 
-/// Values along one axis of a box of cells, from those at cells to the means over intervals of `width` cells around
-/// `middles`, which are counted from the first cell's centre. A mean whose middle lies in a cell that is NaN, or outside,
-/// is NaN; no other one takes anything from there. `forRows(count, work)` calls work(begin, end) for parts of 0 ... count.
+/// Replaces the cells along one axis of a box by means over intervals of `width` cells around
+/// `middles`, relative to the first cell's centre. A mean is NaN if the cell of its middle is NaN
+/// or outside; other means ignore such cells. `forRows(count, work)` calls work(begin, end) for
+/// intervals of 0 ... count.
 template <class ForRows>
 void resampleAxis(std::vector<double>& values, Counts& cells, std::size_t axis,
   const std::vector<double>& middles, double width, const ForRows& forRows)
@@ -130,14 +132,14 @@ void resampleAxis(std::vector<double>& values, Counts& cells, std::size_t axis,
   cells[axis] = static_cast<int>(count);
 }
 
-/// A row of cells with known means, NaN where there is none, as a cubic spline. Its coefficients are the means c less
-/// 5/24 of their second differences, so that the spline's means are c to fourth order. Where third differences are
-/// not much smaller than first ones, at shocks, second ones are left out, so that nothing overshoots by more than
-/// 1 % of the jump. It is smooth where a polynomial for each cell would show the cells.
+/// A cubic spline through a row of cell means c; NaN: missing cells. Its coefficients are c less
+/// 5/24 of their second differences, so that its means are c to fourth order. At shocks, where
+/// third differences are not much smaller than first ones, second ones are omitted, which limits
+/// overshoots to 1 % of the jump.
 class SplineOfMeans
 {
 public:
-  /// It may be another row each time: memory is kept.
+  /// Sets another row, and reuses the memory.
   void set(const std::vector<double>& means)
   {
     this->Means = means;
@@ -163,7 +165,7 @@ public:
       constexpr double smooth = 0.35, rough = 0.8; // third by first differences
       const double part =
         first > 0 ? std::clamp((rough - third / first) / (rough - smooth), 0., 1.) : 0;
-      // Beside what is missing, like the next one.
+      // Copies the second difference of the neighbour beside missing cells.
       double bend = at(this->Bends, i);
       bend = std::isnan(bend) ? at(this->Bends, i - 1) : bend;
       bend = std::isnan(bend) ? at(this->Bends, i + 1) : bend;
@@ -172,7 +174,8 @@ public:
     }
   }
 
-  /// `place` is counted from the first cell's centre. NaN where its cell is. Cells that are missing are extrapolated.
+  /// Evaluates the spline relative to the first cell's centre. NaN in missing cells, which are
+  /// extrapolated for others.
   double operator()(double place) const
   {
     const int n = static_cast<int>(this->Means.size());
@@ -182,7 +185,7 @@ public:
     {
       return own;
     }
-    // Differences, so that what is uniform stays so to the last bit.
+    // Sums differences, so that uniform values stay exactly uniform.
     const int low = static_cast<int>(std::floor(place));
     const int farSide = low < cell ? -1 : 1; // where two coefficients count
     const auto stepTo = [&](int i) { return at(this->Coefficients, cell + i) - own; };
@@ -217,7 +220,7 @@ private:
   std::vector<double> Means, Bends, Coefficients; // bends: second differences
 };
 
-/// Values at places along one axis of a box of cells that hold means; see SplineOfMeans.
+/// Replaces the cell means along one axis of a box by values at `places`; see SplineOfMeans.
 inline void splineAxis(
   std::vector<double>& values, Counts& cells, std::size_t axis, const std::vector<double>& places)
 {

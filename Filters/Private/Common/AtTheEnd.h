@@ -8,7 +8,7 @@
 namespace filters
 {
 
-/// Does something at the end of a scope.
+/// Calls a function at the end of a scope.
 class AtTheEnd
 {
 public:

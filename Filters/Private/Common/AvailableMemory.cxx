@@ -27,7 +27,7 @@ namespace
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 #ifdef __linux__
-/// A number of a file of lines like "name: number"; 0 where it is not there.
+/// Reads a number from a file of lines like "name: number"; 0 if missing.
 double numberIn(const char* file, const std::string& name)
 {
   std::ifstream stream(file);
@@ -44,7 +44,7 @@ double numberIn(const char* file, const std::string& name)
   return 0;
 }
 
-/// What the machine has.
+/// Returns the machine's free memory and swap.
 double ofMachine()
 {
   constexpr double kibibyte = 1024;
@@ -53,7 +53,7 @@ double ofMachine()
                        : unlimited;
 }
 
-/// What a limit of a container leaves. Files that are cached can go.
+/// Returns what a container's limit leaves; cached files count as free.
 double ofControlGroup(const char* limitFile, const char* statisticsFile, const char* inUse)
 {
   double limit = 0;
@@ -61,7 +61,7 @@ double ofControlGroup(const char* limitFile, const char* statisticsFile, const c
                                            : unlimited;
 }
 
-/// What a limit of the process leaves of its addresses.
+/// Returns what a limit of the process's address space leaves.
 double ofProcess(int resource, double inUse)
 {
   rlimit limit{};
@@ -78,7 +78,7 @@ bool canAllocate(double bytes)
     std::unique_ptr<char[]>(new (std::nothrow) char[static_cast<std::size_t>(bytes)]);
 }
 
-/// Whether there is room; what is small is not looked for.
+/// Returns whether the bytes can be allocated; skips the check of small ones.
 bool fits(double bytes)
 {
   constexpr double small = 1 << 20;

@@ -11,15 +11,16 @@ class vtkAbstractArray;
 namespace filters
 {
 
-/// Bytes that this process can still have: what the machine and the limits of the process and its control group leave;
-/// infinite where the system does not say.
+/// Returns the bytes that this process can still allocate, limited by the machine, the process and
+/// its control group; infinite where the system does not report them.
 double availableMemory();
 
-/// Throws std::runtime_error where so many bytes cannot be had. VTK may be built to abort where an array does not fit, as
-/// Debian's is, so this comes before the arrays are made. `what` begins the message, `remedy` ends it.
+/// Throws std::runtime_error if so many bytes are not available. Call it before allocating arrays,
+/// because VTK may be built to abort when an allocation fails, as Debian's is. `what` begins the
+/// message, `remedy` ends it.
 void requireMemory(double bytes, const std::string& what, const std::string& remedy);
 
-/// SetNumberOfTuples() that throws std::bad_alloc where there is no memory for them.
+/// Calls SetNumberOfTuples(), or throws std::bad_alloc where memory does not suffice.
 void setTuples(vtkAbstractArray* array, vtkIdType tuples);
 
 } // namespace filters

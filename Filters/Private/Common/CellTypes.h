@@ -3,7 +3,7 @@
 #ifndef CellTypes_h
 #define CellTypes_h
 
-/// VTK 9.6 deprecates the names that earlier versions have for these.
+/// Maps names that VTK 9.6 has deprecated to those of earlier versions.
 
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"

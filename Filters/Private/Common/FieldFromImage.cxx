@@ -77,7 +77,7 @@ void mergeMasks(vtkImageData* refractivity)
   }
   else if (auto* outside = bytesOf(refractivity, transparentName))
   {
-    vtkNew<vtkUnsignedCharArray> merged; // the others may be the input's
+    vtkNew<vtkUnsignedCharArray> merged; // the others may belong to the input
     merged->SetName(maskName);
     setTuples(merged, valid->GetNumberOfValues());
     std::transform(valid->GetPointer(0), valid->GetPointer(0) + count, outside->GetPointer(0),

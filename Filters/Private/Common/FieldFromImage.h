@@ -9,14 +9,14 @@ class vtkImageData;
 namespace filters
 {
 
-/// What an image with Refractivity says, as the tracer wants it.
+/// Converts an image's geometry to the tracer's.
 schlieren::Grid gridFrom(vtkImageData* image);
 
-/// All of the field that the image knows, with its arrays. Its masks have been merged.
+/// Wraps the image's arrays as the tracer's field. mergeMasks() has been called.
 schlieren::Field fieldFrom(vtkImageData* refractivity);
 
-/// Makes one of an image's two masks, with the tracer's values. One that says gas everywhere is removed: it
-/// would only take memory, a fifth of what is kept, and be read by the tracer.
+/// Merges an image's two masks into one with the tracer's values. Removes a mask that is gas
+/// everywhere: it would cost memory (a fifth of the image's) and time.
 void mergeMasks(vtkImageData* refractivity);
 
 } // namespace filters

@@ -10,8 +10,8 @@
 namespace filters
 {
 
-/// Calls work(i) for i < count from so many threads; 0: as many as cores. Unlike VTK's loops it may be called while another
-/// thread runs filters: vtkSMPTools keeps a list of threads that several callers at once break.
+/// Calls work(i) for i < count in so many threads; 0: one per core. Several threads may call it at
+/// once, unlike vtkSMPTools, whose list of threads such calls corrupt.
 template <class Work>
 void forEach(std::size_t count, int threads, const Work& work)
 {

@@ -9,8 +9,8 @@
 namespace filters
 {
 
-/// Does work that VTK or Qt requests, neither of which an exception may reach: it would end the program. What is thrown
-/// goes to `fail` as a text for users, which of std::bad_alloc is `noMemory`. False then.
+/// Keeps exceptions from VTK or Qt, which would end the program. Passes their text to `fail`,
+/// `noMemory` for std::bad_alloc, and returns false.
 template <class Work, class Fail>
 bool guarded(const Work& work, const char* noMemory, const Fail& fail)
 {

@@ -10,7 +10,7 @@
 namespace filters
 {
 
-/// Whether the points of two images with the same indices are at the same places, to the last bit.
+/// Returns whether the points of two images with the same indices coincide, to the last bit.
 inline bool haveSamePlace(vtkImageData* a, vtkImageData* b)
 {
   const double* direction = a->GetDirectionMatrix()->GetData();

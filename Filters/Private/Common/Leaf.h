@@ -11,46 +11,46 @@ class vtkDataArray;
 class vtkDataSet;
 class vtkUnsignedCharArray;
 
-/// A dataset with the arrays that are read of it, and which of its points and cells count.
+/// A dataset with the arrays that are read, and masks of its points and cells.
 namespace filters
 {
 
-// The point arrays of the output, which are also understood where an input has them.
+// Point arrays of the output, which inputs may have, too.
 constexpr const char* arrayName = "Refractivity";
-constexpr const char* maskName = "vtkValidPointMask"; // as vtkResampleToImage calls it
+constexpr const char* maskName = "vtkValidPointMask"; // the name that vtkResampleToImage uses
 constexpr const char* transparentName = "TransparentPointMask";
 
-// A value of the field data, where the first of these arrays holds N less that: see Numbers::Differences.
+// Field data: the value that Numbers::Differences are relative to.
 constexpr const char* offsetName = "RefractivityOffset";
 
-/// What the array Refractivity holds.
+/// The representation of the array Refractivity.
 enum class Numbers
 {
   Singles,
   Doubles,
-  Differences // in single precision, from a value near that of the surroundings: weak flows keep their digits
+  Differences // from about the ambient N, in single precision: weak flows keep their digits
 };
 
-/// The arrays that a model takes its values from, in its order. Each has one component and one value for
-/// each point, or each has one for each cell.
+/// The arrays that a model reads, in its order. All have one component and belong to points, or all
+/// to cells.
 using Arrays = std::vector<vtkDataArray*>;
 
-/// A dataset within the input that has all chosen arrays.
+/// A dataset of the input that has all chosen arrays.
 struct Leaf
 {
   vtkDataSet* data;
   Arrays arrays;
   bool ofCells;
-  vtkDataSet* input; // `data`, but for what a mask hides
+  vtkDataSet* input; // `data` before masking
 };
 
 constexpr unsigned char hiddenCellBits =
   vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
 
-/// A mask that is 1 everywhere.
+/// Makes a mask that is 1 everywhere.
 vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count);
 
-/// Clears `valid` at points that are hidden or that an earlier mask among the data excludes.
+/// Clears `valid` at points that are hidden or that a mask among the data's arrays excludes.
 void hidePoints(vtkDataSet* data, vtkUnsignedCharArray* valid);
 
 } // namespace filters

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Values in the messages that ranks send to each other.
+// Reads and writes values in messages between ranks.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace filters
 {
 
-/// Adds plain values to a message.
+/// Appends plain values to a message.
 template <class Value>
 void put(const Value* values, std::size_t count, std::vector<char>& bytes)
 {
@@ -31,7 +31,7 @@ void put(const Value& value, std::vector<char>& bytes)
 {
   put(&value, 1, bytes);
 }
-/// A vector or a string, and how long it is.
+/// Appends the size and the values of a vector or a string.
 template <class Values>
 void putAll(const Values& values, std::vector<char>& bytes)
 {
@@ -39,7 +39,7 @@ void putAll(const Values& values, std::vector<char>& bytes)
   put(values.data(), values.size(), bytes);
 }
 
-/// Reads what put() has written. Throws std::runtime_error where there is less.
+/// Reads what put() has written. Throws std::runtime_error at the end of the message.
 class Reader
 {
 public:
@@ -71,7 +71,7 @@ public:
     this->Get(&value, 1);
     return value;
   }
-  /// What putAll() has written.
+  /// Reads what putAll() has written.
   template <class Values>
   Values GetAll()
   {
@@ -86,7 +86,7 @@ public:
     return values;
   }
 
-  /// Adds what is left to another message.
+  /// Appends the unread bytes to another message.
   void GetRest(std::vector<char>& bytes)
   {
     bytes.insert(
@@ -94,7 +94,6 @@ public:
     this->At = this->Bytes.size();
   }
 
-  /// Of what has been read, and cannot be.
   [[noreturn]] static void Fail()
   {
     throw std::runtime_error("What another rank has sent of its data cannot be read. Are all "

@@ -11,19 +11,19 @@ class vtkInformation;
 namespace filters
 {
 
-/// Keeps what a filter's requests throw from VTK, which does not expect it: the program would end.
+/// Keeps exceptions of a filter's requests from VTK, where they would end the program.
 class RequestGuard
 {
 public:
   using Fail = std::function<void(const std::string& problem)>;
 
-  /// Does the work of a request, for ProcessRequest; returns what `work` returns, or 1 where it throws. `fail` gets what
-  /// REQUEST_DATA throws. What is thrown before that waits for ThrowEarlier(): RequestData comes all the same, so that a rank
-  /// which fails meets the others.
+  /// Calls `work` from ProcessRequest and returns its result, or 1 where it throws. Reports what
+  /// REQUEST_DATA throws to `fail`, and keeps what earlier requests throw for ThrowEarlier(), so
+  /// that a failed rank still reaches RequestData and its collectives.
   int Process(vtkInformation* request, const std::function<int()>& work, const char* noMemory,
     const Fail& fail);
 
-  /// In RequestData.
+  /// Throws, in RequestData, what an earlier request has thrown.
   void ThrowEarlier();
 
 private:

@@ -64,7 +64,7 @@ void TriangleTree::build(std::int32_t begin, std::int32_t end, const std::vector
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Node node{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity }, begin, 0 };
-  Point low = node.low, high = node.high; // of the centres
+  Point low = node.low, high = node.high; // bounds of the centres
   for (std::int32_t i = begin; i < end; ++i)
   {
     const std::int32_t triangle = this->Order[static_cast<std::size_t>(i)];
@@ -96,7 +96,7 @@ void TriangleTree::build(std::int32_t begin, std::int32_t end, const std::vector
     {
       const double x = centres[static_cast<std::size_t>(a)][axis];
       const double y = centres[static_cast<std::size_t>(b)][axis];
-      return x < y || (x == y && a < b); // so that the tree is always the same
+      return x < y || (x == y && a < b); // ties by number keep the tree deterministic
     });
   this->build(begin, middle, centres);
   this->Nodes[number].first = static_cast<std::int32_t>(this->Nodes.size());
@@ -105,7 +105,8 @@ void TriangleTree::build(std::int32_t begin, std::int32_t end, const std::vector
 
 int TriangleTree::nearest(const Point& place) const
 {
-  // Of the squares, for rounding: more would make a place a tie whose nearest faces are far away and others a little farther.
+  // Ratio of squared distances that rounding explains; larger ones would count more distant faces
+  // as ties.
   constexpr double tie = 1 + 1e-12;
   if (this->Nodes.empty())
   {

@@ -14,7 +14,7 @@
 namespace filters
 {
 
-/// A surface. Points of which triangles make use are finite.
+/// A surface of triangles. Points that triangles use are finite.
 struct Triangles
 {
   using Corners = std::array<std::int32_t, 3>;
@@ -27,7 +27,7 @@ struct Triangles
   {
     return this->points[static_cast<std::size_t>(this->corners[triangle][i])];
   }
-  /// Twice its area is its length.
+  /// Returns the normal, whose length is twice the area.
   Point normal(std::size_t triangle) const
   {
     const Point& a = this->corner(triangle, 0);
@@ -35,7 +35,7 @@ struct Triangles
   }
 };
 
-/// The triangles at each edge: pairs of the edge's points (the lower number first) and the triangle, sorted.
+/// A triangle at an edge, given by its points in order of their numbers.
 struct EdgeOfTriangle
 {
   std::int32_t low, high;
@@ -48,31 +48,28 @@ struct EdgeOfTriangle
 };
 std::vector<EdgeOfTriangle> edgesOf(const Triangles& surface);
 
-/**
- * Boxes around boxes around triangles. (VTK's locators know one metric, that of space, and hand over cells as
- * objects; here distances are measured in voxels, which may be longer along one axis than along another,
- * many thousand times for each brick of the medium.)
- */
+/// A hierarchy of bounding boxes. VTK's locators cannot measure distances in voxels, which differ
+/// by axis, and return cells as objects, too slowly for thousands of queries per brick.
 class TriangleTree
 {
 public:
   /// Keeps a reference to the triangles.
   explicit TriangleTree(const Triangles& triangles);
 
-  /// Calls visit(triangle) for those whose boxes meet a box.
+  /// Calls visit(triangle) for triangles whose bounds meet a box.
   template <class Visit>
   void forTrianglesAt(const schlieren::Box& box, const Visit& visit) const;
 
-  /// The triangle that is nearest to a place; of those that are equally near, as at a common edge, the one whose plane
-  /// is farthest away, which faces the place most. -1: there are none.
+  /// Finds the triangle nearest to a point. Of equally near ones, such as at a common edge, chooses
+  /// the one whose plane is most distant, which faces the point most. -1: there are none.
   int nearest(const Point& place) const;
 
-  /// Whether a corner x of any triangle has dot(normal, x) > offset.
+  /// Returns whether a corner x of any triangle has dot(normal, x) > offset.
   bool hasBeyond(const Point& normal, double offset) const;
 
   /// Prepares isBehindAny().
   void findPlanes();
-  /// Whether a place is behind the plane of any triangle, where its normal does not point to.
+  /// Returns whether a point is behind the plane of any triangle, opposite to its normal.
   bool isBehindAny(const Point& place) const;
 
 private:
@@ -80,13 +77,13 @@ private:
   {
     Point low, high;
     std::int32_t
-      first; // of Order; inner nodes: the second child. The first child is the next node.
+      first; // in Order; inner nodes: the second child, the first one being the next node
     std::int32_t count; // 0: an inner node
   };
-  /// Of the triangles of a node.
+  /// Bounds the planes of a node's triangles.
   struct Planes
   {
-    Point low, high; // of the normals, of unit length
+    Point low, high; // of the unit normals
     double offset;   // the largest dot(normal, corner - Centre)
   };
   static constexpr std::int32_t maxInLeaf = 4;
@@ -106,10 +103,10 @@ private:
   Point Centre{};
 };
 
-/// The square of the distance of a place to a triangle.
+/// Returns the square of a point's distance to a triangle.
 double squaredDistance(const Triangles& surface, std::size_t triangle, const Point& place);
 
-/// Whether a triangle and a box have places in common (separating axes; Akenine-Moeller 2001).
+/// Returns whether a triangle meets a box (separating axes; Akenine-Moeller 2001).
 bool meets(const Triangles& surface, std::size_t triangle, const schlieren::Box& box);
 
 template <class Visit>

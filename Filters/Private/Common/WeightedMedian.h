@@ -9,7 +9,7 @@
 namespace filters
 {
 
-/// Of more values from the border of the data those of each nth cell or point do as well.
+/// Maximum number of values from the data's border; of more, each nth is used.
 constexpr double mostOuterValues = 1e6;
 
 struct WeightedValue
@@ -17,7 +17,8 @@ struct WeightedValue
   double value, weight;
 };
 
-/// NaN where there are no values. Where half of the weight is below a value, up to rounding, the value below that.
+/// Returns the first value up to which half of the weight lies, within rounding; NaN without
+/// values.
 inline double weightedMedian(std::vector<WeightedValue> parts)
 {
   constexpr double rounding = 1e-9; // of sums in any order

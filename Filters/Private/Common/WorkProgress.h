@@ -12,19 +12,19 @@
 namespace filters
 {
 
-/// Reports how much is done, 0 to 1, in the thread that began the work. False cancels it.
+/// Reports progress, 0 to 1, in the thread that began the work. Returns false to cancel it.
 using Progress = std::function<bool(double)>;
 
-/// Thrown where the work is cancelled.
+/// Thrown by cancelled work.
 struct Stopped
 {
 };
 
-/// A part of a Progress, for work that ends by an exception where it is cancelled.
+/// Maps progress to an interval of a Progress, and throws Stopped where that cancels.
 class WorkProgress
 {
 public:
-  WorkProgress() = default; // reports to nobody
+  WorkProgress() = default; // reports nothing
   explicit WorkProgress(Progress report)
     : Report(std::move(report))
   {
@@ -38,7 +38,7 @@ public:
     return result;
   }
 
-  /// In the thread that began the work.
+  /// Reports progress. Call it in the thread that began the work.
   void reach(double done) const
   {
     if (this->Report && !this->Report(this->From + done * (this->To - this->From)))
@@ -52,11 +52,11 @@ private:
   double From = 0, To = 1;
 };
 
-/// Items of a part in forParts().
+/// Length of the intervals of forParts().
 constexpr vtkIdType partSize = 4096;
 
-/// Calls work(begin, end), from several threads, for parts of 0 to `count`: each begins at a multiple of partSize and
-/// ends at the next. There are so many at once that a stop does not wait for long.
+/// Calls work(begin, end) in several threads for intervals of 0 to `count` that begin at multiples
+/// of partSize. Cancels between groups of intervals that are short enough to end soon.
 template <class Work>
 void forParts(vtkIdType count, const WorkProgress& progress, const Work& work)
 {

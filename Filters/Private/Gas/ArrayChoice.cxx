@@ -21,7 +21,7 @@ namespace
 
 using S = MediumSettings;
 
-/// Whether an array that the model needs is not chosen.
+/// Returns whether the user has left an array open that the model needs.
 bool lacksArrays(const MediumSettings& settings)
 {
   const std::vector<std::size_t> needed = arraysOfModel(settings.IndexModel);
@@ -234,11 +234,11 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
       defaults = flowDefaults(known, static_cast<MediumSettings::Models>(settings.IndexModel));
     }
   }
-  // Arrays that are not chosen.
+  // Finds arrays for the selections that the user has left open.
   for (const std::size_t index : arraysOfModel(settings.IndexModel))
   {
     ArraySelection& selection = settings.Arrays[index];
-    // Without an array RelativeHumidity counts.
+    // Without an array, the value of the property RelativeHumidity is used.
     if (selection.isChosen() || (index == S::HumidityArray && !isAuto))
     {
       continue;
@@ -250,7 +250,7 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
       choice.note = defaults.note;
     }
   }
-  // The gases of a density: with a gas of the user's own there is no mixture.
+  // A gas of the user's own excludes mixtures.
   const bool isOneGas =
     !isCustom(given.Gas) || given.GladstoneDaleConstant != MediumSettings::defaultConstant;
   const bool mayBeMixture = settings.IndexModel == S::Mixture ||
@@ -271,13 +271,13 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
       settings.FractionType = species.ofVolume ? 1 : 0;
     }
   }
-  // Factors to SI units.
+  // Sets the factors to SI units.
   const auto scaleOf = [&](std::size_t index, double scale)
   {
     const std::string property = S::arrayProperties[index];
     const std::string& name = settings.Arrays[index].name;
     const double byUnit = scaleByUnit(property, name);
-    // What is guessed by values, as hPa are, belongs to arrays that were not chosen.
+    // A unit that is concluded from values, such as hPa, belongs to the default arrays only.
     const bool isOfDefaults = isAuto && name == defaults.arrayOf(property);
     const double byValues = isOfDefaults ? scaleIn(defaults, property + "Scale") : 0;
     const bool isKnown = scale != 0 || byUnit != 0 || byValues != 0;
@@ -287,14 +287,14 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
   if (settings.IndexModel == S::Ciddor)
   {
     settings.TemperatureScale = scaleOf(S::TemperatureArray, given.TemperatureScale);
-    choice.isScaleKnown = false; // that of the pressure counts
+    choice.isScaleKnown = false; // the unit of the pressure decides
     settings.PressureScale = scaleOf(S::PressureArray, given.PressureScale);
   }
   else if (settings.IndexModel == S::GladstoneDale || settings.IndexModel == S::Mixture)
   {
     settings.DensityScale = scaleOf(S::DensityArray, given.DensityScale);
   }
-  // What is not read makes no difference.
+  // Clears the selections that the model does not read, so that they do not affect comparisons.
   const std::vector<std::size_t> read = arraysOfModel(settings.IndexModel);
   for (std::size_t index = 0; index < settings.Arrays.size(); ++index)
   {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Chooses arrays, units and gases: what the user has chosen, and where that leaves something open, what flowDefaults()
-// chooses of the arrays that there are.
+// Chooses arrays, units and gases: the user's choice where there is one, else that of
+// flowDefaults().
 #pragma once
 
 #include "Common/Message.h"
@@ -19,51 +19,52 @@ class vtkDataSet;
 namespace filters
 {
 
-/// The arrays of a flow that something is chosen of. Several threads may use it.
+/// Keeps the arrays that defaults are chosen from. Thread-safe.
 class KnownArrays
 {
 public:
   std::vector<FlowArray> Get() const;
 
-  /// Those of this process, where those of all ranks are not known.
+  /// Stores the arrays of this rank, unless those of all ranks are known.
   void Note(std::vector<FlowArray> arrays);
-  /// Those of all ranks.
+  /// Stores the arrays of all ranks.
   void SetOfRanks(std::vector<FlowArray> arrays);
   bool AreOfRanks() const;
 
 private:
   mutable std::mutex Mutex;
   std::vector<FlowArray> Arrays;
-  bool AreAll = false; // of all ranks
+  bool AreAll = false; // whether Arrays are those of all ranks
 };
 
-/// Finds the arrays of all datasets together, those of one name as one. `hasRanges`: of all of them; else of those alone whose
-/// ranges the choice depends on.
+/// Lists the arrays of all datasets, each name once. `hasRanges`: with the ranges of all of them;
+/// else only the ranges that the choice depends on.
 std::vector<FlowArray> flowArraysOf(const std::vector<vtkDataSet*>& data, bool hasRanges);
-/// The same of several lists.
+/// Adds arrays to a list, each name once.
 void addArrays(std::vector<FlowArray>& all, const std::vector<FlowArray>& more);
 
-/// The arrays in a message to another rank.
+/// Writes the arrays to a message for another rank.
 void putArrays(const std::vector<FlowArray>& arrays, std::vector<char>& message);
 std::vector<FlowArray> getArrays(Reader& message);
 
-/// What is used of data.
+/// The complete choice of what is read of the data.
 struct MediumChoice
 {
-  /// With nothing left open (IndexModel, arrays, factors of units and fractions), and without arrays that are not read.
+  /// Settings without open choices (model, arrays, factors to SI units, fractions) and unread
+  /// arrays.
   MediumSettings settings;
-  bool isScaleKnown = false; ///< by the user or by the unit in a name
-  std::string message;       ///< in words
-  std::string note;          ///< what was not understood of the names, mostly empty
+  bool isScaleKnown = false; ///< whether the user or a unit in a name gives the scale
+  std::string message;       ///< the choice as a text for the user
+  std::string note;          ///< names that were not understood; mostly empty
 };
 
-/// Whether something is left open, so that the choice depends on the arrays that there are.
+/// Returns whether the choice depends on the arrays of the data.
 bool isOpen(const MediumSettings& settings);
 
-/// Chooses what `settings` leave open from the arrays of the data.
+/// Completes `settings` by a choice among the arrays of the data.
 MediumChoice choiceOf(const MediumSettings& settings, const std::vector<FlowArray>& known);
 
-/// The indices of MediumSettings::Arrays that an index model takes besides fractions and fields.
+/// Returns the indices into MediumSettings::Arrays that a model reads besides fractions and fields.
 std::vector<std::size_t> arraysOfModel(int model);
 
 } // namespace filters

@@ -32,7 +32,7 @@ void replaceAll(std::string& text, const std::string& what, const std::string& b
   }
 }
 
-/// "Camel case" begins a word, and so does whatever is neither letter nor digit.
+/// Splits a text before capitals of "CamelCase" and at all characters but letters and digits.
 std::vector<std::string> wordsOf(const std::string& text)
 {
   std::vector<std::string> words;
@@ -83,7 +83,7 @@ std::string withoutDigits(std::string word)
   return word;
 }
 
-/// Of densities in several languages; dens: FLASH, Athena++; ro: CFL3D.
+/// Densities in several languages; dens: FLASH, Athena++; ro: CFL3D.
 const Names densities = { "rho", "density", "dens", "ro", "massdensity", "massevolumique", "dichte",
   "densidad", "densit" };
 const Names temperatures = { "t", "temp", "temperature" };
@@ -103,10 +103,10 @@ const Names neutral = { "abs", "absolute", "air", "carrier", "cell", "conservati
   "solution", "static", "sv", "the", "thermo", "val", "value" };
 const Names means = { "average", "averaged", "avg", "ave", "bar", "favre", "filtered", "mean",
   "reynolds", "time", "timeaverage", "timeaveraged" };
-/// Phases whose index does not follow from a density as that of a gas does.
+/// Phases for which the gas's relation of index and density does not hold.
 const Names others = { "fuel", "liq", "liquid", "oil", "particle", "particles", "solid", "water" };
 
-/// In kilograms, and in cubic metres those of a cube with a side of this length.
+/// Masses in kilograms; for lengths, the volume in cubic metres of a cube with that side.
 const std::map<std::string, double> masses = { { "kg", 1 }, { "kilogram", 1 }, { "kilograms", 1 },
   { "g", 1e-3 }, { "gm", 1e-3 }, { "gr", 1e-3 }, { "gram", 1e-3 }, { "grams", 1e-3 },
   { "mg", 1e-6 }, { "t", 1e3 }, { "ton", 1e3 }, { "tonne", 1e3 }, { "lb", 0.45359237 },
@@ -131,7 +131,7 @@ const std::map<std::string, double> pascals = { { "pa", 1 }, { "pascal", 1 }, { 
 const Names gauges = { "gauge", "gage", "psig", "barg", "pag", "kpag", "relative", "rel",
   "perturbation", "dynamic", "hydrostatic", "rgh", "prgh", "coefficient", "cp" };
 
-/// Without what is written in many ways: "kg m^{-3}", "kg/m**3", "kg per m3", "kg/m³".
+/// Unifies the spelling of a unit: "kg m^{-3}", "kg/m**3", "kg per m3", "kg/m³".
 std::string plainUnit(const std::string& text)
 {
   std::string unit = text;
@@ -157,7 +157,7 @@ std::string plainUnit(const std::string& text)
   return plain;
 }
 
-/// So that g/ml is 1000 and nothing else.
+/// Removes rounding errors of products of factors: g/ml is exactly 1000.
 double rounded(double value)
 {
   char text[32];
@@ -165,7 +165,7 @@ double rounded(double value)
   return std::strtod(text, nullptr);
 }
 
-/// Of a mass by a volume: "kg/m3", "kgm-3", "g/cc"; where words of a name are joined, "kgm3", too.
+/// Returns the factor of a mass by a volume: "kg/m3", "kgm-3", "g/cc", and "kgm3" within a name.
 double densityScale(const std::string& unit)
 {
   for (const auto& [mass, kilograms] : masses)
@@ -252,7 +252,7 @@ Understood understood(const std::vector<std::string>& words, const Names& names)
   return found == 1 ? how : Understood::Not;
 }
 
-/// Where a bracket has no unit: "density (gas)".
+/// Returns whether a bracket has words instead of a unit: "density (gas)".
 bool areWords(const std::string& bracket)
 {
   const std::vector<std::string> words = wordsOf(bracket);
@@ -331,7 +331,7 @@ bool ArrayName::Is(const std::set<std::string>& names) const
 ArrayName::Parsed ArrayName::Of(Quantity quantity) const
 {
   Parsed parsed{ this->Words, this->Bracket };
-  constexpr std::size_t most = 5; // words of a unit: "kg", "per", "m", "3"
+  constexpr std::size_t most = 5; // maximum number of words in a unit: "kg", "per", "m", "3"
   for (std::size_t count = std::min(most, this->Words.size()); parsed.unit.empty() && count > 0;
        --count)
   {

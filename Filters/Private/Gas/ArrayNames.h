@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the names that solvers give their arrays say: a quantity, a unit, a gas.
+// Reads a quantity, a unit and a gas from the names that solvers give their arrays.
 #pragma once
 
 #include <set>
@@ -13,7 +13,7 @@ namespace filters
 
 std::string lowered(std::string text);
 
-/// Those that a flow may be known by.
+/// The quantities that are recognized.
 enum class Quantity
 {
   Density,
@@ -21,67 +21,67 @@ enum class Quantity
   Pressure
 };
 
-/// Finds how well a name is understood as that of a quantity; the lowest is the best.
+/// The ways in which a name matches a quantity, best first.
 enum class Understood
 {
   Exactly,   ///< the name alone, perhaps with its unit: "rho"
   Wholly,    ///< with words that change no meaning: "gas density"
   AsMean,    ///< a mean over time: "rhoMean"
-  AsPart,    ///< of a component that has a number, perhaps the only one: "rho1", "alpha_rho1"
+  AsPart,    ///< a numbered component, perhaps the only one: "rho1", "alpha_rho1"
   AsSpecies, ///< of one of several species or phases: "rho_N2", "rho.water"
   Not
 };
 
-/// The words of an array's name as they are written, "rhoMean" being two, and what stands in brackets or at its end as a
-/// unit.
+/// Splits an array's name into words ("rhoMean" has two) and a unit, in brackets or at the end.
 class ArrayName
 {
 public:
   explicit ArrayName(const std::string& text);
 
-  /// Of all of the name, brackets included.
+  /// Returns all words, also those in brackets.
   const std::vector<std::string>& AllWords() const { return this->All; }
-  /// In small letters, without separators and the unit in brackets.
+  /// Returns the name in small letters, without separators and bracketed unit.
   std::string Joined() const;
 
-  /// Whether it is one of these names, with nothing else than words that change no meaning. All of it has to be
-  /// understood: "rho" is a density, "rhoU" is not.
+  /// Returns whether the name is one of these, apart from words that change no meaning: "gas rho"
+  /// is a density, "rhoU" is not.
   bool Is(const std::set<std::string>& names) const;
 
   Understood As(Quantity quantity) const;
 
-  /// Whether the name has a unit; of `quantity`: the factor to SI units, 0 where it is not known or is no factor.
+  /// Returns whether the name has a unit; with `quantity`: its factor to SI units, 0 where unknown.
   bool HasUnit(Quantity quantity) const;
   double Scale(Quantity quantity) const;
-  /// Degrees Celsius or Fahrenheit, of which no factor makes kelvins.
+  /// Returns whether the unit is degrees Celsius or Fahrenheit, which need more than a factor.
   bool IsInDegrees() const;
-  /// Whether it says that it counts from the surroundings' pressure.
+  /// Returns whether the name says that a pressure is relative to the surroundings'.
   bool IsGauge() const;
-  /// Whether its unit is one of this quantity.
+  /// Returns whether the unit belongs to this quantity.
   bool HasUnitOf(Quantity quantity) const { return this->Scale(quantity) != 0; }
 
-  /// Whether a word is that of a gas, or of a liquid or solid, as of one phase of several.
+  /// Returns whether a word names a gas, or a liquid or solid phase.
   bool IsOfGas() const;
   bool IsOfLiquid() const;
 
-  /// Whether a word says that it is nothing of which a gas's index follows: an index, a fraction, a velocity, a
-  /// gradient, ...
+  /// Returns whether a word excludes the name as a state of a gas: an index, a fraction, a
+  /// velocity, a gradient, ...
   bool IsSomethingElse() const;
 
 private:
   struct Parsed
   {
-    std::vector<std::string> words; ///< without those of the unit
-    std::string unit;               ///< as it is written; empty: none
+    std::vector<std::string> words; ///< without the words of the unit
+    std::string unit;               ///< as written; empty: none
   };
   Parsed Of(Quantity quantity) const;
 
-  std::vector<std::string> Words; ///< before the brackets and behind them
+  std::vector<std::string> Words; ///< before and behind the brackets
   std::vector<std::string> All;
-  std::string Bracket; ///< what is in the last brackets
+  std::string Bracket; ///< the text in the last brackets
 };
 
-/// Factor to kg/m^3, K or Pa of a unit as it may be written: "g/cm3", "kg m^-3", "kg per m3", "hPa"; 0: not known.
+/// Returns the factor of a unit ("g/cm3", "kg m^-3", "kg per m3", "hPa") to kg/m^3, K or Pa; 0:
+/// unknown.
 double scaleOfUnit(Quantity quantity, const std::string& unit);
 
 } // namespace filters

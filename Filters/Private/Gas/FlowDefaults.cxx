@@ -23,13 +23,13 @@ const std::set<std::string> indices = { "n", "ior", "refractiveindex", "indexofr
 const std::set<std::string> refractivities = { "refractivity", "nminus1" };
 const std::set<std::string> humidities = { "rh", "humidity", "relativehumidity", "relhumidity" };
 
-/// Arrays that mark bodies with 1, and those that mark gas.
+/// Names of arrays that are 1 in bodies, and of those that are 1 in gas.
 const std::set<std::string> solids = { "solid", "issolid", "solidmask", "solidfraction",
   "alphasolid", "obstacle", "body" };
 const std::set<std::string> gases = { "iblank", "blank", "fluid", "isfluid", "fluidmask", "vfrac",
   "volfrac", "fluidfraction" };
 
-/// A fraction of a gas that the plugin knows.
+/// The fraction of a gas of the table.
 struct Fraction
 {
   std::string array;
@@ -37,7 +37,7 @@ struct Fraction
   bool ofVolume;
 };
 
-/// Gases have formulas of capital and small letters: "Co" is not "CO"; their names do not.
+/// Matches formulas with case ("Co" is not "CO"), names without.
 std::string gasOf(const std::string& word)
 {
   const std::string name = lowered(word);
@@ -46,7 +46,7 @@ std::string gasOf(const std::string& word)
 
 bool isFraction(const FlowArray& array, Fraction& fraction)
 {
-  // Solvers leave a little less than nothing and more than all.
+  // Solvers undershoot 0 and overshoot 1 a little.
   if (array.components != 1 || array.range[0] < -0.05 || array.range[1] > 1.05 ||
     array.range[1] <= 0)
   {
@@ -79,7 +79,7 @@ bool isFraction(const FlowArray& array, Fraction& fraction)
     text += (text.empty() ? "" : " ") + word;
   }
   fraction = { array.name, gasOf(text), ofVolume };
-  // "CamelCase" was taken apart: "YHe", "carbonDioxide"; and formulas: "SiH4".
+  // Joins what the split at capitals has separated: "YHe", "carbonDioxide", "SiH4".
   if (fraction.gas.empty() && rest.size() > 1)
   {
     text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
@@ -113,19 +113,19 @@ bool isScalar(const FlowArray& array)
   return array.components == 1 && array.range[0] <= array.range[1];
 }
 
-/// Whether an array may be of gas at all, by its name: VTK's own are not.
+/// Returns whether VTK has made the array, which then is no state of a gas.
 bool isVtkOwn(const std::string& name) { return name.rfind("vtk", 0) == 0; }
 
 constexpr FlowArray::Association associations[] = { FlowArray::Points, FlowArray::Cells };
 
-/// An array whose name is understood, and the factor to SI units; 0: its unit is not known.
+/// An array whose name is understood, with its factor to SI units; 0: unknown unit.
 struct Found
 {
   const FlowArray* array = nullptr;
   double scale = 1;
 };
 
-/// Chooses among the arrays with one component.
+/// Chooses among the arrays of one component.
 class Chooser
 {
 public:
@@ -158,7 +158,7 @@ public:
     }
   }
 
-  /// The fractions alone.
+  /// Chooses the fractions alone.
   void chooseSpecies(FlowArray::Association association)
   {
     this->Result.association = association;
@@ -166,15 +166,15 @@ public:
   }
 
   FlowDefaults Result;
-  std::string Note; ///< what was not understood
+  std::string Note; ///< names that were not understood
 
 private:
-  /// The array whose name is all of a quantity, of points first; that without other words comes before others.
+  /// Finds the array that best matches a quantity, points before cells.
   Found find(Quantity quantity, FlowArray::Association association)
   {
     Understood best = Understood::Not;
     Found found;
-    std::string several; // of which each is but a part
+    std::string several; // arrays of species or components, none of which is the total
     int parts = 0;
     bool isOfPhase = false, areLiquids = false;
     for (const FlowArray& array : this->Arrays)
@@ -216,7 +216,7 @@ private:
     return found;
   }
 
-  /// Whether the unit is that of another quantity.
+  /// Returns whether the unit belongs to another quantity.
   static bool isOfAnother(const ArrayName& name, Quantity quantity)
   {
     for (const Quantity other : { Quantity::Density, Quantity::Temperature, Quantity::Pressure })
@@ -291,7 +291,7 @@ private:
     {
       return false;
     }
-    this->Note.clear(); // of the other association
+    this->Note.clear(); // it concerns the other association
     if (found.scale == 0)
     {
       found.scale = 1;
@@ -333,7 +333,7 @@ private:
     {
       return;
     }
-    // One kind only, and each gas once: both kinds are often written.
+    // Uses fractions of one kind, and each gas once: files often have both kinds.
     this->Result.ofVolume = std::all_of(
       found.begin(), found.end(), [](const Fraction& fraction) { return fraction.ofVolume; });
     std::set<std::string> formulas;
@@ -394,7 +394,7 @@ private:
         rangeInWords(*pressure.array) + "): add what it counts from with Calculator. ";
       return false;
     }
-    // Of the atmosphere, as weather models write it.
+    // Accepts the units of weather models where the values are those of the atmosphere.
     const bool isOfAtmosphere = t[0] > 150 && t[1] < 350 && p[1] < 1100;
     const bool hasUnit = ArrayName(pressure.array->name).HasUnit(Quantity::Pressure);
     if (!hasUnit && isOfAtmosphere && p[1] > 500)
@@ -432,7 +432,7 @@ private:
     return true;
   }
 
-  /// Of 0 to 1: what is in percent is left out.
+  /// Chooses a relative humidity between 0 and 1, not one in percent.
   void humidity(FlowArray::Association association)
   {
     constexpr double most = 1.05;
@@ -451,10 +451,10 @@ private:
   std::vector<FlowArray> Arrays;
 };
 
-/// What marks bodies, if anything is a body.
+/// Chooses a mask, if its array marks any body.
 void chooseMask(const std::vector<FlowArray>& arrays, FlowDefaults& defaults)
 {
-  constexpr double threshold = 0.5; // the default of MaskThreshold
+  constexpr double threshold = 0.5; // default of MaskThreshold
   for (const FlowArray& array : arrays)
   {
     const std::string name = ArrayName(array.name).Joined();
@@ -471,7 +471,7 @@ void chooseMask(const std::vector<FlowArray>& arrays, FlowDefaults& defaults)
   }
 }
 
-/// What a chooser has found, or else what is missing.
+/// Returns what a chooser has found, or a message about what is missing.
 FlowDefaults resultOf(Chooser& chooser, bool isFound, const std::vector<FlowArray>& arrays,
   const std::string& isMissing)
 {

@@ -17,8 +17,8 @@ namespace filters
 namespace
 {
 
-/// Wavelengths this close count as equal, so that it does not matter whether they are those in air or
-/// in vacuum, which differ by 3e-4.
+/// Relative difference below which wavelengths are equal: more than the 3e-4 between air and
+/// vacuum.
 constexpr double sameWavelength = 1e-3;
 
 std::string nanometres(double metres)
@@ -48,7 +48,7 @@ std::string noteOn(const schlieren::Gas& gas, double wavelength)
     " nm and is continued from there (" + source + ").";
 }
 
-/// The names of the gases that the index model uses, as they were chosen.
+/// Lists the names of the gases that the index model uses.
 std::vector<std::string> namesUsed(const MediumSettings& settings)
 {
   std::vector<std::string> names;

@@ -9,31 +9,30 @@
 
 struct MediumSettings;
 
-/// Gases that a user has chosen by name. All settings are such as leave nothing open: MediumChoice::settings.
+/// Gases that a user has chosen by name. All settings are complete (MediumChoice::settings).
 namespace filters
 {
 
-/// Whether the name stands for a gas that is not of the table: "Custom" or nothing.
+/// Returns whether the name is "Custom" or empty.
 bool isCustom(const std::string& name);
 
-/// The gas of this name or formula; null for a custom one. Throws std::runtime_error, which says what
-/// there is to choose from, for a name that is not in the table. `property` is where it was chosen.
+/// Finds a gas by name or formula; null for a custom one. Throws std::runtime_error that lists the
+/// table's gases for an unknown name. `property` names the source of the choice in the message.
 const schlieren::Gas* gasFrom(const std::string& property, const std::string& name);
 
-/// The filter's wavelength in metres. Throws std::runtime_error where it is not positive.
+/// Returns the wavelength in metres. Throws std::runtime_error where it is not positive.
 double wavelengthOfGases(const MediumSettings& settings);
 
-/// Whether the refractivity depends on the wavelength: for moist air and where gases were chosen by name.
+/// Returns whether the refractivity depends on the wavelength: moist air, and gases chosen by name.
 bool usesWavelength(const MediumSettings& settings);
 
-/// The refractivity at a wavelength by that at `reference` (both metres) of the gas that the index model uses:
-/// of a mixture, its background; of moist air, the dry part, from which vapour differs by percents of
-/// the dispersion. Null where the gas is not known.
+/// Returns the ratio of the refractivity at a wavelength to that at `reference` (both in metres)
+/// for the gas of the index model: of a mixture, its background; of moist air, dry air, from whose
+/// dispersion that of vapour differs by percents. Null for unknown gases.
 std::function<double(double wavelength)> dispersionOfGases(
   const MediumSettings& settings, double reference);
 
-/// What the user should know about the gases that the index model uses: whose constants have not been
-/// measured at the filter's wavelength. Mostly empty.
+/// Returns a warning about gases whose constants were not measured at the wavelength; mostly empty.
 std::string noteOnGases(const MediumSettings& settings);
 
 } // namespace filters

@@ -10,12 +10,12 @@ using filters::ArrayName;
 namespace
 {
 
-// Of n - 1. Air at 0 C and 15 times the pressure of the atmosphere has the first, which no surroundings of
-// flows exceed but in few engines; liquids begin at the second; the third is air at less than a hundredth of it.
+// Limits of n - 1: air at 0 C and 15 atm, exceeded by few engines only; the thinnest liquids; air
+// at less than 1 % of the atmosphere's pressure.
 constexpr double densestSurroundings = 4e-3;
 constexpr double densestGas = 0.05;
 constexpr double thinnestGas = 2e-6;
-// Solvers undershoot.
+// Tolerance for undershoots of solvers.
 constexpr double undershoot = 1e-3;
 
 std::string textOf(double value)
@@ -25,13 +25,13 @@ std::string textOf(double value)
   return text;
 }
 
-/// "'rho' (1 to 2)", as the array has it.
+/// Formats a name and a range: "'rho' (1 to 2)".
 std::string described(const FlowArray& array)
 {
   return "'" + array.name + "' (" + textOf(array.range[0]) + " to " + textOf(array.range[1]) + ")";
 }
 
-/// What holds for any quantity of which a gas's index follows.
+/// Checks what holds for any state of a gas.
 Implausible ofAny(const FlowArray& array, const std::string& quantity)
 {
   if (array.range[0] == 0 && array.range[1] == 0)
@@ -122,7 +122,7 @@ Implausible ofMoistAir(const FlowInUse& flow)
     temperature.range[1] * flow.scales[0] };
   const double pascals[2] = { pressure.range[0] * flow.scales[1],
     pressure.range[1] * flow.scales[1] };
-  // Bodies often have 0; the coldest streams of wind tunnels have some 45 K.
+  // Bodies often have 0; the coldest streams of wind tunnels have about 45 K.
   const bool isBelowAll = kelvins[0] < 0 || (kelvins[0] > 0 && kelvins[0] < 40);
   if (ArrayName(temperature.name).IsInDegrees() || isBelowAll || kelvins[1] < 150)
   {
@@ -162,10 +162,10 @@ Implausible implausible(const FlowInUse& flow)
 {
   for (const FlowArray& array : flow.arrays)
   {
-    constexpr double most = 1e100; // what is more is no state of anything
+    constexpr double most = 1e100; // no state of matter exceeds it
     if (!(array.range[0] <= array.range[1]) || array.range[0] < -most || array.range[1] > most)
     {
-      return {}; // there are other messages for that
+      return {}; // another message covers that
     }
   }
   switch (flow.indexModel)

@@ -16,7 +16,7 @@ namespace filters
 namespace
 {
 
-/// Fractions (and relative humidities) above 1 by more than rounding and interpolation explain.
+/// Maximum fraction or relative humidity that rounding and interpolation explain.
 constexpr double maxOfAll = 1.01;
 
 std::string textOf(double value)
@@ -54,7 +54,7 @@ void requireMolarMass(const std::string& name, double value)
   }
 }
 
-/// One value is needed for each species.
+/// Throws unless there is one value per species.
 void requireOneEach(const char* name, std::size_t count, std::size_t species)
 {
   if (count != species)
@@ -75,8 +75,7 @@ Linear gladstoneDale(const MediumSettings& settings)
   return { constant * settings.DensityScale, 0 };
 }
 
-/// What the species and the background are made of where they were chosen by name, null elsewhere; the
-/// background is the last.
+/// Finds the gases of the species and, last, of the background; null for those not chosen by name.
 std::vector<const schlieren::Gas*> gasesOfMixture(const MediumSettings& settings)
 {
   const std::size_t species = settings.MixtureArrays.size();
@@ -323,7 +322,7 @@ std::vector<Selection> selectionsFrom(const MediumSettings& settings)
       }
       if (selections.empty())
       {
-        selections.push_back({ "Fields", {} }); // for the message
+        selections.push_back({ "Fields", {} }); // named in the message
       }
       break;
     default:

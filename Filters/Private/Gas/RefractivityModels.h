@@ -13,58 +13,58 @@
 #include <variant>
 #include <vector>
 
-/// What the refractivity is at one point or cell, given what the arrays hold there. But for Linear, a
-/// model says three things:
-///   refractivity(values)  N; NaN where there can be no such gas
-///   isDoubtful(values)    whether the user should hear of it
-///   warning(fraction)      what the user should hear, where the fraction is text such as "12 %"
+/// Models of the refractivity at a point or cell as a function of its arrays' values. All but
+/// Linear have
+///   refractivity(values)  N; NaN for states that no gas can have
+///   isDoubtful(values)    whether the state deserves a warning
+///   warning(fraction)     the warning; the fraction is a text such as "12 %"
 namespace filters
 {
 
-/// Of the only array. Kept apart from the others because it can be fast.
+/// N = a x + b of one array; separate from the others because it can be fast.
 struct Linear
 {
   double scale = 1;
   double offset = 0;
 };
 
-/// Of the density and the fractions of the species.
+/// N of a density and the fractions of species.
 struct GasMixture
 {
   schlieren::Mixture mixture;
   double densityScale;
-  bool ofVolumes; // else of masses
+  bool ofVolumes; // volume fractions instead of mass fractions
 
   double refractivity(const double* values) const;
   bool isDoubtful(const double* values) const;
   std::string warning(const std::string& fraction) const;
 };
 
-/// Of temperature, pressure and, if hasHumidity, relative humidity.
+/// N of temperature, pressure and, if hasHumidity, relative humidity.
 struct CiddorAir
 {
   schlieren::MoistAir air;
   double temperatureScale, pressureScale;
   bool hasHumidity;
-  double relativeHumidity; // where it has not
+  double relativeHumidity; // used if not hasHumidity
 
   double refractivity(const double* values) const;
   bool isDoubtful(const double* values) const;
   std::string warning(const std::string& fraction) const;
 };
 
-/// All models.
+/// Any model.
 using Model = std::variant<Linear, GasMixture, CiddorAir, FieldMean>;
 
-/// Makes the curves of Fields; straight lines unless the index model is Curves. Throws std::runtime_error where the settings make
-/// no sense.
+/// Makes the curves of Fields, straight lines unless the model is Curves. Throws std::runtime_error
+/// for inconsistent settings.
 FieldMean fieldMeanFrom(const MediumSettings& settings);
 
-/// Makes the model of settings that leave nothing open (MediumChoice::settings). Throws std::runtime_error where they make no
-/// sense.
+/// Makes the model of complete settings (MediumChoice::settings). Throws std::runtime_error for
+/// inconsistent ones.
 Model modelFrom(const MediumSettings& settings);
 
-/// An array that is looked for.
+/// An array to look for.
 struct Selection : ArraySelection
 {
   Selection(std::string ofProperty, ArraySelection chosen)
@@ -73,15 +73,15 @@ struct Selection : ArraySelection
   {
   }
 
-  std::string property; ///< that it was chosen with
+  std::string property; ///< that chose it
 };
 
 Selection selectionOf(const MediumSettings& settings, std::size_t index);
 
-/// The arrays that the model takes, in its order; at least one.
+/// Lists the arrays that the model reads, at least one, in its order.
 std::vector<Selection> selectionsFrom(const MediumSettings& settings);
 
-/// How many of the points or cells that have values are doubtful.
+/// Counts doubtful points or cells among those that have values.
 struct Tally
 {
   long long all = 0;
@@ -90,7 +90,7 @@ struct Tally
   Tally& operator+=(const Tally& other);
 };
 
-/// What to warn the user of; empty where nothing is doubtful.
+/// Returns a warning about doubtful values; empty without any.
 std::string warningFrom(const Model& model, const Tally& tally);
 
 } // namespace filters

@@ -26,8 +26,8 @@ namespace
 
 constexpr int intervals = 1 << 14;
 
-/// Which values count: those of cells that are not hidden, or of points that are not hidden either and
-/// that a visible cell has (the others hold anything). Null where all count.
+/// Marks the values that count: of visible cells, or of visible points that a visible cell has (the
+/// values of others are undefined). Null where all count.
 vtkSmartPointer<vtkUnsignedCharArray> usedValues(const Leaf& leaf)
 {
   vtkDataSet* data = leaf.data;
@@ -66,8 +66,8 @@ vtkSmartPointer<vtkUnsignedCharArray> usedValues(const Leaf& leaf)
   return used;
 }
 
-/// Smallest and largest value that is finite and, where `used` is given, counts; the other way round
-/// where there are none.
+/// Returns the range of the finite values that `used`, if given, marks; low > high where there are
+/// none.
 std::array<double, 2> rangeOf(vtkDataArray* array, vtkUnsignedCharArray* used)
 {
   std::array<double, 2> range{ HUGE_VAL, -HUGE_VAL };
@@ -124,7 +124,7 @@ void FieldCurve::setRange(double low, double high)
 
 double FieldCurve::at(double x) const
 {
-  // Halved, because the difference of two numbers can be too large for one.
+  // Halves the bounds, because their difference may overflow.
   const double length = 0.5 * this->High - 0.5 * this->Low;
   const double t = length == 0 ? 0 : std::clamp((0.5 * x - 0.5 * this->Low) / length, 0., 1.);
   if (this->Table.empty())

@@ -41,7 +41,7 @@ void setUnit(vtkDataArray* array, const char* unit)
   array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
 }
 
-/// Takes the memory of the values over.
+/// Makes an array that takes over the memory of the values.
 template <class Array, class Value>
 vtkSmartPointer<Array> newArray(
   const char* name, schlieren::PixelArray<Value>& values, int components, const char* unit)
@@ -55,7 +55,8 @@ vtkSmartPointer<Array> newArray(
   return array;
 }
 
-/// Of two values for each pixel. The third component, along the light, is 0: what ParaView takes for a vector has three.
+/// Makes an array of two values for each pixel and, because ParaView's vectors have three, a 0
+/// along the light.
 vtkSmartPointer<vtkFloatArray> newVectors(
   const char* name, schlieren::PixelArray<float>& values, const char* unit)
 {
@@ -89,7 +90,8 @@ void addFieldValue(vtkImageData* output, const char* name, double value, const c
   setUnit(output->GetFieldData()->GetArray(name), unit);
 }
 
-/// Where the points of an image in the plane z = 0 lie. Since VTK 9.3 it would be turned with the input.
+/// Places an image in the plane z = 0. Resets the direction, which VTK copies from the input since
+/// 9.3.
 void place(vtkImageData* output, double x, double y, double spacing)
 {
   output->SetOrigin(x, y, 0);
@@ -97,7 +99,7 @@ void place(vtkImageData* output, double x, double y, double spacing)
   output->SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1);
 }
 
-/// The sRGB curve, IEC 61966-2-1.
+/// Applies the sRGB curve, IEC 61966-2-1.
 float srgbFromLinear(float light)
 {
   return light <= 0.0031308f ? 12.92f * light : 1.055f * std::pow(light, 1 / 2.4f) - 0.055f;
@@ -191,7 +193,7 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
       return static_cast<unsigned char>(
         (scale == ColorScale::Srgb ? srgbFromLinear(fraction) : fraction) * 255.f + 0.5f);
     });
-  output->GetPointData()->AddArray(array); // SetScalars would throw out the intensity
+  output->GetPointData()->AddArray(array); // SetScalars would remove the intensity
   output->GetPointData()->SetActiveScalars("Color");
 }
 

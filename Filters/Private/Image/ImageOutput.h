@@ -16,21 +16,21 @@ struct MediumStatistics;
 namespace filters
 {
 
-/// Makes bounds infinite that say nothing of this image: of the displacement, if light from its middle might leave it;
-/// of what skipping changes, if that might be as much as the largest deflection.
+/// Sets bounds that are not useful to infinity: of the displacement, if light from the image's
+/// middle might leave the image; of the error of skipping, if it may exceed the largest deflection.
 void dropIdleBounds(schlieren::Image& image);
 
-/// Makes `output` the image `image`, with all arrays and field data that vtkSchlierenFilter promises
-/// but Color, Grid and MediumDimensions, and without bounds that are infinite. Takes the memory of the image's arrays over, `color` excepted.
+/// Makes `output` the image with the arrays and field data that vtkSchlierenFilter promises, except
+/// Color, Grid, MediumDimensions and infinite bounds. Moves all of the image's arrays but `color`.
 /// `isDifference`: see PathDifference.
 void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference);
 
-/// How the light of an image becomes the bytes of Color.
+/// The mapping of light to the bytes of Color.
 enum class ColorScale
 {
-  Linear,        ///< a tinted image: 1 is 255
-  LinearToTwice, ///< of a shadowgraph, whose light is 1 where nothing bends it: 2 is 255
-  Srgb           ///< colours to be seen as they are (IEC 61966-2-1): 1 is 255
+  Linear,        ///< tinted images: 1 is 255
+  LinearToTwice, ///< shadowgraphs, whose undisturbed light is 1: 2 is 255
+  Srgb           ///< true colours (IEC 61966-2-1): 1 is 255
 };
 
 /// Adds the colours of an image and makes them the scalars.
@@ -39,20 +39,20 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
 /// Adds the spacing of finite fringes, data units.
 void addFringeSpacing(vtkImageData* output, double spacing);
 
-/// Adds the interval of time that the image is the mean over.
+/// Adds the interval of time that the image averages.
 void addExposure(vtkImageData* output, double begin, double end);
 
-/// Adds what the medium of a mesh consists of.
+/// Adds statistics of the medium.
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium);
 
-/// The same for people: "1234 leaves on levels 1 to 5, ...".
+/// Returns statistics as text: "1234 leaves on levels 1 to 5, ...".
 std::string mediumInWords(const schlieren::MediumStatistics& medium);
 
-/// Adds what is known of the refractivity's grid: how it was chosen, and its points if it was resampled.
+/// Adds how the refractivity's grid was chosen and, if it was resampled, its dimensions.
 void addGrid(vtkImageData* output, const char* grid, vtkImageData* refractivity);
 
-/// Makes `output` the histogram: a point at the centre of each bin, at its deflection along u and v, with the
-/// array Rays. Empty where there is none.
+/// Makes `output` the histogram: a point at each bin's deflection (u, v), with the array Rays.
+/// Empty without a histogram.
 void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram);
 
 } // namespace filters

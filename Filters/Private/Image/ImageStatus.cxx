@@ -21,7 +21,7 @@ std::string textOf(const char* format, double value)
 
 std::string textOf(double value) { return textOf("%.2g", value); }
 
-/// Like "2 of 4 samples per pixel".
+/// Returns a text such as "2 of 4 samples per pixel".
 std::string samplesInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
   const std::string wanted = std::to_string(scene.samplesPerPixel);
@@ -30,7 +30,7 @@ std::string samplesInWords(const schlieren::Image& image, const schlieren::Scene
     (scene.samplesPerPixel == 1 ? " sample per pixel" : " samples per pixel");
 }
 
-/// Like "85 million rays/s".
+/// Returns a text such as "85 million rays/s".
 std::string speedInWords(double raysPerSecond)
 {
   constexpr double million = 1e6;
@@ -52,9 +52,9 @@ std::string deviceInWords(const schlieren::Image& image)
   return "CPU (" + threads + ranks + ")";
 }
 
-/// What straight rays leave out: a bound on how far refracted ones are beside them where they leave the data. It is
-/// left out where it is too large to say anything, and so is MomentumDrift: |p| may be right where the direction
-/// of p is not.
+/// Describes the path model and, for straight rays, the bound on the displacement that they
+/// neglect, unless it is too large to be useful. Omits MomentumDrift, which does not bound errors
+/// of direction.
 std::string accuracyInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
   if (image.pathModel == schlieren::PathModel::Refracted)

@@ -13,8 +13,8 @@ struct Scene;
 namespace filters
 {
 
-/// An image in words that fit in a line: its samples, the speed and the device, and how exact its rays are.
-/// `raysPerSecond`: 0 where it is not known.
+/// Describes an image in one line: samples, speed, device and accuracy of its rays.
+/// `raysPerSecond`: 0 if unknown.
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond);
 

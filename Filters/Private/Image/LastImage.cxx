@@ -35,7 +35,7 @@ void LastImage::Show(vtkImageData* output, const int promised[6])
   {
     return;
   }
-  // The same borders.
+  // Keeps the image's borders.
   double origin[3], spacing[3];
   this->Image->GetOrigin(origin);
   this->Image->GetSpacing(spacing);
@@ -65,7 +65,7 @@ void LastImage::Show(vtkImageData* output, const int promised[6])
   arrays->SetNumberOfTuples(pixels);
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {
-    // All of an image's are plain numbers; CopyData would take several times as long.
+    // Copies bytes, several times as fast as CopyData, because all arrays are plain numbers.
     vtkDataArray* array = arrays->GetArray(i);
     const auto bytes =
       static_cast<std::size_t>(array->GetNumberOfComponents() * array->GetDataTypeSize());
@@ -78,7 +78,7 @@ void LastImage::Show(vtkImageData* output, const int promised[6])
       made += bytes;
     }
   }
-  this->Image->ShallowCopy(output); // the next slice will want the same
+  this->Image->ShallowCopy(output); // the next update will show the same
 }
 
 } // namespace filters

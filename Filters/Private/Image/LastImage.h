@@ -8,18 +8,18 @@
 namespace filters
 {
 
-/// The image that was shown last, for as long as there is nothing better.
+/// Keeps the last image until a better one is ready.
 class LastImage
 {
 public:
   bool IsThere() const;
   bool HasColor() const;
 
-  /// Takes no memory of its own as long as `output` lives.
+  /// Keeps a shallow copy.
   void Keep(vtkImageData* output);
   void Drop();
 
-  /// Makes `output` that image. Where another extent has been promised, its pixels are stretched to it.
+  /// Makes `output` that image, resampled if another extent has been promised.
   void Show(vtkImageData* output, const int promised[6]);
 
 private:

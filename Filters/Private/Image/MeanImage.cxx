@@ -13,7 +13,7 @@ namespace filters
 namespace
 {
 
-/// Of the n-th number on the way to the mean of all.
+/// Updates a mean by the n-th number.
 template <class Number>
 void approach(Number& mean, Number number, int n)
 {
@@ -30,8 +30,8 @@ void approach(
   }
 }
 
-/// Of the same number of bins, those of the larger range: a power of two times the other. A bin that lies in two goes
-/// to the one that has its centre.
+/// Adds histograms with the same number of bins, in the bins of the larger range, which is the
+/// other times a power of two. Bins that overlap two others go to the one at their centre.
 void add(schlieren::Histogram& sum, schlieren::Histogram&& histogram)
 {
   if (sum.range < histogram.range)
@@ -88,7 +88,7 @@ void MeanImage::Add(schlieren::Image&& image)
   mean.raysLost += image.raysLost;
   mean.traceSeconds += image.traceSeconds;
 
-  // The worst of them.
+  // Keeps the worst value.
   mean.pathModel = std::max(mean.pathModel, image.pathModel);
   mean.integrator = std::max(mean.integrator, image.integrator);
   mean.displacementBound = std::max(mean.displacementBound, image.displacementBound);

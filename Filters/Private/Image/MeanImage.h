@@ -7,13 +7,12 @@
 namespace filters
 {
 
-/// The mean of images of the same size: what a film has summed up of all of them. The mean of equal images is that
-/// image, to the last bit.
+/// Averages images of the same size. The mean of equal images is exactly equal to them.
 class MeanImage
 {
 public:
   void Add(schlieren::Image&& image);
-  schlieren::Image Take(); ///< and nothing is left
+  schlieren::Image Take(); ///< returns the mean and clears it
 
 private:
   schlieren::Image Mean;

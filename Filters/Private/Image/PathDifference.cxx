@@ -72,7 +72,7 @@ schlieren::Image PathDifference::Resume(const MonitorOf& monitorOf)
   {
     const auto& other = this->Images[path == REFRACTED ? STRAIGHT : REFRACTED];
     const bool isDone = this->Images[path] && this->Images[path]->finished;
-    if (isDone || (path == STRAIGHT && !other)) // k is not known before
+    if (isDone || (path == STRAIGHT && !other)) // k follows from the other image
     {
       continue;
     }

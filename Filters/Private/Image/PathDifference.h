@@ -10,11 +10,11 @@
 namespace filters
 {
 
-/// What refraction changes: an image by refracted rays less the one by straight rays, both at the k of the first.
+/// Subtracts the image of straight rays from that of refracted rays, both with k of the latter.
 class PathDifference
 {
 public:
-  /// A monitor that pauses after such a fraction of the time that there is.
+  /// Returns a monitor that pauses after a fraction of the available time.
   using MonitorOf = std::function<schlieren::Monitor(double fraction)>;
 
   PathDifference(schlieren::Bench& refracted, schlieren::Bench& straight)
@@ -22,15 +22,15 @@ public:
   {
   }
 
-  /// As schlieren::Bench, of two benches that share the time. The light of the image is 1/2 (of a shadowgraph 1) plus half
-  /// of the difference; all else that pixels have is the difference; numbers of rays and their time are sums, and the
-  /// rest is that of refracted rays.
+  /// Renders as schlieren::Bench does, with two benches in turn. The light is 1/2 (of a shadowgraph
+  /// 1) plus half of the difference; the other pixel arrays are differences; numbers and times of
+  /// rays are sums; all else is that of refracted rays.
   schlieren::Image Begin(
     const schlieren::Field& field, const schlieren::Scene& scene, const MonitorOf& monitorOf);
   schlieren::Image Resume(const MonitorOf& monitorOf);
 
   bool IsUnfinished() const { return this->Field.has_value(); }
-  void Cancel(); ///< what is unfinished
+  void Cancel(); ///< drops unfinished work
 
 private:
   enum Path
@@ -40,9 +40,9 @@ private:
   };
 
   schlieren::Bench* Benches[2];
-  std::optional<schlieren::Field> Field; // of what is not finished
+  std::optional<schlieren::Field> Field; // of unfinished images
   schlieren::Scene Scenes[2];
-  std::optional<schlieren::Image> Images[2]; // the newest, where there is one
+  std::optional<schlieren::Image> Images[2]; // latest images
   double Done[2] = { 0, 0 };
 };
 

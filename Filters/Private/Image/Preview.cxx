@@ -47,14 +47,14 @@ int reductionAtFirst(const schlieren::View& view)
 void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction)
 {
   constexpr double pixelsPerPeriod = 8; // the tracer's default
-  constexpr double fewestPerPeriod = 4; // finer ones fade to grey
+  constexpr double fewestPerPeriod = 4; // finer periods fade to grey
   if (scene.background.period == 0)
   {
     scene.background.period =
       std::max(pixelsPerPeriod, fewestPerPeriod * reduction) * frame.pixelSize;
   }
   scene.view = previewView(scene.view, frame, reduction);
-  scene.samplesPerPixel = std::min(scene.samplesPerPixel, 1); // fewer is a mistake that stays one
+  scene.samplesPerPixel = std::min(scene.samplesPerPixel, 1); // keeps invalid values
   scene.stepSize = std::max(scene.stepSize, interactiveStepSize());
   scene.noiseFilterRadius /= reduction;
 }

@@ -7,22 +7,22 @@
 namespace filters
 {
 
-/// For a window to show while things move: an image that lies where the whole one does, with fewer pixels and
-/// one ray for each. `reduction`: pixels of the whole image, along each axis, that one of it stands for.
+/// Makes previews: images of the same view with fewer pixels and one ray for each. `reduction`:
+/// pixels of the full image for each pixel of the preview, along each axis.
 
-/// Pixels along a side of the preview, at least 1.
+/// Returns the pixels along a side of the preview, at least 1.
 int previewPixels(int pixels, int reduction);
 
-/// Its view: the same place, exactly along one axis; along the other, where `reduction` does not divide the
-/// pixels, up to a pixel more. `frame`: that of the whole image.
+/// Returns the view of the preview: exact along one axis; along the other, up to one pixel larger
+/// if `reduction` does not divide the pixels. `frame`: that of the full image.
 schlieren::View previewView(
   const schlieren::View& view, const schlieren::Frame& frame, int reduction);
 
-/// For a first one that takes no noticeable time.
+/// Returns a reduction for a first preview without noticeable delay.
 int reductionAtFirst(const schlieren::View& view);
 
-/// Makes of a whole image's scene that of the preview. What counts in pixels keeps its size in data
-/// units; but a background whose period is left to the filter stays coarse enough to be seen.
+/// Changes a full image's scene to that of the preview. Lengths in pixels keep their size in data
+/// units; an automatic background's period remains resolved.
 void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction);
 
 } // namespace filters

@@ -17,7 +17,8 @@ namespace filters
 namespace
 {
 
-/// From a diverging source to the middle of the data, and from fringe to fringe, by default.
+/// Defaults: depths of the data from a diverging source to their middle, and finite fringes across
+/// the image.
 constexpr double depthsToSource = 10;
 constexpr double fringesInImage = 10;
 
@@ -126,7 +127,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
     return "";
   }
   const double focalLength = settings.FocalLength;
-  // From the light that nothing bends to the brightest or the darkest.
+  // Ranges from undisturbed light to the brightest or darkest.
   const schlieren::Technique& technique = techniqueOf(settings);
   std::string words = kInWords(k, isKept) + ": full scale is a deflection of " +
     textOf(1e3 * technique.fullScale / k) + " mrad";

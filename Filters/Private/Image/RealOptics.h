@@ -12,36 +12,37 @@ struct SchlierenSettings;
 namespace filters
 {
 
-/// What of a scene follows from mirrors, sources and beams that one can buy. A user's mistake is thrown as
+/// Derives scene parameters from mirrors, sources and beams. User errors are thrown as
 /// std::runtime_error with a message for the user.
 
 constexpr double metresPerMillimetre = 1e-3;
 constexpr double metresPerNanometre = 1e-9;
 
-/// Whether the sensitivity k counts for the cutoff.
+/// Returns whether the cutoff depends on the sensitivity k.
 bool usesK(const OpticsSettings& optics);
 
-/// Whether k counts and is automatic.
+/// Returns whether k is used and automatic.
 bool choosesK(const OpticsSettings& optics);
 
-/// k and offset of real optics, whether they are used or not; NaN where there is none.
+/// Return k and offset of real optics, used or not; NaN without real optics.
 double kOfOptics(const OpticsSettings& optics);
 double offsetOfOptics(const OpticsSettings& optics);
 
-/// Sets k and the cutoff's offset: those given, those of the optics, or none, which lets the tracer choose.
+/// Sets k and the cutoff's offset to those given or those of the optics, else leaves them to the
+/// tracer.
 void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene);
 
-/// What vtkSchlierenFilter::GetSensitivity returns for an image made with this k, which may have been kept from an earlier
-/// one; empty for k = 0.
+/// Returns the text of vtkSchlierenFilter::GetSensitivity for an image with this k, which may be
+/// that of an earlier image (`isKept`); empty for k = 0.
 std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool isKept = false);
 
-/// Like "k = 4000", or "k locked at 4000".
+/// Returns "k = 4000" or "k locked at 4000".
 std::string kInWords(double k, bool isKept);
 
 schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schlieren::Frame& frame);
 
-/// The spacing of finite fringes, data units: from the angle of the beams, as it is given, or that of ten
-/// fringes in the image.
+/// Returns the spacing of finite fringes in data units: given, by the angle of the beams, or a
+/// tenth of the image.
 double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame);
 
 } // namespace filters

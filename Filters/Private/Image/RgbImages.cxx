@@ -22,12 +22,12 @@ namespace
 const std::string scheme = "data:";
 const std::string encoding = ";base64,";
 
-/// Pixels: beyond that an image's size is taken for damage.
+/// Maximum number of pixels; larger images are treated as damaged.
 constexpr std::uint64_t maxPixels = std::uint64_t{ 1 } << 28;
 
 using Bytes = std::vector<unsigned char>;
 
-/// Empty where it is not base64.
+/// Returns nothing if the text is not base64.
 Bytes decodedBase64(std::string text)
 {
   text.erase(
@@ -73,7 +73,7 @@ Bytes bytesFromFile(const std::string& property, const std::string& name)
   return { read.begin(), read.end() };
 }
 
-/// Frees what libpng holds.
+/// Frees libpng's memory.
 struct PngImage : png_image
 {
   PngImage()
@@ -86,7 +86,7 @@ struct PngImage : png_image
   PngImage& operator=(const PngImage&) = delete;
 };
 
-/// `name`: of the file; empty where the property holds it.
+/// `name`: the file's name, empty for an image within the property.
 std::shared_ptr<const schlieren::RgbImage> decoded(
   const std::string& property, const std::string& name, const Bytes& file)
 {
@@ -96,7 +96,7 @@ std::shared_ptr<const schlieren::RgbImage> decoded(
       (name.empty() ? " holds a file" : " names the file '" + name + "'") +
       " that is no complete PNG image (" + reason + "). Save the image as PNG, and use all of it.");
   };
-  // libpng's own reader, because VTK's does not survive damaged files.
+  // Uses libpng's own reader, because VTK's crashes on damaged files.
   PngImage png;
   if (!png_image_begin_read_from_memory(&png, file.data(), file.size()))
   {

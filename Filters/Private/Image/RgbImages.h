@@ -11,11 +11,11 @@
 namespace filters
 {
 
-/// An image that is decoded once, as long as it is requested again and again.
+/// Caches the last decoded image.
 class RgbImageReader
 {
 public:
-  /// See readRgbImage. The same text, or a file with the same content, gives the same image.
+  /// Calls readRgbImage(), or returns the same image for the same text or file content.
   std::shared_ptr<const schlieren::RgbImage> read(
     const std::string& property, const std::string& text);
 
@@ -25,10 +25,9 @@ private:
   std::shared_ptr<const schlieren::RgbImage> Image;
 };
 
-/// The image that `text` stands for: the name of a PNG file, or the content of one as
-/// "data:image/png;base64,..." (RFC 2397). Of any kind: grey or coloured, 1 to 16 bits; transparent places
-/// are shown on white. Throws std::runtime_error with a message for the user; `property` is where `text`
-/// was given.
+/// Decodes a PNG image: `text` is a file name, or the content as "data:image/png;base64,..." (RFC
+/// 2397). Accepts grey and colour with 1 to 16 bits, and blends transparency with white. Throws
+/// std::runtime_error with a message for the user, which names `property` as the source of `text`.
 std::shared_ptr<const schlieren::RgbImage> readRgbImage(
   const std::string& property, const std::string& text);
 

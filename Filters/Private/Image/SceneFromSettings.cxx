@@ -22,7 +22,7 @@ namespace filters
 namespace
 {
 
-/// Where a graded filter is read off.
+/// Number of samples of a graded filter's curve.
 constexpr int gradedFilterSamples = 1025;
 
 schlieren::Fringes fringesFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
@@ -43,7 +43,7 @@ schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbI
   schlieren::BackgroundPattern pattern;
   if (settings.BackgroundPattern == OpticsSettings::scenePattern)
   {
-    return pattern; // see addBackground
+    return pattern; // addBackground() sets it
   }
   pattern.kind = static_cast<schlieren::PatternKind>(settings.BackgroundPattern);
   if (!(settings.BackgroundDistance < 0))
@@ -65,7 +65,7 @@ schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbI
   return pattern;
 }
 
-/// Of the whole image.
+/// Returns the view of the full image.
 schlieren::View viewFrom(const ViewSettings& settings)
 {
   schlieren::View view;
@@ -94,7 +94,7 @@ std::vector<double> gradedFilterFrom(vtkPiecewiseFunction* function)
   return values;
 }
 
-/// Whether the view is what it is by default, and along a plane.
+/// Returns whether the default view direction lies in the plane of flat data.
 bool looksAlong(const ViewSettings& settings, int flatAxis)
 {
   const ViewSettings byDefault;
@@ -109,7 +109,7 @@ SchlierenSettings facing(SchlierenSettings settings, int flatAxis)
 {
   if (looksAlong(settings, flatAxis))
   {
-    // So that z is up, and x, or y, to the right.
+    // Turns z up, and x or y to the right.
     const double across[2][3] = { { -1, 0, 0 }, { 0, 1, 0 } };
     std::copy_n(across[flatAxis], 3, settings.ViewDirection);
     const ViewSettings byDefault;
@@ -159,7 +159,7 @@ schlieren::Scene sceneFrom(
   scene.cutoff = static_cast<schlieren::Cutoff>(settings.Cutoff);
   scene.knifeEdgeAngle = settings.KnifeEdgeAngle;
   scene.invertCutoff = settings.InvertCutoff;
-  // What another cutoff needs may hold anything.
+  // Skips k where the cutoff does not use it, because it may be invalid then.
   if (usesK(settings))
   {
     setSensitivity(settings, scene);
@@ -177,7 +177,7 @@ schlieren::Scene sceneFrom(
   {
     scene.background = backgroundFrom(settings, images);
   }
-  if (!(settings.ScreenDistance < 0)) // NaN too, which the core then reports
+  if (!(settings.ScreenDistance < 0)) // accepts NaN, which the tracer reports
   {
     scene.screenDistance = settings.ScreenDistance;
   }

@@ -16,39 +16,39 @@ namespace filters
 
 class RgbImageReader;
 
-/// What a view shows behind the flow.
+/// The image of the view behind the flow.
 struct BackgroundScene
 {
-  std::shared_ptr<const schlieren::RgbImage> image; ///< null: not known
+  std::shared_ptr<const schlieren::RgbImage> image; ///< null: unknown
   double distance = -1;                             ///< data units; negative: one data depth
 };
 
-/// What the settings say, as the tracer wants it. Checked is only what is converted here: the rest the tracer does.
-/// Throws std::runtime_error with a message for the user.
+/// Converts settings to the tracer's scene. Validates only what is converted; the tracer validates
+/// the rest. Throws std::runtime_error with a message for the user.
 
-/// All but what comes from objects. `grid` is that of the medium.
+/// Converts everything that does not come from objects. `grid`: the medium's.
 schlieren::Scene sceneFrom(
   const SchlierenSettings& settings, const schlieren::Grid& grid, RgbImageReader& images);
 
-/// What comes from objects, where the scene needs it: the graded filter (null: a straight line), and the dispersion of
-/// white light. The colours of fields are apart.
+/// Adds what comes from objects and the scene needs: the graded filter (null: a straight line) and
+/// the dispersion for white light, but not the colours of fields.
 void addObjects(
   schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumSettings& medium);
 
-/// What is behind the flow, where the settings want it.
+/// Adds the image behind the flow, if the settings use it.
 void addBackground(
   schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background);
 
-/// Looks onto the plane of flat data where the view would be along it by default; see vtkSchlierenFilter::SetFaceFlatData().
-/// `flatAxis`: across the plane, or -1.
+/// Turns the view to the plane of flat data if the default direction lies in it; see
+/// vtkSchlierenFilter::SetFaceFlatData(). `flatAxis`: across the plane, or -1.
 SchlierenSettings facing(SchlierenSettings settings, int flatAxis);
-/// What the user should know of that; mostly empty.
+/// Returns a note on that for the user; mostly empty.
 std::string noteOnView(const SchlierenSettings& settings, int flatAxis);
 
-/// Where the image lies.
+/// Returns the frame of the image.
 schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid);
 
-/// Threads to use: those given, or else VTK_SMP_MAX_THREADS; 0: coresOfProcess().
+/// Returns the number of threads: given, or VTK_SMP_MAX_THREADS, or coresOfProcess() for 0.
 int threadsFrom(const ResourceSettings& resources);
 
 } // namespace filters

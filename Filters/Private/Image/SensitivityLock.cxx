@@ -21,13 +21,13 @@ bool isAtOtherTime(const ImageCircumstances& a, const ImageCircumstances& b)
   return a.time && b.time && *a.time != *b.time;
 }
 
-/// Those of an exposure are of several times: only their sources and its own time identify them.
+/// Compares data; those of an exposure, of several times, by their sources and the exposure's time.
 bool haveSameData(const ImageCircumstances& a, const ImageCircumstances& b)
 {
   return a.data && b.data ? *a.data == *b.data : a.upstream == b.upstream && a.time == b.time;
 }
 
-/// Whether they are the same, whenever they were requested.
+/// Compares everything but the time.
 bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
 {
   return a.data.has_value() == b.data.has_value() && haveSameData(a, b) &&
@@ -68,8 +68,8 @@ std::vector<double> settingsOfRays(const SchlierenSettings& settings)
 //------------------------------------------------------------------------------
 std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& now)
 {
-  // A series differs from time to time, and an animation moves the camera before or after the first image of a time
-  // is made: only at the time that k is of does the camera make another one. One that was given is of another time.
+  // Ignores the camera at other times than that of k, because an animation may move it before or
+  // after the first image of a time is made. A given k belongs to no time.
   const bool holds = this->Last && this->Last->properties == now.properties &&
     this->Last->medium == now.medium &&
     (haveSameData(*this->Last, now) || isAtOtherTime(*this->Last, now)) &&

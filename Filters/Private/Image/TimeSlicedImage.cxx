@@ -16,8 +16,8 @@ namespace filters
 namespace
 {
 
-/// Adds a pause after so much time. It runs from the first question on: before that the medium is made, which
-/// takes what it takes, and would leave nothing for the image.
+/// Adds a pause after so many seconds. Starts at the first query, so that making the medium, which
+/// cannot pause, does not use up the time.
 schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
 {
   using Clock = std::chrono::steady_clock;
@@ -63,7 +63,7 @@ schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,
   this->Difference.Cancel();
   const bool wasDifference = this->IsDifference;
   this->IsDifference = paths == Paths::Difference;
-  if (wasDifference && !this->IsDifference) // what it has cached would not be used
+  if (wasDifference && !this->IsDifference) // frees a cache without use
   {
     add(this->WorkBefore, this->StraightBench.work());
     this->StraightBench = {};
@@ -128,7 +128,7 @@ std::string textOf(double value)
   return text.str();
 }
 
-/// Where steps do not resolve how steeply the index changes.
+/// Warns if steps do not resolve changes of the index.
 std::string driftInWords(const schlieren::Image& image)
 {
   constexpr double largest = 0.01;
@@ -148,7 +148,7 @@ std::string driftInWords(const schlieren::Image& image)
     "wide.";
 }
 
-/// Where ExitInto is automatic and not that of all flows of gases.
+/// Notes an automatic ExitInto if the ambient is not a gas.
 std::string exitInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
   return scene.exitInto == schlieren::ExitInto::Auto && image.exitRefractivity != image.ambient

@@ -142,7 +142,7 @@ void blendArrays(vtkDataSetAttributes* earlier, vtkDataSetAttributes* later, dou
 {
   for (int i = 0; i < earlier->GetNumberOfArrays(); ++i)
   {
-    vtkDataArray* array = earlier->GetArray(i); // null: of text
+    vtkDataArray* array = earlier->GetArray(i); // null: an array of text
     if (!array || !array->GetName() || !isReal(array))
     {
       continue;
@@ -152,7 +152,7 @@ void blendArrays(vtkDataSetAttributes* earlier, vtkDataSetAttributes* later, dou
     {
       fail("the array " + std::string(array->GetName()) + " is not in both of them");
     }
-    to->AddArray(blend(array, other, ratio)); // which takes the place of the one of that name
+    to->AddArray(blend(array, other, ratio)); // replaces the array of the same name
   }
 }
 

@@ -9,10 +9,11 @@ class vtkDataObject;
 namespace filters
 {
 
-/// Data between two time steps, linear in time as those of vtkTemporalInterpolator: arrays of real numbers, and points
-/// that move with the mesh. Everything else, arrays of integers such as masks and ghosts included, is of the earlier
-/// step. `ratio`: 0 (earlier) ... 1 (later). Numbers that both steps have stay as they are, to the last bit. Null
-/// where both are null. Data whose cells, blocks or grid differ are thrown as std::runtime_error that says what differs.
+/// Interpolates data linearly in time, as vtkTemporalInterpolator does: real arrays, and points
+/// that move with the mesh. All else, including integers such as masks and ghosts, comes from the
+/// earlier step. `ratio`: 0 (earlier) ... 1 (later). Values equal in both steps stay exactly equal.
+/// Null where both are null. Throws std::runtime_error that names the difference where cells,
+/// blocks or grids differ.
 vtkSmartPointer<vtkDataObject> betweenTimeSteps(
   vtkDataObject* earlier, vtkDataObject* later, double ratio);
 

@@ -44,17 +44,17 @@ std::vector<double> mergingTolerances(
 namespace
 {
 
-/// A point, by how far it lies along a direction.
+/// A point's coordinate along a direction, and its number.
 using Placed = std::pair<double, std::int32_t>;
 
-/// Points of which the largest tolerance is less than twice the smallest, sorted.
+/// Points, sorted, whose tolerances differ by less than a factor of 2.
 struct Class
 {
-  double most = 0; // of the tolerances
+  double most = 0; // largest tolerance
   std::vector<Placed> points;
 };
 
-/// So that a point with a large tolerance is not compared with all of the many that crowd a fine region.
+/// Separates points with large tolerances, which would be compared with all points of fine regions.
 std::vector<Class> classesOf(
   const std::vector<Point>& points, const std::vector<double>& tolerances, const Point& along)
 {
@@ -80,7 +80,7 @@ std::vector<Class> classesOf(
 std::vector<std::int32_t> coincidentPoints(
   const std::vector<Point>& points, const std::vector<double>& tolerances)
 {
-  // A direction across which the points of no plausible mesh lie in planes, so that few others are in between.
+  // Sorts points along a direction in which those of plausible meshes do not share coordinates.
   const Point along = unit({ 1, 0.6180339887, 0.2360679775 });
   const std::vector<Class> classes = classesOf(points, tolerances, along);
   std::vector<std::int32_t> numbers(points.size());

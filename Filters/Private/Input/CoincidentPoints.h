@@ -10,16 +10,16 @@
 namespace filters
 {
 
-/// How far apart points may be that are one: 1e-3 of the smallest edge or cell beside each (infinite: none), and at least
-/// what rounding may have moved them.
+/// Returns the distance within which a point coincides with others: 1e-3 of the smallest edge or
+/// cell beside it (infinite: none), but at least the rounding of coordinates.
 std::vector<double> mergingTolerances(
   const std::vector<Point>& points, const std::vector<double>& sizes, double rounding);
 
-/// Which points are one, given how far apart they may be. Numbers of the points that stay.
+/// Maps each point to the one that represents all that coincide with it.
 std::vector<std::int32_t> coincidentPoints(
   const std::vector<Point>& points, const std::vector<double>& tolerances);
 
-/// How far rounding may have moved points: of single precision where all coordinates fit into it.
+/// Returns the relative rounding of coordinates: that of single precision where all fit into it.
 double relativeRounding(const std::vector<Point>& points);
 
 } // namespace filters

@@ -86,7 +86,7 @@ void addParts(vtkDataObject* data, const Slot& slot, std::vector<Part>& parts)
   }
 }
 
-/// Those arrays that are needed, in the order of their names: the same on all ranks.
+/// Copies the arrays that are needed, ordered by name, so that all ranks have the same order.
 void keepArrays(
   vtkDataSetAttributes* from, const std::vector<std::string>& names, vtkDataSetAttributes* to)
 {
@@ -109,11 +109,12 @@ void keepArrays(
   }
   if (vtkDataArray* scalars = from->GetScalars())
   {
-    to->SetScalars(scalars); // what selections without a name mean
+    to->SetScalars(scalars); // selections without a name refer to them
   }
 }
 
-/// Without the cells that are copies of other ranks'; vtkUnstructuredGrid::RemoveGhostCells would remove hidden ones, too.
+/// Removes the copies of other ranks' cells. vtkUnstructuredGrid::RemoveGhostCells would remove
+/// hidden ones, too.
 vtkSmartPointer<vtkDataSet> withoutCopies(vtkUnstructuredGrid* mesh)
 {
   vtkUnsignedCharArray* ghosts = mesh->GetCellGhostArray();
@@ -132,13 +133,13 @@ vtkSmartPointer<vtkDataSet> withoutCopies(vtkUnstructuredGrid* mesh)
   return extractedCells(mesh, own);
 }
 
-/// A copy with the arrays that are needed and without copies of other ranks' cells.
+/// Copies the needed arrays and the cells that are not copies of other ranks'.
 vtkSmartPointer<vtkDataSet> sparseCopy(vtkDataSet* data, const std::vector<std::string>& names)
 {
   vtkSmartPointer<vtkDataSet> copy;
   if (vtkImageData::SafeDownCast(data))
   {
-    copy = vtkSmartPointer<vtkImageData>::New(); // vtkUniformGrid is one that cannot be sent
+    copy = vtkSmartPointer<vtkImageData>::New(); // replaces vtkUniformGrid, which VTK cannot send
   }
   else
   {
@@ -159,7 +160,7 @@ vtkSmartPointer<vtkDataSet> sparseCopy(vtkDataSet* data, const std::vector<std::
   return copy;
 }
 
-/// Of an image: VTK's format leaves the direction out and rounds the others.
+/// An image's geometry, because VTK's format omits the direction and rounds the rest.
 struct Place
 {
   std::array<double, 9> direction{};
@@ -199,7 +200,7 @@ vtkIdType sizeOf(const std::array<int, 6>& extent)
   return size;
 }
 
-/// The arrays of the parts in one grid.
+/// Copies the arrays of several extents to the whole grid.
 void copyAttributes(const std::vector<vtkDataSet*>& parts, bool ofCells, vtkDataSet* whole)
 {
   const int kind = ofCells ? vtkDataObject::CELL : vtkDataObject::POINT;
@@ -214,7 +215,7 @@ void copyAttributes(const std::vector<vtkDataSet*>& parts, bool ofCells, vtkData
   }
 }
 
-/// Along one axis of rectilinear grids.
+/// Joins the coordinates of rectilinear grids along an axis.
 vtkSmartPointer<vtkDataArray> joinedCoordinates(
   const std::vector<vtkDataSet*>& parts, std::size_t axis, const std::array<int, 6>& extent)
 {
@@ -236,7 +237,7 @@ vtkSmartPointer<vtkDataArray> joinedCoordinates(
   return joined;
 }
 
-/// Points of curvilinear grids.
+/// Joins the points of curvilinear grids.
 vtkSmartPointer<vtkPoints> joinedPoints(
   const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
 {
@@ -263,7 +264,7 @@ vtkSmartPointer<vtkPoints> joinedPoints(
   return joined;
 }
 
-/// Whether all points of an extent are in one of the parts.
+/// Returns whether the grids contain all points of an extent.
 bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
 {
   std::vector<bool> isThere(static_cast<std::size_t>(sizeOf(extent)));
@@ -285,8 +286,8 @@ bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& 
   return std::find(isThere.begin(), isThere.end(), false) == isThere.end();
 }
 
-/// Whether the points of a part lie where those with the same indices of the whole do. Readers may give each rank a grid whose
-/// indices begin at 0.
+/// Returns whether a grid's points lie where the same indices of the whole do. Readers may number
+/// the grids of each rank from 0.
 bool liesIn(vtkDataSet* part, vtkDataSet* whole)
 {
   const std::array<int, 6> of = extentOf(part, false), all = extentOf(whole, false);
@@ -328,7 +329,7 @@ std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells)
   }
   for (std::size_t axis = 0; ofCells && axis < 3; ++axis)
   {
-    // Along an axis with one point there is one cell.
+    // An axis with one point has one cell.
     extent[2 * axis + 1] = std::max(extent[2 * axis], extent[2 * axis + 1] - 1);
   }
   return extent;
@@ -407,7 +408,7 @@ Part unpack(Reader& reader)
   }
   if (vtkImageData::SafeDownCast(part.data))
   {
-    vtkNew<vtkImageData> image; // it comes as vtkStructuredPoints
+    vtkNew<vtkImageData> image; // VTK returns vtkStructuredPoints
     image->ShallowCopy(part.data);
     image->SetDirectionMatrix(place.direction.data());
     image->SetOrigin(place.origin.data());
@@ -459,7 +460,7 @@ vtkSmartPointer<vtkDataSet> joinedMesh(
   merge->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
   merge->SetMergingArray(alsoTheSame);
   merge->Update();
-  merge->SetMergingArray(nullptr); // its destructor forgets it
+  merge->SetMergingArray(nullptr); // its destructor leaks the name
   return merge->GetOutput();
 }
 

@@ -40,10 +40,10 @@ namespace filters
 namespace
 {
 
-/// Thickness of a plane, in parts of its length: what rounding in single precision makes.
+/// Relative thickness of a plane that rounding in single precision explains.
 constexpr double planeTolerance = 1e-6;
 
-/// The axis along which there is nothing. -1 for none; throws for several.
+/// Returns the axis without extent, -1 if there is none. Throws if there are several.
 int onlyFlatAxis(const bool isFlat[3], const Source& source)
 {
   if (std::count(isFlat, isFlat + 3, true) > 1)
@@ -54,7 +54,7 @@ int onlyFlatAxis(const bool isFlat[3], const Source& source)
   return isFlat[0] ? 0 : (isFlat[1] ? 1 : (isFlat[2] ? 2 : -1));
 }
 
-/// A point in the axes of directionAcross().
+/// Transforms a point to the axes of directionAcross().
 std::array<double, 3> turned(const double x[3], int flat)
 {
   const std::array<double, 9> d = directionAcross(flat);
@@ -66,11 +66,11 @@ std::array<double, 3> turned(const double x[3], int flat)
   return own;
 }
 
-/// A plane across an axis. All points are moved into it: those that are flat may miss it by rounding.
+/// A plane across an axis, into which points that miss it by rounding are moved.
 struct Plane
 {
   int flat;
-  double height; // along z, when it is turned
+  double height; // along z of directionAcross()
   double depth;
 
   void add(vtkDataSet* from, vtkIdType point, double offset, vtkPoints* to) const
@@ -82,7 +82,7 @@ struct Plane
   }
 };
 
-/// Structured data stay so: their faces are found at once.
+/// Keeps structured data structured, whose faces are found without a search.
 void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, const Plane& plane, Remade& to)
 {
   const auto across =
@@ -116,11 +116,11 @@ void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, const Plane&
   to.data = grid;
 }
 
-/// Cells other than linear triangles, quadrilaterals and pixels become triangles.
+/// Extrudes cells. All but linear triangles, quadrilaterals and pixels are triangulated first.
 void extrudeCells(vtkDataSet* data, const Plane& plane, Remade& to)
 {
   const vtkIdType count = data->GetNumberOfPoints();
-  // Two layers of points and their numbers; corners of a cell, its type and number.
+  // Counts two layers of points and their numbers, and a cell's corners, type and number.
   constexpr double bytesOfPoint = 2 * (3 * sizeof(double) + sizeof(vtkIdType));
   constexpr double bytesOfCell = 11 * sizeof(vtkIdType);
   requireMemory(bytesOfPoint * static_cast<double>(count) +
@@ -175,7 +175,7 @@ void extrudeCells(vtkDataSet* data, const Plane& plane, Remade& to)
   to.data = mesh;
 }
 
-/// The values of an array for what was made of its points or cells.
+/// Copies the values of the points or cells that others were made of.
 vtkSmartPointer<vtkDataArray> chosenValues(vtkDataArray* from, vtkIdList* ids)
 {
   auto to = vtkSmartPointer<vtkDataArray>::Take(from->NewInstance());
@@ -186,7 +186,7 @@ vtkSmartPointer<vtkDataArray> chosenValues(vtkDataArray* from, vtkIdList* ids)
   return to;
 }
 
-/// A surface in the axes of directionAcross(); a prism where it lies in the plane.
+/// Turns a surface to the axes of directionAcross(), and extrudes one that lies in the plane.
 vtkSmartPointer<vtkPolyData> turnedSurface(vtkPolyData* surface, int flat, double depth)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
@@ -225,9 +225,9 @@ std::array<double, 9> directionAcross(int flat)
 {
   switch (flat)
   {
-    case 0: // its axes are y, z, x
+    case 0: // axes y, z, x
       return { 0, 0, 1, 1, 0, 0, 0, 1, 0 };
-    case 1: // x, z, -y
+    case 1: // axes x, z, -y
       return { 1, 0, 0, 0, 0, -1, 0, 1, 0 };
     default:
       return { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
@@ -302,7 +302,7 @@ vtkSmartPointer<vtkDataObject> changedBodies(
     auto* surface = vtkPolyData::SafeDownCast(leaf);
     if (!surface)
     {
-      return bodies; // whoever reads them says what is wrong
+      return bodies; // their reader reports the error
     }
     blocks->SetBlock(blocks->GetNumberOfBlocks(), change(surface));
   }
@@ -345,8 +345,7 @@ std::array<int, 3> structureOf(vtkDataSet* data)
 
 int dimensionOfCell(vtkDataSet* data, vtkIdType cell)
 {
-  static std::array<std::atomic<int>, 256>
-    known; // one more than the dimension; 0: not yet requested
+  static std::array<std::atomic<int>, 256> known; // dimension + 1; 0: unknown yet
   const auto type = static_cast<unsigned char>(data->GetCellType(cell));
   if (known[type] == 0)
   {
@@ -470,7 +469,7 @@ std::string warningOfExtrusion(const Source& source, int flat)
 {
   if (source.isDepthGiven)
   {
-    return ""; // whoever has given it knows
+    return ""; // the user knows
   }
   std::ostringstream text;
   text
@@ -506,7 +505,7 @@ void extrudeArrays(vtkImageData* image, int flat)
   image->GetDimensions(points);
   const vtkIdType stride =
     flat == 0 ? 1 : static_cast<vtkIdType>(points[0]) * (flat == 1 ? 1 : points[1]);
-  const vtkIdType layers = image->GetNumberOfPoints() / stride / 2; // runs of one layer
+  const vtkIdType layers = image->GetNumberOfPoints() / stride / 2; // rows of one layer
   vtkPointData* arrays = image->GetPointData();
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {

@@ -13,58 +13,58 @@
 
 class vtkPolyData;
 
-/// Two-dimensional data: extruded across their plane, half of their depth to each side.
+/// Extrudes two-dimensional data across their plane, half of the depth to each side.
 namespace filters
 {
 
-/// 0 to 3. vtkCellTypeUtilities::GetDimension makes a cell to query it: for all cells of a mesh, that takes longer
-/// than to resample it.
+/// Returns 0 to 3. vtkCellTypeUtilities::GetDimension makes a cell for each call, which would take
+/// longer than to resample the mesh.
 int dimensionOfCell(vtkDataSet* data, vtkIdType cell);
 
-/// The largest of its cells' dimensions.
+/// Returns the largest dimension of the cells.
 int dimensionOf(vtkDataSet* data);
 
-/// The coordinate axis (of an image: its own) across the plane in which all cells lie, -1 where there are
-/// 3-D cells. Throws where there are neither: lines, points, tilted or curved surfaces.
+/// Returns the axis (of an image: its own) across the plane of all cells, or -1 if there are 3-D
+/// cells. Throws for lines, points, and tilted or curved surfaces.
 int flatAxisOf(const Source& source);
 
-/// How deep flat data become: as the source says, or as the plane's shorter side is long. Throws where that is 0.
+/// Returns the depth of flat data: the source's, or the plane's shorter side. Throws if that is 0.
 double depthOf(const Source& source, int flat);
 
-/// The same of an image alone. `given`: 0 where the depth is to be chosen.
+/// Returns the depth of a flat image. `given`: 0 for the plane's shorter side.
 double depthOfImage(vtkImageData* image, int flat, double given);
 
-/// What the user should hear of the extrusion.
+/// Returns a warning about an extrusion of unknown depth; empty if the user gave the depth.
 std::string warningOfExtrusion(const Source& source, int flat);
 
-/// The points along each axis of data whose cells are numbered by three indices; 0 of others.
+/// Returns the number of points along each axis of structured data; 0 for others.
 std::array<int, 3> structureOf(vtkDataSet* data);
 
-/// By rows, the rotation from axes in which the data's plane is across z to the data's own; -1: none. Of the other two
-/// axes, the order stays.
+/// Returns, by rows, the rotation that maps z to the axis across the plane and keeps the order of
+/// the other axes; -1: the identity.
 std::array<double, 9> directionAcross(int flat);
 
-/// What is made of a leaf, and of which of its points and cells.
+/// A modified dataset, and the points and cells of the original that it was made of.
 struct Remade
 {
   vtkSmartPointer<vtkDataSet> data;
   vtkNew<vtkIdList> points, cells;
 
-  /// As a leaf: with the values and what hides them.
+  /// Returns a leaf with the original's values and masks.
   Leaf leafOf(const Leaf& from) const;
 };
 
-/// The source with 3-D cells in place of flat ones, in the axes of directionAcross().
+/// Replaces flat cells by 3-D ones, in the axes of directionAcross().
 Source extruded(const Source& source, int flat, double depth);
 
-/// What `change` makes of each surface among bodies.
+/// Applies `change` to each surface among bodies.
 vtkSmartPointer<vtkDataObject> changedBodies(
   vtkDataObject* bodies, const std::function<vtkSmartPointer<vtkPolyData>(vtkPolyData*)>& change);
 
-/// Bodies in these axes; those that lie in the plane are extruded, too. Null: there are none.
+/// Turns bodies to these axes and extrudes those that lie in the plane. Null if there are none.
 vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat, double depth);
 
-/// Gives a grid of one layer a second one, behind it.
+/// Adds a second layer to a grid of one layer.
 void extrudeGrid(vtkImageData* grid, int flat, double depth);
 
 /// Repeats the values of one layer in the second one.

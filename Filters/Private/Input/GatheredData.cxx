@@ -36,8 +36,8 @@ vtkUnsignedCharArray* ghostsOf(vtkDataSetAttributes* attributes)
     attributes->GetArray(vtkDataSetAttributes::GhostArrayName()));
 }
 
-/// Says of no point and no cell that it is a copy of another rank's. What is hidden stays so; all parts have an array
-/// that says it, or none has.
+/// Clears the flag of copies in all ghost arrays, and keeps that of hidden points and cells. Adds
+/// the array to datasets that lack it if others have it.
 void forgetCopies(const std::vector<vtkDataSet*>& parts, int kind)
 {
   const int copy = kind == vtkDataObject::CELL
@@ -49,7 +49,7 @@ void forgetCopies(const std::vector<vtkDataSet*>& parts, int kind)
   {
     vtkDataSetAttributes* attributes = part->GetAttributes(kind);
     vtkUnsignedCharArray* ghosts = ghostsOf(attributes);
-    vtkNew<vtkUnsignedCharArray> others; // it may be the input's
+    vtkNew<vtkUnsignedCharArray> others; // the array may belong to the input
     others->SetName(vtkDataSetAttributes::GhostArrayName());
     others->SetNumberOfValues(part->GetNumberOfElements(kind));
     for (vtkIdType i = 0; i < others->GetNumberOfValues(); ++i)

@@ -12,17 +12,17 @@ class vtkDataObject;
 namespace filters
 {
 
-/// The newest time of everything that the input of a port comes from; 0 where there is none.
+/// Returns the newest modification time upstream of a port; 0 without input.
 vtkMTimeType upstreamTime(vtkAlgorithm* filter, int port);
-/// The same of all ports.
+/// Returns the newest modification time upstream of all ports.
 vtkMTimeType upstreamTime(vtkAlgorithm* filter);
 
-/// What a composite holds, or else the data itself; nothing for null.
+/// Lists the data objects of a composite, or the object itself; none for null.
 std::vector<vtkDataObject*> leavesOf(vtkDataObject* data);
 
-/// Everything that the refractivity of an input may depend on, so that equal numbers mean equal data:
-/// the newest time of everything upstream, the times of the input's arrays, and its geometry. Not the
-/// dataset's own time, which is a new one whenever a filter upstream hands the same arrays on.
+/// Returns numbers that differ whenever the refractivity of an input may: the newest time upstream,
+/// the times of arrays, and the geometry. Excludes the dataset's own time, which changes whenever a
+/// filter upstream passes the same arrays again.
 std::vector<double> describeInput(vtkDataObject* input, vtkMTimeType pipelineTime);
 
 } // namespace filters

@@ -6,27 +6,28 @@
 
 #include "vtkSmartPointer.h"
 
-/// Data whose arrays say where there is no gas.
+/// Hides points or cells that an array marks as not gas.
 namespace filters
 {
 
-/// An array, and which of its values say so.
+/// An array, and which of its values mark what is not gas.
 struct Mask
 {
-  vtkDataArray* values; // with one component
+  vtkDataArray* values; // one component
   bool ofCells;
   double threshold;
-  bool hidesAbove; // what is not less than the threshold, rather than what is less
+  bool hidesAbove; // hides values at or above the threshold instead of those below it
 
-  /// NaN is masked, too.
+  /// Hides NaN, too.
   bool hides(double value) const
   {
     return this->hidesAbove ? !(value < this->threshold) : !(value >= this->threshold);
   }
 };
 
-/// A shallow copy of a leaf's data in which what the mask says is hidden: cells; or points, if the leaf's values
-/// belong to points. Where the values belong to cells and the mask to points, cells with any such point.
+/// Returns a shallow copy of a leaf's data in which masked cells are hidden, or masked points if
+/// the leaf's values belong to points. If the mask belongs to points and the values to cells, hides
+/// cells with any masked point.
 vtkSmartPointer<vtkDataSet> hideMasked(const Leaf& leaf, const Mask& mask);
 
 } // namespace filters

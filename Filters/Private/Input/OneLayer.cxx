@@ -31,18 +31,18 @@ namespace
 
 using Place = std::array<double, 3>;
 
-/// How far points may miss their plane, in parts of the data's size: what rounding in single precision makes.
+/// Relative distance of points from their plane that rounding in single precision explains.
 constexpr double planeTolerance = 1e-6;
 constexpr double angleTolerance = 1e-4; // radians
-/// Wider ones are sectors of flows that need not be axisymmetric.
+/// Wider wedges are sectors of flows that need not be axisymmetric.
 constexpr double widestWedge = 30; // degrees
-/// How much values may differ from one plane to the other, in parts of their range: text files have six digits.
+/// Relative difference of values between the planes: text files have six digits.
 constexpr double valueTolerance = 1e-5;
 
 enum Side : signed char
 {
   Front = -1,
-  Both = 0, // on the axis in which two planes meet
+  Both = 0, // on the axis where two planes meet
   Back = 1,
   Neither = 2
 };
@@ -57,7 +57,7 @@ Place placeOf(vtkDataSet* data, vtkIdType point)
 
 bool isLayerLeaf(const Leaf& leaf) { return dimensionOf(leaf.data) == 3; }
 
-/// Of all points of a leaf; empty where one is on neither side.
+/// Returns the sides of all points; empty if a point is on neither plane.
 template <class SideAt>
 Sides sidesOf(vtkDataSet* data, const SideAt& sideAt)
 {
@@ -74,19 +74,19 @@ Sides sidesOf(vtkDataSet* data, const SideAt& sideAt)
   return sides;
 }
 
-/// Two planes: which side a place is on, and where it is on the plane halfway between them.
+/// Two planes: the side of a point, and its projection to the plane halfway between them.
 struct Planes
 {
   std::function<Side(const Place&)> sideAt;
   std::function<Place(const Place&)> onPlane;
-  double tolerance; // of places
+  double tolerance; // of distances
 };
 
-/// A point on the front and the one behind it.
+/// A point in front and the one behind it.
 using Pair = std::pair<vtkIdType, vtkIdType>;
 
-/// Where the points of structured data change sides from one index to the next along one axis: of points and 2 along that axis.
-/// Nothing where they do otherwise.
+/// Returns the axis of structured data along which each pair of points changes sides; -1 if there
+/// is none.
 int axisAcross(const std::array<int, 3>& points, const Sides& sides)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -107,7 +107,7 @@ int axisAcross(const std::array<int, 3>& points, const Sides& sides)
       const bool isSecond = point / stride % 2 == 1;
       isAcross = side == Both || (side == sides[isSecond ? point - stride : point]) != isSecond;
     }
-    // Which of the two layers is in front is the same everywhere.
+    // Requires that the same layer is in front everywhere.
     signed char first = Both;
     for (std::size_t point = 0; point < sides.size() && isAcross; ++point)
     {
@@ -125,7 +125,7 @@ int axisAcross(const std::array<int, 3>& points, const Sides& sides)
   return -1;
 }
 
-/// An image stays one, so that blocks of images stay levels.
+/// Keeps images, so that blocks of images remain AMR levels.
 vtkSmartPointer<vtkDataSet> planeOfImage(vtkImageData* image, int across)
 {
   int extent[6];
@@ -145,7 +145,7 @@ vtkSmartPointer<vtkDataSet> planeOfImage(vtkImageData* image, int across)
   return plane;
 }
 
-/// The structured leaf's layer in front, and pairs.
+/// Extracts the front layer of structured data, and the pairs of points.
 void flattenStructured(const Leaf& leaf, std::array<int, 3> points, int across,
   const Planes& planes, Remade& made, std::vector<Pair>& pairs)
 {
@@ -184,7 +184,7 @@ void flattenStructured(const Leaf& leaf, std::array<int, 3> points, int across,
   made.data = grid;
 }
 
-/// Faces of cells by their corners; -1: there is none.
+/// A face by its corners; -1: fewer corners.
 struct Face
 {
   int corners[4];
@@ -196,7 +196,7 @@ constexpr Face facesOfVoxel[] = { { { 0, 4, 6, 2 } }, { { 1, 3, 7, 5 } }, { { 0,
 constexpr Face facesOfWedge[] = { { { 0, 1, 2, -1 } }, { { 3, 5, 4, -1 } }, { { 0, 3, 4, 1 } },
   { { 1, 4, 5, 2 } }, { { 2, 5, 3, 0 } } };
 
-/// Cells of a mesh that is one layer.
+/// Finds the front faces of cells in a mesh of one layer.
 class Layer
 {
 public:
@@ -217,7 +217,8 @@ public:
     return this->Places[static_cast<std::size_t>(point)];
   }
 
-  /// Finds the corners of the cell's face in front, in order; until the next call. Empty: there is none.
+  /// Returns the corners of a cell's front face in order, valid until the next call; empty: it has
+  /// none.
   std::vector<vtkIdType>& front(vtkIdType cell)
   {
     this->Data->GetCellPoints(cell, this->Ids);
@@ -238,7 +239,7 @@ public:
     return this->Corners;
   }
 
-  /// Behind a point of the last cell; -1: none is.
+  /// Returns the point behind one of the last cell; -1: none.
   vtkIdType behind(vtkIdType point) const
   {
     vtkIdType found = -1;
@@ -315,13 +316,13 @@ private:
 
   vtkDataSet* Data;
   const Sides& Of;
-  double Nearest;            // how near a point and the one behind it are on the plane
-  std::vector<Place> Places; // on it
+  double Nearest;            // tolerance of the distance of a pair in the plane
+  std::vector<Place> Places; // projections to the plane
   vtkNew<vtkIdList> Ids;
   std::vector<vtkIdType> Corners;
 };
 
-/// False where the cells are no layer.
+/// Returns false if the cells are no layer.
 bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Remade& made,
   std::vector<Pair>& pairs)
 {
@@ -389,7 +390,7 @@ bool areSame(const Leaf& leaf, const std::vector<Pair>& pairs)
   return true;
 }
 
-/// Whether it has become flat. `areValuesFree`: they need not be the same on both planes.
+/// Flattens the source if it is a layer. `areValuesFree`: values may differ between the planes.
 bool flatten(Source& source, const Planes& planes, bool areValuesFree)
 {
   std::vector<Leaf> leaves;
@@ -398,7 +399,7 @@ bool flatten(Source& source, const Planes& planes, bool areValuesFree)
   {
     if (!isLayerLeaf(leaf))
     {
-      continue; // the faces of others
+      continue; // 2-D cells are faces of the layer's
     }
     const Sides sides = sidesOf(leaf.data, planes.sideAt);
     if (sides.empty())
@@ -493,7 +494,7 @@ void flattenLayer(Source& source, const Source* like)
 namespace
 {
 
-/// Around an axis: the angle of a place, and its distance.
+/// Polar coordinates of a point around an axis.
 struct Polar
 {
   double angle, distance;
@@ -506,10 +507,10 @@ struct Polar
   }
 };
 
-/// From -pi to pi.
+/// Returns the angle between two directions, -pi to pi.
 double turn(double from, double to) { return std::remainder(to - from, 2 * vtkMath::Pi()); }
 
-/// The two angles that points have; nothing where they have one, or more than two.
+/// Returns the two angles at which all points lie; nothing if there are not exactly two.
 std::optional<std::array<double, 2>> anglesOf(
   const Source& source, std::size_t axis, const Place& origin, double size)
 {
@@ -586,7 +587,7 @@ void flattenWedge(Source& source, const Wedge& wedge, const std::array<double, 3
       ? Front
       : Back;
   };
-  // What is known at points is known there; the middles of cells are in the middle plane, which is nearer to the axis.
+  // Keeps the radius of points; projects centres of cells to the middle plane, nearer to the axis.
   const double nearer =
     angles && source.leaves[0].ofCells ? std::cos(0.5 * turn((*angles)[0], (*angles)[1])) : 1;
   planes.onPlane = [=](const Place& place)

@@ -22,7 +22,7 @@ namespace filters
 namespace
 {
 
-/// Calls visit(cell, its eight corners) for every cell of an image; in a flat one corners coincide.
+/// Calls visit(cell, eight corners) for all cells; corners coincide in a flat image.
 template <class Visit>
 void forCells(vtkImageData* image, const Visit& visit)
 {
@@ -47,8 +47,8 @@ void forCells(vtkImageData* image, const Visit& visit)
   }
 }
 
-/// Hides the points whose cells are all hidden, so that a body of m cells loses m - 1 points; and all
-/// points of a hidden cell that has no hidden point then, so that thin bodies do not vanish.
+/// Hides points whose cells are all hidden (a body of m cells loses m - 1 points), and all points
+/// of hidden cells that still have no hidden point, so that thin bodies do not vanish.
 void hidePointsOfHiddenCells(vtkImageData* image, vtkUnsignedCharArray* valid)
 {
   vtkUnsignedCharArray* ghosts = image->GetCellGhostArray();
@@ -96,7 +96,7 @@ void hidePointsOfHiddenCells(vtkImageData* image, vtkUnsignedCharArray* valid)
   }
 }
 
-/// Hides hidden cells and cells that have a hidden point.
+/// Hides hidden cells, and cells with a hidden point.
 void hideCells(vtkImageData* image, vtkUnsignedCharArray* valid)
 {
   if (vtkUnsignedCharArray* ghosts = image->GetCellGhostArray())
@@ -126,14 +126,14 @@ void hideCells(vtkImageData* image, vtkUnsignedCharArray* valid)
     });
 }
 
-/// Whether the image may have points or cells that are hidden.
+/// Returns whether the image may have hidden points or cells.
 bool hidesSome(vtkImageData* image)
 {
   return image->GetPointGhostArray() || image->GetCellGhostArray() ||
     image->GetPointData()->HasArray(maskName);
 }
 
-/// The points that an image says to let light pass in an array of its own; null where it has none.
+/// Returns the array of points that let light pass; null if the image has none.
 vtkSmartPointer<vtkUnsignedCharArray> outsideFrom(vtkDataSet* image)
 {
   vtkDataArray* given = image->GetPointData()->GetArray(transparentName);
@@ -169,7 +169,7 @@ void gridOfImage(vtkImageData* image, bool ofCells, double depth, vtkImageData* 
     if (extent[2 * axis + 1] == extent[2 * axis])
     {
       flat = axis;
-      spacing[axis] = 1; // means nothing, and may be 0
+      spacing[axis] = 1; // undefined in a plane, perhaps 0
     }
   }
   for (int axis = 0; axis < 3; ++axis)

@@ -4,12 +4,12 @@
 
 #include "Input/RefractivitySource.h"
 
-/// The refractivity of an image, which keeps its own grid: nothing is interpolated.
+/// Converts the refractivity of an image on its own grid, without interpolation.
 namespace filters
 {
 
-/// Makes `structure` the grid of the image's points, or of the centres of its cells; of a flat image, two
-/// such layers, `depth` apart (see depthOfImage()).
+/// Makes `structure` the grid of the image's points or cell centres; of a flat image, two layers
+/// `depth` apart (see depthOfImage()).
 void gridOfImage(vtkImageData* image, bool ofCells, double depth, vtkImageData* structure);
 
 /// Fills `output` from source.image.

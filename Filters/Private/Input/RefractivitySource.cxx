@@ -48,7 +48,7 @@ vtkDataArray* find(vtkDataSetAttributes* attributes, const Selection& selection)
     : nullptr;
 }
 
-/// Throws where the input is of a type that has no points or cells.
+/// Throws for data without points or cells.
 void requireSpace(vtkDataObject* input)
 {
   for (vtkDataObject* leaf : leavesOf(input))
@@ -74,7 +74,7 @@ void requireSpace(vtkDataObject* input)
   }
 }
 
-/// Those of the selected arrays that points or cells have; null for others.
+/// Finds the selected arrays of points or cells; null for missing ones.
 Arrays findAll(vtkDataSet* data, bool ofCells, const std::vector<Selection>& selections)
 {
   Arrays arrays;
@@ -114,8 +114,8 @@ std::string nameOf(vtkDataArray* array, const Selection& selection)
     "instance with Cell Data to Point Data.");
 }
 
-/// The datasets that have all arrays. Looks at the association that was requested with the first of
-/// them, then at the other one.
+/// Lists the datasets with all arrays, in the association of the first selection or else in the
+/// other.
 std::vector<Leaf> leavesWith(
   const std::vector<Selection>& selections, const std::vector<vtkDataSet*>& dataSets)
 {
@@ -146,7 +146,7 @@ std::vector<Leaf> leavesWith(
   return leaves;
 }
 
-/// "point arrays p (1 to 2), rho (0 to 1); cell arrays T (300 to 310)", or "none".
+/// Lists arrays and ranges: "point arrays p (1 to 2), rho (0 to 1); cell arrays T (300 to 310)".
 std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
 {
   std::vector<FlowArray> arrays = flowArraysOf(dataSets, true);
@@ -155,9 +155,8 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
   return arraysInWords(arrays);
 }
 
-/// What to say where no dataset has all arrays: the first that none of them has, or else that they do not
-/// come together.
-/// `note`: what was not understood where no array is chosen.
+/// Throws a message about the first array that no dataset has, or that no dataset has all of them.
+/// `note`: names that were not understood if no array was chosen.
 [[noreturn]] void throwNotFound(const std::vector<Selection>& selections,
   const std::vector<vtkDataSet*>& dataSets, const std::string& note = "")
 {
@@ -223,8 +222,8 @@ std::string labelOf(const Arrays& arrays, const std::vector<Selection>& selectio
   return label;
 }
 
-/// The refractivity that was computed before, if the image is to be used as it stands: IndexModel does
-/// not request an index or for fields by name, and its first array is missing, not chosen or the refractivity itself.
+/// Returns the array Refractivity if the image is used as it is: IndexModel does not choose other
+/// arrays by name, and the first array is missing, not chosen or Refractivity itself.
 vtkDataArray* computedBefore(
   const MediumSettings& settings, vtkImageData* image, const Selection& selection)
 {
@@ -238,7 +237,7 @@ vtkDataArray* computedBefore(
   return leaves.empty() || leaves[0].arrays[0] == computed ? computed : nullptr;
 }
 
-/// Hides what the mask says, if one is chosen. Data without the array have gas everywhere, unless all are.
+/// Applies the mask, if one is chosen. Datasets without its array are all gas, unless all lack it.
 void applyMask(
   const MediumSettings& settings, const std::vector<vtkDataSet*>& dataSets, Source& source)
 {
@@ -277,7 +276,7 @@ void applyMask(
   }
 }
 
-/// Makes flat data of what is one layer of cells.
+/// Flattens data of one layer of cells.
 void flattenLayers(const MediumSettings& settings, Source& source, const Source* like)
 {
   source.depth = settings.Depth;
@@ -366,7 +365,7 @@ Source chooseSource(
 
 std::vector<std::string> arraysOf(const MediumSettings& settings)
 {
-  std::vector<std::string> names = settings.Fields; // they may tint, whatever the model
+  std::vector<std::string> names = settings.Fields; // colours may use them with any model
   for (const Selection& selection : selectionsFrom(settings))
   {
     names.push_back(selection.name);

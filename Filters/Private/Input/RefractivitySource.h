@@ -16,52 +16,52 @@ class vtkDataObject;
 class vtkDataSet;
 class vtkImageData;
 
-/// What is read of an input. A user's mistake is thrown as std::runtime_error, with a message
-/// that says the problem, why it is one and what to do.
+/// Selects what is read of an input. User errors are thrown as std::runtime_error whose message has
+/// the problem, its cause and a remedy.
 namespace filters
 {
 
-/// What to read from an input.
+/// The data and arrays to read of an input.
 struct Source
 {
-  std::vector<Leaf> leaves; // at least one
-  std::vector<vtkSmartPointer<vtkDataSet>>
-    made;                        // their data that are not the input's: masked, extruded
-  vtkImageData* image = nullptr; // the data of the only leaf, where it keeps its own grid
+  std::vector<Leaf> leaves;                      // at least one
+  std::vector<vtkSmartPointer<vtkDataSet>> made; // modified data: masked, extruded
+  vtkImageData* image = nullptr;                 // data of the only leaf if its own grid is used
   Model model;
-  double depth = 0;            // of flat data, see depthOf(); 0: to be chosen
+  double depth = 0;            // depth of flat data, see depthOf(); 0: to be chosen
   bool isDepthGiven = false;   // by the user
-  bool isOneCellThick = false; // what `leaves` have was: see flattenLayer()
-  int axisOfWedge = -1;        // likewise: see flattenWedge(); -1: none
-  std::string noteOnGases;     // what the user should know once, mostly empty
+  bool isOneCellThick = false; // whether flattenLayer() has flattened `leaves`
+  int axisOfWedge = -1;        // whether flattenWedge() has; -1: no
+  std::string noteOnGases;     // note for the user, mostly empty
   std::string label;           // for messages: "array 'rho'" or "arrays 'T', 'p'"
-  bool isComputed = false;     // the refractivity was computed before
-  MediumChoice choice;         // what is used
+  bool isComputed = false;     // whether the input has Refractivity
+  MediumChoice choice;         // the settings in use
 };
 
-/// Thrown where no dataset has the arrays that are needed; others, on other ranks, may have them.
+/// Thrown if no dataset has the needed arrays; those of other ranks may have them.
 class ArraysMissing : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// The datasets within an input that have points.
+/// Lists the datasets of an input that have points.
 std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input);
 
-/// Chooses what `settings` leave open for an input. `known`: notes its arrays, unless it has those of all ranks.
+/// Completes `settings` for an input. `known`: notes its arrays, unless it has those of all ranks.
 MediumChoice choiceFor(
   const MediumSettings& settings, KnownArrays& known, const std::vector<vtkDataSet*>& dataSets);
 
-/// Chooses what to read of an input. `known`: notes its arrays, unless it has those of all ranks. `like`: what was chosen of the
-/// same input for other arrays; data that are one layer of cells become flat only if they have there. Null: if they can.
+/// Selects what to read of an input. `known`: notes its arrays, unless it has those of all ranks.
+/// `like`: the source of other arrays of the same input, which decides whether a layer is
+/// flattened; null: flattens if possible.
 Source chooseSource(const MediumSettings& settings, KnownArrays& known, vtkDataObject* input,
   const Source* like = nullptr);
 
-/// The names of all arrays that may be read of an input by settings that leave nothing open.
+/// Lists all arrays that complete settings may read.
 std::vector<std::string> arraysOf(const MediumSettings& settings);
 
-/// What is implausible about the values of the arrays that are used, where they count.
+/// Checks the values that are used.
 Implausible implausibleIn(const Source& source);
 
 } // namespace filters

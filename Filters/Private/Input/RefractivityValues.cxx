@@ -26,13 +26,13 @@ namespace filters
 namespace
 {
 
-/// Where N goes, less `offset`.
+/// The output arrays of N - offset.
 template <class Real>
 struct Results
 {
   Real* out;
   unsigned char* valid;
-  bool isValidSet; // else all is valid as yet, and `valid` holds anything
+  bool isValidSet; // else `valid` is undefined and all values count
   Real invalid;
   double offset;
 
@@ -49,8 +49,8 @@ struct Results
   }
 };
 
-/// Block by block, so that what a block has of bad values is found while it is in the cache: there are
-/// hardly ever any, and all that is left then is a loop over two arrays.
+/// Converts blocks that fit into the cache, because a block is converted again by a slower loop in
+/// the rare case that it has bad values.
 template <class Real>
 struct LinearConversion
 {
@@ -75,8 +75,8 @@ struct LinearConversion
   template <class Iterator>
   void ConvertBlock(Iterator values, vtkIdType first, vtkIdType count) const
   {
-    // A product of floats is rounded as little as one that is computed in double and stored as float,
-    // apart from the factor's own rounding, which is the same for all points.
+    // Multiplies floats as floats: apart from the rounding of the factor, which all points share,
+    // the result is as accurate as in double precision.
     using Value = std::decay_t<decltype(values[0])>;
     const float factor = static_cast<float>(this->model.scale);
     const bool isInFloats = std::is_same_v<Value, float> && std::is_same_v<Real, float> &&
@@ -102,7 +102,7 @@ struct LinearConversion
     }
   }
 
-  /// Whether all refractivities are finite.
+  /// Returns whether all refractivities are finite.
   template <class Iterator, class Convert>
   bool Store(Iterator values, vtkIdType first, vtkIdType count, const Convert& convert) const
   {
@@ -129,7 +129,7 @@ void convertBy(
   }
 }
 
-/// Arrays of any types: what the models compute costs more than the calls of vtkDataArray.
+/// Handles arrays of any type; the models cost more than the virtual calls of vtkDataArray.
 template <class Gas, class Real>
 void convertBy(const Gas& model, const Arrays& values, const Results<Real>& results, Tally& tally)
 {
@@ -164,7 +164,7 @@ void convertBy(const Gas& model, const Arrays& values, const Results<Real>& resu
   tally += { all, doubtful };
 }
 
-/// A mask that holds anything.
+/// Makes a mask with undefined values.
 vtkSmartPointer<vtkUnsignedCharArray> newUnsetMask(vtkIdType count)
 {
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
@@ -184,7 +184,7 @@ double refractivityOf(const Gas& model, const double* values)
   return model.refractivity(values);
 }
 
-/// N at a point; NaN where it is not finite.
+/// Returns N at a point; NaN where it is not finite.
 double refractivityAt(vtkIdType point, const Arrays& values, const Model& model)
 {
   std::vector<double> state;
@@ -201,7 +201,7 @@ double refractivityAt(vtkIdType point, const Arrays& values, const Model& model)
   return std::isfinite(n) ? n : std::nan("");
 }
 
-/// Calls visit(point) for some thousands of the points of a grid's faces at most.
+/// Calls visit(point) for at most some thousand points of a grid's faces.
 template <class Visit>
 void forSomeOfFaces(const int (&points)[3], const Visit& visit)
 {
@@ -225,8 +225,8 @@ void forSomeOfFaces(const int (&points)[3], const Visit& visit)
   }
 }
 
-/// About N of the surroundings: the median over some points of the grid's faces, or of all points where there is
-/// none; 0 where there is no gas.
+/// Estimates the ambient N: the median over some points of the grid's faces, or of all points if
+/// none of these is gas; 0 without gas.
 double offsetFor(
   vtkImageData* grid, const Arrays& values, const Model& model, vtkUnsignedCharArray* valid)
 {
@@ -243,7 +243,7 @@ double offsetFor(
   const vtkIdType count = values[0]->GetNumberOfTuples();
   int points[3];
   grid->GetDimensions(points);
-  if (grid->GetNumberOfPoints() == count) // else it is a plane, all of which is on the faces
+  if (grid->GetNumberOfPoints() == count) // else it is a plane, whose points are all on faces
   {
     forSomeOfFaces(points, add);
   }

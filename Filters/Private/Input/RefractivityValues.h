@@ -10,22 +10,22 @@
 class vtkImageData;
 class vtkUnsignedCharArray;
 
-/// From arrays' values to refractivity and to the mask that says which of them are valid.
+/// Converts the values of arrays to refractivity and a mask of valid points.
 namespace filters
 {
 
-/// N as a new vtkFloatArray or vtkDoubleArray. Clears `valid` where N is not finite; N is `invalid`
-/// where `valid` is 0. Adds to the tally what was valid before and had finite values.
+/// Returns N as a new vtkFloatArray or vtkDoubleArray. Clears `valid` where N is not finite, and
+/// sets N to `invalid` where `valid` is 0. Counts values that were valid and finite in the tally.
 template <class Array>
 vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, double invalid, Tally& tally);
 
-/// Adds both arrays to `output`, whose points the values and the mask belong to. Without a mask all are
-/// valid as yet. Of a plane the values may be those of one layer.
+/// Adds Refractivity and its mask to `output`. Null mask: all points are valid. Values of a plane
+/// may be those of one layer.
 Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, Numbers numbers);
 
-/// Adds TransparentPointMask to `output`: of the points in `outside` those that are masked, if there are any.
+/// Adds TransparentPointMask: the masked points among `outside`, if there are any.
 void setOutside(vtkUnsignedCharArray* outside, vtkImageData* output);
 
 } // namespace filters

@@ -16,7 +16,7 @@ namespace filters
 namespace
 {
 
-/// Faces of the box that are on a point of a grid up to rounding are on it.
+/// Relative distance below which a face of the box coincides with grid points.
 constexpr double rounding = 1e-6;
 
 } // namespace
@@ -109,7 +109,7 @@ void SamplingBox::crop(vtkImageData* image) const
     const double lowest = extent[2 * axis], highest = extent[2 * axis + 1];
     const double low = std::floor(ofIndices.GetBound(2 * axis) + rounding);
     const double high = std::ceil(ofIndices.GetBound(2 * axis + 1) - rounding);
-    // There is depth for light to cross.
+    // Keeps at least one cell of depth.
     extent[2 * axis] = static_cast<int>(std::clamp(low, lowest, std::max(lowest, highest - 1)));
     extent[2 * axis + 1] =
       static_cast<int>(std::clamp(high, std::min<double>(extent[2 * axis] + 1, highest), highest));

@@ -9,12 +9,12 @@ class vtkImageData;
 namespace filters
 {
 
-/// The part of the domain that becomes a grid: a box in the data's coordinates. Along an axis whose second number is not
-/// larger than the first, all of the domain.
+/// Restricts the grid to a box in the data's coordinates. Along an axis whose second bound does not
+/// exceed the first, the grid covers the domain.
 class SamplingBox
 {
 public:
-  /// Throws where numbers are not finite.
+  /// Throws for bounds that are not finite.
   explicit SamplingBox(const double bounds[6]);
 
   bool isGiven() const
@@ -25,19 +25,19 @@ public:
   {
     return this->bounds[2 * axis] < this->bounds[2 * axis + 1];
   }
-  /// Whether these bounds want anything but all of the data, be it a box or numbers that are not finite. Does not throw.
+  /// Returns whether the bounds restrict the domain or are not finite. Does not throw.
   static bool isWanted(const double bounds[6]);
 
-  /// `bounds`, with what is given instead. Throws where nothing of them is in the box.
+  /// Intersects `bounds` with the box. Throws if nothing remains.
   std::array<double, 6> within(const double bounds[6]) const;
 
-  /// Whether some of `bounds` is in the box.
+  /// Returns whether `bounds` and the box intersect.
   bool meets(const double bounds[6]) const;
 
-  /// The points of an image that cover the box, as far as it reaches.
+  /// Reduces an image to the points that cover the box.
   void crop(vtkImageData* image) const;
 
-  /// Of `count` cells of an axis, the first one and the one behind the last one that cover the box.
+  /// Returns the first and one past the last of `count` cells of an axis that cover the box.
   std::array<int, 2> cellsOf(std::size_t axis, double origin, double spacing, int count) const;
 
 private:

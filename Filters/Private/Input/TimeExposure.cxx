@@ -24,7 +24,7 @@ TimeExposure::TimeExposure(const std::vector<double>& steps, double first, doubl
   {
     const auto place = std::lower_bound(this->Steps.begin(), this->Steps.end(), step);
     const auto number = static_cast<std::size_t>(place - this->Steps.begin());
-    if (place == this->Steps.end()) // instants rise
+    if (place == this->Steps.end()) // instants increase
     {
       this->Steps.push_back(step);
     }
@@ -34,7 +34,7 @@ TimeExposure::TimeExposure(const std::vector<double>& steps, double first, doubl
   {
     Instant instant;
     instant.time = this->Begin + (i + 0.5) / samples * (this->End - this->Begin);
-    // Of the steps, there is one before and one after: they are within them.
+    // Finds the steps around the instant.
     const auto after = std::upper_bound(steps.begin(), steps.end(), instant.time);
     if (after == steps.begin() || after == steps.end())
     {

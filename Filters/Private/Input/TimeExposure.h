@@ -9,35 +9,35 @@
 namespace filters
 {
 
-/// An image that is the mean over an interval of time, as a camera's shutter makes it: which data it takes, and when.
-/// The interval lies around the time of the image, so that what moves is where a short exposure shows it, and as much
-/// of it before as after. It ends where the data do. The instants are the middles of equal parts of it.
+/// The time steps and weights of an image that is the mean over an interval of time, like a
+/// camera's exposure. The interval is centred at the image's time and clipped to the data's times.
+/// The instants are the midpoints of equal subintervals.
 class TimeExposure
 {
 public:
   struct Instant
   {
     double time = 0;
-    /// What it lies between: numbers of Steps, either the same or neighbours; and its place, 0 to 1, between them.
+    /// The two Steps around it (or twice the same), and its position between them, 0 to 1.
     std::size_t earlier = 0, later = 0;
     double ratio = 0;
   };
 
-  /// None: the image is of one instant.
+  /// No exposure: the image shows one instant.
   TimeExposure() = default;
 
-  /// `steps`: those of the data; none: the data have any time within `first` ... `last`.
+  /// `steps`: times of the data; empty: the data have any time within `first` ... `last`.
   TimeExposure(const std::vector<double>& steps, double first, double last, double time,
     double length, int samples);
 
   bool IsNone() const { return this->Instants.empty(); }
 
-  /// Like "mean of 8 instants from 0.1 to 0.2".
+  /// Returns a text such as "mean of 8 instants from 0.1 to 0.2".
   std::string GetWords() const;
 
-  std::vector<double> Steps; ///< times of the data that are needed, rising
+  std::vector<double> Steps; ///< times of the data that are needed, increasing
   std::vector<Instant> Instants;
-  double Time = 0; ///< of the image
+  double Time = 0; ///< time of the image
   double Begin = 0, End = 0;
 };
 

@@ -29,7 +29,7 @@ std::string textOf(double time)
   return text.str();
 }
 
-/// Updates what is upstream of all inputs. False where something there has failed.
+/// Updates the filters upstream of all inputs. Returns false if one of them has failed.
 bool updateInputs(vtkAlgorithm* filter)
 {
   bool areThere = true;
@@ -45,7 +45,7 @@ bool updateInputs(vtkAlgorithm* filter)
   return areThere;
 }
 
-/// Says of what time the outputs are, which the pipeline else takes from the input.
+/// Sets the time of the outputs, which the pipeline otherwise copies from the input.
 void setTime(vtkInformationVector* outputs, double time)
 {
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
@@ -56,7 +56,7 @@ void setTime(vtkInformationVector* outputs, double time)
   }
 }
 
-/// A copy that shares the arrays and keeps them while upstream makes others; null of null.
+/// Returns a shallow copy, which keeps the arrays while upstream makes others; null for null.
 vtkSmartPointer<vtkDataObject> sharedCopy(vtkDataObject* data)
 {
   if (!data)
@@ -135,7 +135,7 @@ ExposureSteps::~ExposureSteps()
   {
     return;
   }
-  // So that the next request is not taken for another one.
+  // Restores the first request, so that the next one does not differ from it.
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps.front());
   requestPieces(this->Filter, this->Inputs);
   setTime(this->Outputs, this->Exposure.Time);
@@ -157,7 +157,7 @@ bool ExposureSteps::Resume()
   {
     return false;
   }
-  this->Ranks.ranks().end({ false, false }); // the other ranks continue, too
+  this->Ranks.ranks().end({ false, false }); // ends the work of other ranks, too
   ++this->Step;
   requestTime(this->Filter, this->Inputs, this->Exposure.Steps[this->Step]);
   requestPieces(this->Filter, this->Inputs);

@@ -21,22 +21,22 @@ class vtkInformationVector;
 namespace filters
 {
 
-/// What an exposure of `length`, of so many instants, is in a request of that output for a time; none where the data do
-/// not change with time.
+/// Returns the exposure of `length` and so many instants for a request of the output; none for data
+/// that do not change with time.
 TimeExposure exposureFor(vtkInformation* input, vtkInformation* output, double length, int samples);
 
-/// Requests another time of all inputs than that of the output.
+/// Requests data of another time than the output's from all inputs.
 void requestTime(vtkAlgorithm* filter, vtkInformationVector** inputs, double time);
 
-/// The data of an image, for RequestData of a filter that has those of the first step of its exposure, or of the only
-/// one where there is none. What is upstream is updated for one step after the other, on all ranks, and two of them
-/// are kept. (VTK's CONTINUE_EXECUTING would do the same, but never ends where the data of a step cannot be read.)
-/// At its end, the other ranks have been followed through all steps, whatever happened on this one, the outputs are of
-/// the time of the image, and the request is that of the first step again.
+/// Updates upstream filters for the steps of an exposure (or for one step without exposure), on all
+/// ranks, in the RequestData of a filter that has the data of the first one, and keeps two of them.
+/// VTK's CONTINUE_EXECUTING would not end if a step cannot be read. The destructor leads the other
+/// ranks through all steps even after an error, sets the image's time on the outputs, and requests
+/// the first step again.
 class ExposureSteps
 {
 public:
-  /// `maker`: see InputsOfRanks::setOwn(). `ranks`: which have begun. `maxCells`: see InputsOfRanks::gather().
+  /// `maker`: see InputsOfRanks::setOwn(). `ranks`: begun. `maxCells`: see InputsOfRanks::gather().
   ExposureSteps(vtkAlgorithm* filter, MediumMaker& maker, InputsOfRanks& ranks,
     vtkInformationVector** inputs, vtkInformationVector* outputs, const TimeExposure& exposure,
     double maxCells);
@@ -44,18 +44,19 @@ public:
   ExposureSteps(const ExposureSteps&) = delete;
   ExposureSteps& operator=(const ExposureSteps&) = delete;
 
-  /// Updates the inputs for the next step, for which the ranks begin anew. False where there is none.
+  /// Updates the inputs for the next step, with which the ranks begin again. Returns false without
+  /// one.
   bool Resume();
-  /// Whether they have begun: no rank lacks the step.
+  /// Returns whether all ranks have the step.
   bool IsThere() const { return this->Problem.empty(); }
 
-  /// On rank 0: keeps the data of the step, of data that stay on their ranks its own piece. Throws std::runtime_error with a
-  /// message for the user, as the next one.
+  /// Keeps the data of the step on rank 0, or its piece of data that stay on their ranks. Throws
+  /// std::runtime_error with a message for the user, as KeepPiece() does.
   void Keep();
-  /// On other ranks: keeps their pieces.
+  /// Keeps the pieces of other ranks.
   void KeepPiece();
 
-  /// The data of an input at an instant, for which the step must be there.
+  /// Return whether an instant needs a later step, and the data of an input at an instant.
   bool IsBefore(const TimeExposure::Instant& instant) const { return this->Step < instant.later; }
   vtkSmartPointer<vtkDataObject> GetData(int port, const TimeExposure::Instant& instant) const;
 

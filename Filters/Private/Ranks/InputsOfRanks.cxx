@@ -27,7 +27,7 @@ namespace filters
 namespace
 {
 
-/// The first bytes of requests, beside those of SamplesOverRanks and RayWorker.
+/// The first bytes of requests, different from those of SamplesOverRanks and RayWorker.
 enum Kind : std::uint32_t
 {
   ShareArrays = 10,
@@ -38,8 +38,8 @@ enum Kind : std::uint32_t
   Release
 };
 
-/// An image takes some 10 bytes a point, a mesh some 200, and less time; and the medium of an image that rank 0 has is its own
-/// grid, which is exact.
+/// Ratio of images to meshes: images take about 10 bytes per point and less time, meshes about 200;
+/// and an image on rank 0 keeps its own grid, which is exact.
 constexpr double cellsOfImageForOne = 160;
 
 std::vector<char> requestOf(Kind kind)
@@ -56,7 +56,7 @@ std::string absenceOf(const Ranks& ranks)
     "rank has reported, or use one process.";
 }
 
-/// The sources of all filters of this rank, by their numbers.
+/// Numbers the sources of all filters of this rank.
 class Sources
 {
 public:
@@ -132,7 +132,7 @@ void InputsOfRanks::forgetOwn()
   this->OwnAt = nullptr;
 }
 
-/// Rank 0 does the same meanwhile.
+/// Requests work of all ranks, which rank 0 does meanwhile, too.
 void InputsOfRanks::requestOfAll(const std::vector<char>& message)
 {
   this->All.request(message, [&] { this->answer(message); });
@@ -308,7 +308,7 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
       const auto hasFields = reader.Get<bool>();
       const auto instant = reader.Get<int>();
       const auto ofBodies = reader.GetAll<std::vector<char>>();
-      this->Held = nullptr; // two at once might not fit
+      this->Held = nullptr; // frees memory first
       this->Made = {};
       vtkSmartPointer<vtkDataObject> data = this->Own[0], bodies;
       ranks.agree(

@@ -28,53 +28,55 @@ namespace filters
 
 class MediumMaker;
 
-/// The inputs of a filter on several ranks. Where nothing is said, functions are for rank 0 between begin() and end() of its ranks; the others follow by answer().
+/// The inputs of a filter on several ranks. Unless noted otherwise, rank 0 calls functions between
+/// begin() and end() of its ranks; the others follow by answer().
 class InputsOfRanks
 {
 public:
   FilterRanks& ranks() { return this->All; }
 
-  /// On a rank where something upstream has failed, before begin().
+  /// Marks a rank without input after an error upstream, before begin().
   void lackInput() { this->LacksInput = true; }
-  /// On all ranks, in RequestData: FilterRanks::begin(), with what this rank has of the inputs. Throws what has gone wrong
-  /// upstream of any rank.
+  /// Calls FilterRanks::begin() on all ranks, in RequestData, with the inputs of this one. Throws
+  /// errors upstream of any rank.
   bool begin(vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted,
     const std::string& problem = "");
 
-  /// On all ranks, after begin(): what this one has, and what makes a medium of it. `dataAt`: what it has of the data at an instant between time steps; may be
-  /// empty, and throw std::runtime_error.
+  /// Sets, on all ranks after begin(), the inputs of this rank and the maker of a medium. `dataAt`:
+  /// returns this rank's data at an instant between time steps; may be empty, and may throw
+  /// std::runtime_error.
   using DataAt = std::function<vtkSmartPointer<vtkDataObject>(int instant)>;
   void setOwn(MediumMaker& maker, vtkDataObject* data, vtkDataObject* bodies, DataAt dataAt = {});
-  /// On all ranks, before end().
+  /// Clears what setOwn() has set, on all ranks before end().
   void forgetOwn();
 
-  /// Where an array is to be chosen: all ranks learn of all arrays, so that all choose the same.
+  /// Sends the arrays of all ranks to all, so that all choose the same.
   void shareArrays();
 
-  /// All of the inputs; data of more cells than `maxCells` (of images 160 times as many) that several ranks have stay where they
-  /// are: `data` is what rank 0 has of them.
+  /// All inputs. Data of more than `maxCells` cells (images: 160 times as many) on several ranks
+  /// stay there: `data` is then rank 0's piece.
   struct Inputs
   {
     vtkDataObject* data = nullptr;
     vtkDataObject* bodies = nullptr;
   };
   Inputs gather(double maxCells);
-  /// Whether the data have stayed on several ranks.
+  /// Returns whether the data have stayed on several ranks.
   bool areInPieces() const { return this->InPieces; }
-  /// At any time: all of an input of which this is what rank 0 has, after it has been gathered.
+  /// Returns all of an input, of which rank 0 has `own`, after it has been gathered. At any time.
   vtkDataObject* gatheredOf(int port, vtkDataObject* own) const;
 
-  /// Makes the source of data that have stayed. `instant`: see setOwn(); -1: none. `warning`: see MediumMaker::makeSource().
-  /// Throws std::runtime_error.
+  /// Makes the source of data that stay on their ranks. `instant`: see setOwn(); -1: none.
+  /// `warning`: see MediumMaker::makeSource(). Throws std::runtime_error.
   std::shared_ptr<const schlieren::MediumSource> make(
     vtkDataObject* bodies, bool hasFields, int instant, std::string& warning);
-  /// Makes the ranks of this filter answer for a source, which may be another filter's. False where they cannot: then it has
-  /// to be made anew. Sources that need no ranks always can.
+  /// Makes the ranks of this filter answer for a source, perhaps another filter's. Returns false if
+  /// they cannot, and a new source is needed. Succeeds for sources that need no ranks.
   bool use(const schlieren::MediumSource* source);
-  /// On all ranks: forgets what it has of a source.
+  /// Drops the source on all ranks.
   void release();
 
-  /// On other ranks.
+  /// Answers a request on other ranks.
   std::vector<char> answer(const std::vector<char>& request);
 
 private:
@@ -92,10 +94,10 @@ private:
     int kind = 0;
     bool isOnRank0 = true;
   };
-  std::array<Located, 2> Places;                          // as the ranks have found them last
+  std::array<Located, 2> Places;                          // when the ranks last compared them
   std::array<vtkSmartPointer<vtkDataObject>, 2> Gathered; // null: rank 0 has all of it
   bool InPieces = false;
-  double GatheredVersion = -1, GatheredMost = -1; // of what has been gathered
+  double GatheredVersion = -1, GatheredMost = -1; // of the gathered data
   std::vector<std::string> GatheredArrays;
   KeptOverRanks Kept;
   MadeOverRanks Made;

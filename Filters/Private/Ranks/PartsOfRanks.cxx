@@ -35,20 +35,20 @@ namespace filters
 namespace
 {
 
-/// Of cells, that what is known of a point may depend on: its trend depends on the values at the points of the cells
-/// around it, and where these are few on those of the next ones; values that are found from cells do so, too.
+/// Layers of cells that a point may depend on: its trend depends on the points of the cells around
+/// it, and of the next ones if these are few; point values found from cells need twice as many.
 constexpr int layersForPoints = 2;
 constexpr int layersForCells = 4;
 
 constexpr const char* hiddenName = "SchlierenHidden";
 
-/// Whether there are values of cells.
+/// Returns whether cells have values.
 bool hasCellValues(vtkDataSet* mesh)
 {
   return mesh->GetCellData()->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);
 }
 
-/// Of where a dataset is, and of some of its points and cells.
+/// Hashes the positions of a dataset, and of some of its points and cells.
 std::uint64_t placesOf(vtkDataSet* data)
 {
   Hash hash;
@@ -77,7 +77,7 @@ std::uint64_t placesOf(vtkDataSet* data)
     {
       hash.add(static_cast<std::uint64_t>(image->GetDimensions()[axis]));
     }
-    return hash.value(); // they say where all points are, and there may be very many blocks
+    return hash.value(); // sufficient for images, of which there may be many
   }
   forSome(data->GetNumberOfPoints(), addPoint);
   vtkNew<vtkIdList> points;
@@ -90,7 +90,7 @@ std::uint64_t placesOf(vtkDataSet* data)
   return hash.value();
 }
 
-/// The names, types and components of all arrays.
+/// Lists the names, types and components of all arrays.
 std::string arraysIn(vtkDataSet* data)
 {
   std::string text;
@@ -132,8 +132,8 @@ bool canHaveGhostCells(int type)
     type == VTK_UNSTRUCTURED_GRID;
 }
 
-/// Numbers by which points are known on all ranks: of their places, and of how many points of the mesh before them are
-/// there. VTK 9.2 compares rounded places itself.
+/// Makes point numbers that are equal on all ranks, from positions and from the count of earlier
+/// points at the same one. VTK 9.2 would compare rounded positions.
 vtkSmartPointer<vtkIdTypeArray> globalIdsOf(vtkDataSet* mesh)
 {
   const vtkIdType count = mesh->GetNumberOfPoints();
@@ -145,7 +145,7 @@ vtkSmartPointer<vtkIdTypeArray> globalIdsOf(vtkDataSet* mesh)
     mesh->GetPoint(id, at);
     for (double& x : at)
     {
-      x += 0.; // one zero
+      x += 0.; // makes -0 equal 0
     }
     Hash hash;
     hash.add(at, 3);
@@ -167,7 +167,7 @@ vtkSmartPointer<vtkIdTypeArray> globalIdsOf(vtkDataSet* mesh)
   return ids;
 }
 
-/// What of a ghost array is hidden, as an array that VTK hands on like any other.
+/// Copies the hidden flags of a ghost array to an array that VTK passes on like any other.
 void setAsideHidden(vtkDataSet* mesh, int kind)
 {
   vtkUnsignedCharArray* ghosts = mesh->GetGhostArray(kind);
@@ -182,7 +182,7 @@ void setAsideHidden(vtkDataSet* mesh, int kind)
   mesh->GetAttributes(kind)->AddArray(hidden);
 }
 
-/// Which cells are copies and which are hidden; and which points are hidden.
+/// Restores the flags of copies and of hidden cells and points.
 void restoreHidden(vtkDataSet* mesh, int kind)
 {
   vtkDataSetAttributes* attributes = mesh->GetAttributes(kind);
@@ -202,8 +202,8 @@ void restoreHidden(vtkDataSet* mesh, int kind)
   attributes->AddArray(flags);
 }
 
-/// What of a rank's part no part of a rank before it has. Readers may give grids with copies of others' cells. Where one
-/// part lies within another along all axes, both have indices of their own.
+/// Returns a rank's extent without that of ranks before it, because readers may give grids with
+/// copies of others' cells. Ranks whose extents contain each other number their points separately.
 PartsOfRanks::Extent withoutOverlap(const std::vector<PartsOfRanks::Extent>& extents,
   const std::vector<std::size_t>& ranks, std::size_t rank)
 {
@@ -258,7 +258,7 @@ void crop(vtkDataSet* grid, const PartsOfRanks::Extent& extent)
 
 } // namespace
 
-/// Of a part, as it is sent.
+/// The description of a piece that is sent to all ranks.
 struct PartsOfRanks::Facts
 {
   Slot slot;
@@ -445,7 +445,7 @@ vtkSmartPointer<vtkDataObject> PartsOfRanks::gather()
   this->All.agree(
     [&]
     {
-      if (this->All.rank() == 0) // datasets of the parts, and what they are joined to
+      if (this->All.rank() == 0) // the pieces, and what they are joined to
       {
         requireMemory(2 * bytes, "To gather the data that the ranks have of the input on rank 0",
           "Use a coarser input.");
@@ -512,7 +512,7 @@ std::vector<PartsOfRanks::Piece> PartsOfRanks::withGhostCells()
       vtkNew<vtkGhostCellsGenerator> generator;
       generator->SetInputData(given);
       generator->BuildIfRequiredOff();
-      // VTK 9.2 reads beyond grids that are thinner.
+      // Limits the layers, because VTK 9.2 reads beyond thinner grids.
       generator->SetNumberOfGhostLayers(
         std::min(isImage ? ImagePiece::layers : dataset.layers, dataset.thinnest));
       generator->Update();

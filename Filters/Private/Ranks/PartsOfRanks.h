@@ -20,38 +20,40 @@ class vtkDataSet;
 namespace filters
 {
 
-/// Where the datasets of an input lie: what each rank has of them. Datasets that several ranks have in full count once. All
-/// ranks call all functions that are not const.
+/// Finds the datasets of an input on all ranks. Datasets that several ranks have completely count
+/// once. All ranks call all functions that are not const.
 class PartsOfRanks
 {
 public:
   using Extent = std::array<int, 6>;
 
-  /// Of `own`, which may be null, those arrays that are named. Throws std::runtime_error, as all functions.
+  /// Describes the named arrays of `own`, which may be null. Throws std::runtime_error, as all
+  /// functions do.
   PartsOfRanks(const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays);
 
   double cells() const;
   bool areOnRank0() const;
-  /// What data that are not gathered can be, in three dimensions.
+  /// Kinds of three-dimensional data that need not be gathered.
   enum class Kind
   {
-    Gathered, // none of these: adaptive blocks, surfaces, planes
+    Gathered, // others: adaptive blocks, surfaces, planes
     Meshes,
     Image
   };
   Kind kind() const;
 
-  /// On rank 0 all data, as few datasets as can be; null where it has all anyway, and on other ranks.
+  /// Returns all data on rank 0, in as few datasets as possible; null on others, or if rank 0 has
+  /// them.
   vtkSmartPointer<vtkDataObject> gather();
 
-  /// What one rank has of a dataset, with cells of other ranks around it, which are marked as copies (DUPLICATECELL).
+  /// A rank's cells of a dataset, surrounded by copies of other ranks' cells (DUPLICATECELL).
   struct Piece
   {
     vtkSmartPointer<vtkDataSet> data;
-    std::uint32_t dataset; ///< the same on all ranks
-    Extent own, whole;     ///< of points of an image or grid: without the copies, and of all ranks
+    std::uint32_t dataset; ///< equal on all ranks
+    Extent own, whole;     ///< points of an image or grid, without copies, and on all ranks
   };
-  /// By vtkGhostCellsGenerator. Cells of different datasets are no neighbours.
+  /// Adds ghost cells by vtkGhostCellsGenerator. Different datasets are not neighbours.
   std::vector<Piece> withGhostCells();
 
 private:
@@ -61,18 +63,18 @@ private:
 
   const Ranks& All;
   std::vector<Part> Own;
-  /// What is the same of a dataset on all ranks.
+  /// The description of a dataset, equal on all ranks.
   struct Dataset
   {
     Slot slot;
-    int type = -1; ///< of VTK; -1: several
+    int type = -1; ///< VTK's type; -1: several
     int dimension = 0;
-    int layers = 0; ///< of cells around a piece that values in it depend on
-    int thinnest = std::numeric_limits<int>::max(); ///< of grids, cells along any edge of a part
-    std::vector<Extent> extents{};                  ///< of the parts, in the order of ranks
+    int layers = 0; ///< cells around a piece that its values depend on
+    int thinnest = std::numeric_limits<int>::max(); ///< cells along any edge of a grid's pieces
+    std::vector<Extent> extents{};                  ///< pieces, in the order of ranks
     double cells = 0;
     Extent whole{};
-    std::vector<std::size_t> ranks{}; ///< that have a part of it
+    std::vector<std::size_t> ranks{}; ///< that have a piece
   };
   std::vector<Dataset> Datasets;
   bool IsAmr = false;

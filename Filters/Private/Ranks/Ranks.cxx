@@ -26,25 +26,25 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-/// Null where there is one process.
+/// Returns null for one process.
 vtkMultiProcessController* controllerOfRanks()
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
   return controller && controller->GetNumberOfProcesses() > 1 ? controller : nullptr;
 }
 
-/// What an attempt has come to.
+/// Results of an attempt.
 enum class Attempt : char
 {
   Done,
   Failed,
-  Lacking // arrays
+  Lacking // arrays are missing
 };
 
-/// MPI counts by integers.
+/// Maximum message size: MPI counts by int.
 constexpr vtkIdType mostAtOnce = vtkIdType{ 1 } << 30;
 
-/// Of requests, beside those for a RayWorker and those that a filter answers.
+/// Ends serve(); different from the requests of RayWorker and of filters.
 constexpr std::uint32_t endOfWork = 1;
 
 } // namespace
@@ -64,7 +64,7 @@ void setComplete(vtkInformationVector* outputs)
     vtkInformation* outInfo = outputs->GetInformationObject(port);
     vtkInformation* dataInfo = vtkDataObject::GetData(outInfo)->GetInformation();
     dataInfo->Set(vtkDataObject::ALL_PIECES_EXTENT(), outInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
-    if (outInfo->Has(vtkDataObject::ALL_PIECES_EXTENT())) // the pipeline will take this one
+    if (outInfo->Has(vtkDataObject::ALL_PIECES_EXTENT())) // the pipeline copies this one
     {
       outInfo->CopyEntry(dataInfo, vtkDataObject::ALL_PIECES_EXTENT());
     }
@@ -76,12 +76,12 @@ void requestPiece(vtkInformation* inInfo)
   if (inInfo->Has(Pipeline::WHOLE_EXTENT()) &&
     isGrid(vtkDataSet::SafeDownCast(vtkDataObject::GetData(inInfo))))
   {
-    // VTK divides it by the piece.
+    // Requests the whole extent, which VTK divides by pieces.
     inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
   }
   else
   {
-    // Others may have the key, too, from images upstream.
+    // Removes the key, which images upstream may have set.
     inInfo->Remove(Pipeline::UPDATE_EXTENT());
   }
   vtkMultiProcessController* controller = controllerOfRanks();
@@ -114,7 +114,7 @@ Ranks::Bytes attempted(const std::function<Ranks::Bytes()>& make)
   try
   {
     bytes = make();
-    bytes.push_back(static_cast<char>(Attempt::Done)); // behind, so that nothing is moved
+    bytes.push_back(static_cast<char>(Attempt::Done)); // at the end, so that no bytes are moved
     return bytes;
   }
   catch (const ArraysMissing& problem)

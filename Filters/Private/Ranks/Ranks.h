@@ -17,29 +17,29 @@ class vtkMultiProcessController;
 namespace filters
 {
 
-/// False on the other MPI processes of ParaView where there are several: rank 0 makes what there is one of, the
-/// others leave it empty.
+/// Returns false on all but one of several MPI processes: rank 0 makes outputs that exist once, the
+/// others leave them empty.
 bool isRank0();
 
-/// Whether there are other ranks.
+/// Returns whether there are other ranks.
 bool hasOtherRanks();
 
-/// In RequestData, where there are several ranks: says that the outputs are all that will be made of their whole
-/// extents. Otherwise, a rank that made nothing would run again, alone, at each update, and with it what is
-/// upstream: filters that wait for the other ranks would wait forever.
+/// Declares, in RequestData, outputs complete for their whole extents. Otherwise, ranks with empty
+/// outputs would run again, alone, at each update, and upstream filters that wait for other ranks
+/// would hang.
 void setComplete(vtkInformationVector* outputs);
 
-/// In RequestUpdateExtent: each rank requests its piece of all inputs.
+/// Requests this rank's piece of all inputs, in RequestUpdateExtent.
 void requestPieces(vtkAlgorithm* filter, vtkInformationVector** inputs);
-/// The same of one input.
+/// Requests this rank's piece of an input.
 void requestPiece(vtkInformation* inInfo);
 
 /**
- * The ranks of VTK's controller, or this process alone. All call the same functions in the same order, and each waits there
- * for the others, however long that takes.
+ * The ranks of VTK's controller, or this process alone. All call the same functions in the same
+ * order and wait for each other.
  *
- * What a rank throws while it works for one of them takes the place of what it would have given, and all ranks throw it:
- * std::runtime_error with the message of the first of them, or ArraysMissing where that is what all of them say.
+ * If work throws on a rank, all ranks throw: std::runtime_error with the message of the first one,
+ * or ArraysMissing if that is the only kind of error.
  */
 class Ranks
 {
@@ -50,25 +50,26 @@ public:
   std::size_t rank() const;
 
   using Bytes = std::vector<char>;
-  /// What each rank makes, on all of them.
+  /// Collects the results of all ranks on all ranks.
   std::vector<Bytes> allGather(const std::function<Bytes()>& make) const;
-  /// The same without anything to be given: where one rank fails, all do.
+  /// Throws on all ranks if `work` throws on one.
   void agree(const std::function<void()>& work) const;
-  /// On `root` what each rank gives, on others nothing. It cannot fail.
+  /// Returns the data of all ranks on `root`, nothing on others. Does not fail.
   std::vector<Bytes> gather(const Bytes& own, std::size_t root) const;
-  /// From rank 0 to all. It cannot fail.
+  /// Copies data from rank 0 to all. Does not fail.
   void broadcast(Bytes& bytes) const;
 
 private:
-  vtkMultiProcessController* Controller; // null: there are no others
+  vtkMultiProcessController* Controller; // null: no others
 };
 
-/// The result of some work, or what it has thrown, as bytes; and the results of all ranks, or what they have thrown.
+/// Converts the result or exception of `make` to bytes, and those of all ranks to results or an
+/// exception.
 Ranks::Bytes attempted(const std::function<Ranks::Bytes()>& make);
 std::vector<Ranks::Bytes> resultsOf(std::vector<Ranks::Bytes> attempts);
 
-/// The ranks of one filter. Rank 0 decides what is done, and the others do what it requests: from begin() until rank 0 calls
-/// end(), both of which all ranks call in each update.
+/// The ranks of a filter. Rank 0 requests work of the others, from begin() to end(), which all
+/// ranks call in each update.
 class FilterRanks : public schlieren::Processes
 {
 public:
@@ -77,30 +78,31 @@ public:
   const Ranks& all() const { return this->All; }
   bool areSeveral() const { return this->All.count() > 1; }
 
-  /// All ranks begin. `description`: of what this rank has, where something upstream has changed another one. `problem`: why
-  /// this rank cannot take part; mostly empty. Throws std::runtime_error where any rank cannot. False, on all ranks, where rank
-  /// 0 does not want to.
+  /// Begins on all ranks. `description`: of this rank's inputs; it differs after changes upstream.
+  /// `problem`: why this rank cannot work; mostly empty. Throws std::runtime_error if any rank
+  /// cannot. Returns false on all ranks if rank 0 does not want to.
   bool begin(
     const std::vector<double>& description, const std::string& problem = "", bool isWanted = true);
-  /// All ranks begin with the inputs that they have had.
+  /// Begins on all ranks with the same inputs.
   void resume() { this->IsAtWork = this->areSeveral(); }
-  /// On rank 0: a number that changes when any rank's description does.
+  /// Returns a number on rank 0 that changes with any rank's description.
   double version() const { return this->Version; }
 
   int others() const override { return static_cast<int>(this->All.count()) - 1; }
-  /// On rank 0 between begin() and end(). What any rank throws is thrown here, see Ranks.
+  /// Requests work, on rank 0 between begin() and end(). Throws errors of all ranks, see Ranks.
   std::vector<std::vector<char>> request(
     const std::vector<char>& message, const std::function<void()>& meanwhile) override;
   bool isAtWork() const { return this->IsAtWork; }
 
-  /// On other ranks, until rank 0 ends it: answers its requests, those for a RayWorker itself. Returns what rank 0 says.
+  /// Answers requests on other ranks, including those for a RayWorker, until rank 0 ends. Returns
+  /// its outcome.
   struct Outcome
   {
     bool hasMore, hasImage;
   };
   using Answer = std::function<std::vector<char>(const std::vector<char>& request)>;
   Outcome serve(int threads, const Answer& answer);
-  /// On rank 0.
+  /// Ends the work, on rank 0.
   void end(const Outcome& outcome);
 
 private:

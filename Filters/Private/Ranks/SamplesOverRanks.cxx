@@ -85,7 +85,7 @@ SamplesOverRanks::LatticeKey SamplesOverRanks::keyOf(const schlieren::Lattice& l
     static_cast<double>(points[2]) };
 }
 
-/// Which places there are, by the boundary; and the cells where there is gas.
+/// Combines kinds of points, by the boundary, with the cells that have gas.
 schlieren::MediumSource::Content SamplesOverRanks::contentFrom(
   const schlieren::Box& box, const OwnContent& found) const
 {
@@ -205,7 +205,7 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
         putAll(ofLattices[n], packed[n % ranks]);
       }
     });
-  // What may fail comes behind the last of these, at which others would wait.
+  // Defers errors until the last collective, at which others would wait.
   std::vector<Ranks::Bytes> ofRanks;
   for (std::size_t root = 0; root < ranks; ++root)
   {

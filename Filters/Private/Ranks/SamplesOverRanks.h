@@ -19,16 +19,17 @@ namespace filters
 {
 
 /**
- * The refractivity of data of which each rank has a piece. Every rank has such a source, with the boundary of all data. What
- * is known of boxes is collected from all ranks, samples by the rank that makes a brick of them: each rank samples what its
- * own cells hold, and of points that several hold the first rank's count.
+ * The refractivity of data in pieces on several ranks. Every rank has such a source, with the
+ * boundary of all data. Contents of boxes are reduced over all ranks; samples are summed up by the
+ * rank that makes the brick. Each rank samples its own cells, and the first rank decides for shared
+ * points.
  *
- * Rank 0 has the tree. Its source makes bricks by requests to the ranks of the filter that uses it at the time, see use().
+ * Rank 0 has the tree, and requests bricks of the ranks of the filter that uses it, see use().
  */
 class SamplesOverRanks : public schlieren::MediumSource, public schlieren::BrickMakers
 {
 public:
-  /// Of all of the data.
+  /// Properties of the whole data.
   struct Facts
   {
     schlieren::Box bounds{};
@@ -38,18 +39,19 @@ public:
     CellTree::Content content{};
     std::vector<FieldRange> fields{};
   };
-  /// `number`: by which all ranks know it. `lattices`: what is known of them from earlier time steps; may be null.
+  /// `number`: identifies the source on all ranks. `lattices`: known from earlier time steps; may
+  /// be null.
   SamplesOverRanks(const Ranks& ranks, std::uint64_t number, Facts facts,
     std::unique_ptr<const DataPiece> piece, std::shared_ptr<const GasBoundary> boundary,
     std::shared_ptr<LatticesOfMesh> lattices, int threads);
 
-  /// The first bytes of a request to make bricks, which other ranks answer by answerBricks().
+  /// The first bytes of a request for bricks, which other ranks answer by answerBricks().
   static constexpr std::uint32_t requestOfBricks = 20;
   std::uint64_t number() const { return this->Number; }
-  /// On rank 0: the ranks that make bricks from now on; null: none.
+  /// Sets, on rank 0, the ranks that make bricks; null: none.
   void use(FilterRanks* ranks) const { this->Used = ranks; }
   bool isUsedBy(const FilterRanks* ranks) const { return this->Used == ranks; }
-  /// What of a request follows the first bytes and the number.
+  /// Answers a request, from behind its first bytes and number.
   std::vector<char> answerBricks(Reader& request) const;
 
   schlieren::Box bounds() const override { return this->All.bounds; }
@@ -62,7 +64,7 @@ public:
   bool dependsOnLattice() const override { return true; }
 
   int fields() const override { return static_cast<int>(this->All.fields.size()); }
-  /// Of a box that is not prepared, that of all data.
+  /// Returns the range in a prepared box, or that of all data.
   FieldRange rangeOfField(int field, const schlieren::Box& box) const override;
   void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
     schlieren::Place* places, float* distances, double* values) const override;
@@ -81,7 +83,7 @@ private:
     Content content;
     std::vector<FieldRange> fields;
   };
-  /// What one rank has in a box: its cells, and which of GasBoundary::testedPlaces() these hold.
+  /// Content of a rank in a box: its cells, and which of GasBoundary::testedPlaces() they contain.
   struct OwnContent
   {
     CellTree::Content cells;
@@ -110,7 +112,7 @@ private:
   mutable FilterRanks* Used = nullptr;
 };
 
-/// Of two pieces of the same data.
+/// Extend the bounds, content or range of a piece by those of another one.
 void extend(schlieren::Box& box, const schlieren::Box& by);
 void extend(CellTree::Content& content, const CellTree::Content& by);
 void extend(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The medium of data that stay on several ranks. All of them run this.
+// Makes the medium of data that stay on several ranks. All of them run this.
 #include "Ranks/SourceOverRanks.h"
 
 #include "Amr/AmrFaces.h"
@@ -37,10 +37,10 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr schlieren::MediumSource::FieldRange nowhere{ 1, 0 };
 
-/// A piece that is one layer of cells may be of data that are several.
+/// Keeps layers, because data may have several layers in pieces of one.
 const Source asTheyAre;
 
-/// Makes a source, on one rank together with all others.
+/// Makes a source together with all other ranks.
 class Maker
 {
 public:
@@ -73,7 +73,7 @@ private:
 
   std::vector<PartsOfRanks::Piece> Parts;
   bool IsImage = false;
-  vtkSmartPointer<vtkDataObject> Data; // of Parts; null: there are none
+  vtkSmartPointer<vtkDataObject> Data; // of Parts; null: no data
   Source Chosen;
   std::vector<FieldMean::Range> OfModel, OfFields; // ranges on all ranks
   std::unique_ptr<DataPiece> Piece;
@@ -98,7 +98,7 @@ std::vector<FieldMean::Range> joinedRanges(
   return a;
 }
 
-/// Of all ranks' values at the boundary of meshes those of some points.
+/// Selects values at some boundary points from those of all ranks.
 std::vector<double> valuesOf(
   const std::vector<Contribution>& points, const std::vector<double>& values)
 {
@@ -110,7 +110,7 @@ std::vector<double> valuesOf(
   return found;
 }
 
-/// So much is done. All ranks end where rank 0 is to stop.
+/// Reports progress. Ends all ranks if rank 0 is cancelled.
 void Maker::reach(double done)
 {
   this->All.agree(
@@ -120,13 +120,13 @@ void Maker::reach(double done)
       {
         if (this->Of.progress() && !this->Of.progress()(done))
         {
-          throw std::runtime_error("It was stopped."); // which nobody reports
+          throw std::runtime_error("It was stopped."); // not reported
         }
       }
     });
 }
 
-/// The arrays, and the ranges on all ranks of fields whose values they are relative to.
+/// Chooses arrays, and finds the ranges on all ranks of fields that are relative to them.
 void Maker::chooseArrays()
 {
   const auto ofRanks = this->All.allGather(
@@ -227,7 +227,7 @@ void Maker::makePieceOfMeshes()
           preparedLeaves(fields[number].source, cellValues, notReported, shared);
       }
     }
-    // Datasets that hang together have become one, on other ranks perhaps others of them.
+    // Keeps joined datasets together, whose number may differ between ranks.
     const bool areApart = leaves.size() == source.leaves.size();
     for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
     {
@@ -291,7 +291,7 @@ void Maker::makePiece(vtkDataObject* bodies)
   }
 }
 
-/// What all pieces have in common.
+/// Reduces the properties of all pieces.
 void Maker::sumUp()
 {
   const auto ofRanks = this->All.allGather(
@@ -387,7 +387,7 @@ void Maker::makeBoundary(BoundaryOfImage of, vtkDataObject* bodies)
   this->Facts.ambient = ImagePiece::ambientOf(std::move(of.outer));
 }
 
-/// All ranks gather the faces of all, and make the same boundary of them.
+/// Gathers all boundary faces on all ranks, which make the same boundary of them.
 void Maker::findBoundary(vtkDataObject* bodies)
 {
   Hash ofBodies;
@@ -411,7 +411,7 @@ void Maker::findBoundary(vtkDataObject* bodies)
     });
   BoundaryOfMeshes ofMeshes;
   BoundaryOfImage ofImage;
-  std::vector<double> values; // of meshes, at the points of all ranks' faces
+  std::vector<double> values; // at the face points of all ranks' meshes
   for (const Ranks::Bytes& bytes : ofRanks)
   {
     Reader reader(bytes);

@@ -15,7 +15,6 @@ namespace filters
 namespace
 {
 
-/// The number of a value of an enumeration of the tracer.
 template <class Value>
 constexpr double numberOf(Value value)
 {

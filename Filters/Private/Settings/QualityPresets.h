@@ -15,13 +15,13 @@ struct QualitySetting
   const char* Property;
   double (*Get)(const AccuracySettings&);
   void (*Set)(AccuracySettings&, double);
-  std::array<double, 4> Values; ///< in each preset, in the order of vtkSchlierenFilter::Qualities
+  std::array<double, 4> Values; ///< for each preset, in the order of vtkSchlierenFilter::Qualities
 };
 
-/// All of them. What the presets are is written there alone; the XML's defaults are those of the first.
+/// The only definition of the presets; the XML's defaults equal the first one.
 extern const std::array<QualitySetting, 11> qualitySettings;
 
-/// StepSize of the fastest preset.
+/// Returns StepSize of the fastest preset.
 double interactiveStepSize();
 
 } // namespace filters
