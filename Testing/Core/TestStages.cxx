@@ -40,6 +40,30 @@ void expectSameImage(const Image& a, const Image& b)
   EXPECT_EQ(a.stepsTaken, b.stepsTaken);
 }
 
+TEST(Stages, CutoffTracesNothing)
+{
+  const SampledField<float> blob = blobField();
+  Bench bench;
+  Scene scene = smallScene();
+  bench.render(blob.field, scene);
+  const Work first = bench.work();
+  EXPECT_EQ(first.mediumBuilds, 1);
+  EXPECT_GT(first.raysTraced, 0);
+
+  scene.knifeEdgeAngle = 90;
+  Image image = bench.render(blob.field, scene);
+  EXPECT_EQ(image.traceSeconds, 0);
+  scene.kScale = 17;
+  bench.render(blob.field, scene);
+  scene.invertCutoff = true;
+  bench.render(blob.field, scene);
+  scene.cutoff = Cutoff::Shadowgraph;
+  image = bench.render(blob.field, scene);
+  EXPECT_EQ(bench.work().mediumBuilds, first.mediumBuilds);
+  EXPECT_EQ(bench.work().raysTraced, first.raysTraced);
+  expectSameImage(image, Bench().render(blob.field, scene));
+}
+
 TEST(Stages, CameraKeepsTheMedium)
 {
   const SampledField<float> blob = blobField();
@@ -98,6 +122,64 @@ TEST(Stages, EverythingThatMattersTracesAgain)
   expectFresh("interpolation");
   blob.field.lengthScale = 0.001;
   expectFresh("length scale");
+}
+
+TEST(Stages, MoreSamplesContinueTheSequence)
+{
+  const SampledField<float> blob = blobField();
+  Bench bench;
+  Scene scene = smallScene();
+  scene.samplesPerPixel = 3;
+  bench.render(blob.field, scene);
+  const std::int64_t rays = bench.work().raysTraced;
+  scene.samplesPerPixel = 9;
+  const Image grown = bench.render(blob.field, scene);
+  Bench fresh;
+  expectSameImage(grown, fresh.render(blob.field, scene));
+  EXPECT_EQ(bench.work().raysTraced, fresh.work().raysTraced);
+  EXPECT_GT(bench.work().raysTraced, 2 * rays);
+  // Going back shows the first image again and needs no re-tracing.
+  const std::int64_t all = bench.work().raysTraced;
+  scene.samplesPerPixel = 3;
+  const Image back = bench.render(blob.field, scene);
+  EXPECT_EQ(bench.work().raysTraced, all);
+  expectSameImage(back, Bench().render(blob.field, scene));
+}
+
+TEST(Stages, ThreadsDoNotChangeABit)
+{
+  SampledField<float> blob = blobField();
+  blob.samples[5000] = std::numeric_limits<float>::quiet_NaN();
+  for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph })
+  {
+    Scene scene = smallScene();
+    scene.cutoff = cutoff;
+    scene.view.viewDirection = { -0.2, 0.4, -1 };
+    scene.threads = 1;
+    const Image one = Bench().render(blob.field, scene);
+    for (const int threads : { 2, 7 })
+    {
+      SCOPED_TRACE(threads);
+      scene.threads = threads;
+      expectSameImage(one, Bench().render(blob.field, scene));
+    }
+  }
+}
+
+TEST(Stages, AbortLeavesNothingBroken)
+{
+  const SampledField<float> blob = blobField();
+  Bench bench;
+  const Scene scene = smallScene();
+  int calls = 0;
+  Monitor monitor;
+  monitor.aborted = [&] { return ++calls > 3; };
+  const Image aborted = bench.render(blob.field, scene, monitor);
+  EXPECT_TRUE(aborted.aborted);
+  EXPECT_TRUE(aborted.intensity.empty());
+  const Image image = bench.render(blob.field, scene);
+  EXPECT_FALSE(image.aborted);
+  expectSameImage(image, Bench().render(blob.field, scene));
 }
 
 TEST(Stages, ProgressGrowsToOne)

@@ -286,6 +286,137 @@ TEST_P(StrongMedia, LuneburgsLensHasAFocus)
   }
 }
 
+/// What comes out, sent back along the same line, arrives where it started, going the other way.
+TEST_P(StrongMedia, RaysAreReversible)
+{
+  for (const Case& medium : strongMedia())
+  {
+    SCOPED_TRACE(medium.name);
+    SampledField<double> field = sampled(boxGrid(1. / 40, medium.half), medium.form);
+    field.field.ambient = 0;
+    Bench bench;
+    Scene scene = raysThrough(medium, GetParam());
+    scene.precision = Precision::Double;
+    scene.integrator = Integrator::Rk4;
+    scene.interpolation = Interpolation::Cubic;
+    scene.stepSize = 0.5;
+    // Into the box's face and out of its opposite face.
+    const double u = 0.21, v = 0.13;
+    const double nearFace = boxOf(field.field.grid).low.z;
+    scene.view = raysAround({ u, v, 0 }, 1, 1, 1e-6);
+    const Image there = bench.render(field.field, scene);
+    const Reading out = readingOf(there, 0);
+    const Vector end{ u + out.displacement[0], v + out.displacement[1], -nearFace };
+    ASSERT_LT(std::abs(end[0]), medium.half.x);
+    ASSERT_LT(std::abs(end[1]), medium.half.y);
+
+    const auto forward = [](const Reading& ray)
+    {
+      return std::sqrt(
+        1 - ray.deflection[0] * ray.deflection[0] - ray.deflection[1] * ray.deflection[1]);
+    };
+    scene.view.viewDirection = { out.deflection[0], out.deflection[1], forward(out) };
+    scene.view.focalPoint = end;
+    const Image back = bench.render(field.field, scene);
+    const Reading in = readingOf(back, 0);
+    const Point ofU = asPoint(back.frame.u), ofV = asPoint(back.frame.v), w = asPoint(back.frame.w);
+    const Point direction = in.deflection[0] * ofU + in.deflection[1] * ofV + forward(in) * w;
+    EXPECT_LT(length(direction - Point{ 0, 0, -1 }), 2e-6);
+    const PixelCentre at = centreOf(back, 0, 0);
+    Point x =
+      (at.u + in.displacement[0]) * ofU + (at.v + in.displacement[1]) * ofV + back.frame.exit * w;
+    x = x + ((nearFace - x.z) / direction.z) * direction;
+    EXPECT_LT(length(x - Point{ u, v, nearFace }), 4e-6);
+    // The same way has the same optical length: what differs is the reference, n = 1 along w.
+    const Point way = Point{ u, v, nearFace } - asPoint(end);
+    EXPECT_NEAR(
+      out.opticalPathDifference - 2 * nearFace, in.opticalPathDifference + dot(way, w), 4e-6);
+  }
+}
+
+/// Lengths have no unit, the index no scale, and space no handedness, in strong media too.
+TEST_P(StrongMedia, SimilarMediaGiveSimilarImages)
+{
+  const Case medium = strongMedia().back();
+  const Grid grid = boxGrid(1. / 20, medium.half);
+  Scene scene = raysThrough(medium, GetParam());
+  scene.view.viewDirection = { -0.3, 0.2, -0.9 };
+  for (const Integrator integrator : allIntegrators)
+  {
+    SCOPED_TRACE(name(integrator));
+    scene.integrator = integrator;
+    const SampledField<double> plain = sampled(grid, medium.form);
+    Field field = plain.field;
+    field.ambient = 0.25;
+    const Image image = Bench().render(field, scene);
+    Worst size;
+    for (std::size_t pixel = 0; pixel < image.opticalPathDifference.size(); ++pixel)
+    {
+      size.include(readingOf(image, pixel));
+    }
+    EXPECT_GT(size.deflection, 0.1);
+    const auto expectSimilar =
+      [&](const char* what, const Image& other, double lengths, double path, bool mirrored)
+    {
+      SCOPED_TRACE(what);
+      Worst worst;
+      for (int row = 0; row < image.height; ++row)
+      {
+        for (int column = 0; column < image.width; ++column)
+        {
+          const int there = mirrored ? image.width - 1 - column : column;
+          Reading a = readingOf(image, pixelOf(image, column, row));
+          a.deflection[0] *= mirrored ? -1 : 1;
+          a.displacement[0] *= mirrored ? -lengths : lengths;
+          a.displacement[1] *= lengths;
+          a.opticalPathDifference *= path;
+          worst.include(a, readingOf(other, pixelOf(other, there, row)));
+        }
+      }
+      EXPECT_LT(worst.deflection, 4e-6);
+      EXPECT_LT(worst.displacement, 1e-5 * lengths);
+      EXPECT_LT(worst.opticalPathDifference, 1e-5 * path);
+    };
+
+    // All lengths times 1000.
+    Scene large = scene;
+    large.view.parallelScale *= 1000;
+    Field scaledUp = field;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      (*large.view.focalPoint)[axis] *= 1000;
+      scaledUp.grid.spacing[axis] *= 1000;
+      scaledUp.grid.origin[axis] *= 1000;
+    }
+    expectSimilar("larger", Bench().render(scaledUp, large), 1000, 1000, false);
+
+    // n times 1.5, inside and out.
+    SampledField<double> denser(grid,
+      [&](double x, double y, double z) {
+        return 1.5 * (1 + medium.form.refractivity({ x, y, z })) - 1;
+      });
+    denser.field.ambient = 0.875;
+    expectSimilar("denser", Bench().render(denser.field, scene), 1, 1.5, false);
+
+    // Light and all; the medium is even in x.
+    Scene mirror = scene;
+    mirror.view.viewDirection[0] *= -1;
+    (*mirror.view.focalPoint)[0] *= -1;
+    expectSimilar("mirrored", Bench().render(field, mirror), 1, 1, true);
+
+    // By 90 degrees about y, grid and light.
+    const auto turn = [](const Vector& x) { return Vector{ x[2], x[1], -x[0] }; };
+    Field turned = field;
+    turned.grid.direction = { 0, 0, 1, 0, 1, 0, -1, 0, 0 };
+    turned.grid.origin = turn(field.grid.origin);
+    Scene beside = scene;
+    beside.view.viewDirection = turn(scene.view.viewDirection);
+    beside.view.viewUp = turn(scene.view.viewUp);
+    beside.view.focalPoint = turn(*scene.view.focalPoint);
+    expectSimilar("turned", Bench().render(turned, beside), 1, 1, false);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, StrongMedia, bothDevices(), deviceName);
 
 } // namespace
