@@ -11,8 +11,8 @@ namespace filters
 
 /// Data between two time steps, linear in time as those of vtkTemporalInterpolator: arrays of real numbers, and points
 /// that move with the mesh. Everything else, arrays of integers such as masks and ghosts included, is of the earlier
-/// step. `ratio`: 0 (earlier) ... 1 (later). Numbers that both steps have stay as they are, to the last bit. Null
-/// where both are null. Data whose cells, blocks or grid differ are thrown as std::runtime_error that says what differs.
+/// step. `ratio`: 0 (earlier) ... 1 (later). Points that are the same in both steps stay as they are, to the last bit: the
+/// mesh is known again. Null where both are null. Data whose cells, blocks or grid differ are thrown as std::runtime_error that says what differs.
 vtkSmartPointer<vtkDataObject> betweenTimeSteps(
   vtkDataObject* earlier, vtkDataObject* later, double ratio);
 
