@@ -118,6 +118,16 @@ bool addIfPlain(Hash& hash, vtkUnstructuredGrid* mesh)
   return addIfPlain<unsigned char>(hash, types);
 }
 
+void addIds(Hash& hash, const vtkIdType* ids, vtkIdType count)
+{
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    hash.add(static_cast<std::uint64_t>(ids[i]));
+  }
+}
+
+} // namespace
+
 void addPoints(Hash& hash, vtkDataSet* data)
 {
   auto* set = vtkPointSet::SafeDownCast(data);
@@ -138,24 +148,8 @@ void addPoints(Hash& hash, vtkDataSet* data)
     });
 }
 
-void addIds(Hash& hash, const vtkIdType* ids, vtkIdType count)
+void addCells(Hash& hash, vtkDataSet* data)
 {
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    hash.add(static_cast<std::uint64_t>(ids[i]));
-  }
-}
-
-} // namespace
-
-void addMesh(Hash& hash, vtkDataSet* data)
-{
-  hash.add(static_cast<std::uint64_t>(data->GetDataObjectType()));
-  addPoints(hash, data);
-  if (vtkUnsignedCharArray* ghosts = data->GetCellGhostArray())
-  {
-    addIfPlain<unsigned char>(hash, ghosts);
-  }
   if (auto* grid = vtkStructuredGrid::SafeDownCast(data))
   {
     int points[3];
@@ -186,6 +180,17 @@ void addMesh(Hash& hash, vtkDataSet* data)
     hashCells(0, 1, first); // VTK makes what it needs on the first call, which one thread has to do
   }
   addParts(hash, data->GetNumberOfCells(), hashCells);
+}
+
+void addMesh(Hash& hash, vtkDataSet* data)
+{
+  hash.add(static_cast<std::uint64_t>(data->GetDataObjectType()));
+  addPoints(hash, data);
+  if (vtkUnsignedCharArray* ghosts = data->GetCellGhostArray())
+  {
+    addIfPlain<unsigned char>(hash, ghosts);
+  }
+  addCells(hash, data);
 }
 
 void addGas(Hash& hash, vtkDataSet* data)

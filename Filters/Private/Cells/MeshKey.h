@@ -36,6 +36,12 @@ private:
   std::uint64_t Value = 1;
 };
 
+/// Where points are.
+void addPoints(Hash& hash, vtkDataSet* data);
+
+/// Which points each cell has, and its type.
+void addCells(Hash& hash, vtkDataSet* data);
+
 /// Points, cells and which of them ghost arrays hide.
 void addMesh(Hash& hash, vtkDataSet* data);
 

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace filters
@@ -83,23 +82,13 @@ std::vector<std::int32_t> coincidentPoints(
   // Sorts points along a direction in which those of plausible meshes do not share coordinates.
   const Point along = unit({ 1, 0.6180339887, 0.2360679775 });
   const std::vector<Class> classes = classesOf(points, tolerances, along);
-  std::vector<std::int32_t> numbers(points.size());
-  std::iota(numbers.begin(), numbers.end(), 0);
-  const auto rootOf = [&](std::int32_t i)
-  {
-    while (numbers[static_cast<std::size_t>(i)] != i)
-    {
-      i = numbers[static_cast<std::size_t>(i)];
-    }
-    return i;
-  };
+  Classes ofPoints(points.size());
   const auto compare = [&](const Placed& one, const Placed& other)
   {
     const auto i = static_cast<std::size_t>(one.second), j = static_cast<std::size_t>(other.second);
     if (norm(points[i] - points[j]) <= std::min(tolerances[i], tolerances[j]))
     {
-      const auto [low, high] = std::minmax({ rootOf(one.second), rootOf(other.second) });
-      numbers[static_cast<std::size_t>(high)] = low;
+      ofPoints.join(i, j);
     }
   };
   for (auto fine = classes.begin(); fine != classes.end(); ++fine)
@@ -122,9 +111,10 @@ std::vector<std::int32_t> coincidentPoints(
       }
     }
   }
+  std::vector<std::int32_t> numbers(points.size());
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    numbers[i] = rootOf(static_cast<std::int32_t>(i));
+    numbers[i] = static_cast<std::int32_t>(ofPoints.rootOf(i));
   }
   return numbers;
 }

@@ -4,11 +4,42 @@
 
 #include "Common/Vectors.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace filters
 {
+
+/// Classes of numbers that have been said to be equal.
+class Classes
+{
+public:
+  explicit Classes(std::size_t count)
+    : Roots(count)
+  {
+    std::iota(this->Roots.begin(), this->Roots.end(), std::size_t{ 0 });
+  }
+  std::size_t rootOf(std::size_t i)
+  {
+    while (this->Roots[i] != i)
+    {
+      i = this->Roots[i] = this->Roots[this->Roots[i]];
+    }
+    return i;
+  }
+  /// The lower one stays.
+  void join(std::size_t a, std::size_t b)
+  {
+    const auto [low, high] = std::minmax({ this->rootOf(a), this->rootOf(b) });
+    this->Roots[high] = low;
+  }
+
+private:
+  std::vector<std::size_t> Roots;
+};
 
 /// Returns the distance within which a point coincides with others: 1e-3 of the smallest edge or
 /// cell beside it (infinite: none), but at least the rounding of coordinates.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/ExposureSteps.h"
 
-#include "Input/BetweenTimeSteps.h"
+#include "Ranks/BetweenTimeSteps.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkAlgorithmOutput.h"

@@ -11,9 +11,9 @@
 #include "Input/RefractivitySource.h"
 #include "Ranks/PartsOfRanks.h"
 #include "Sources/FieldTints.h"
+#include "Sources/ImagePiece.h"
 #include "Sources/MediumMaker.h"
 #include "Sources/MeshPiece.h"
-#include "Sources/PieceBoundaries.h"
 #include "Sources/PreparedLeaves.h"
 
 #include "vtkImageData.h"

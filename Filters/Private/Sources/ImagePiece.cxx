@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace filters
@@ -487,6 +488,35 @@ DataPiece::Samples ImagePiece::sample(const schlieren::Lattice& lattice) const
       { samples.fields[first + to] = hasGas[from] ? values[from] : nan; });
   }
   return samples;
+}
+
+void BoundaryOfImage::add(Reader& reader)
+{
+  const auto from = reader.Get<Point>();
+  const auto edges = reader.Get<std::array<double, 3>>();
+  const auto axes = reader.Get<std::array<double, 9>>();
+  if (this->parts++ > 0 &&
+    (from != this->origin || edges != this->spacing || axes != this->direction))
+  {
+    throw std::runtime_error(
+      "The parts of the image that the ranks have are not of one image: their origins, spacings or "
+      "directions differ. Give all parts the same, or make blocks of them.");
+  }
+  this->origin = from;
+  this->spacing = edges;
+  this->direction = axes;
+  Triangles& surface = this->faces.surface;
+  const auto first = static_cast<std::int32_t>(surface.points.size());
+  const auto points = reader.GetAll<std::vector<Point>>();
+  surface.points.insert(surface.points.end(), points.begin(), points.end());
+  for (const Triangles::Corners& corners : reader.GetAll<std::vector<Triangles::Corners>>())
+  {
+    surface.corners.push_back({ first + corners[0], first + corners[1], first + corners[2] });
+  }
+  const auto hides = reader.GetAll<std::vector<unsigned char>>();
+  this->faces.hidesBehind.insert(this->faces.hidesBehind.end(), hides.begin(), hides.end());
+  const auto values = reader.GetAll<std::vector<ImagePiece::OuterValue>>();
+  this->outer.insert(this->outer.end(), values.begin(), values.end());
 }
 
 } // namespace filters

@@ -120,6 +120,20 @@ private:
   std::vector<std::unique_ptr<const ImageSpline>> Splines;
 };
 
+/// What all ranks make of ImagePiece::putBoundary().
+struct BoundaryOfImage
+{
+  std::size_t parts = 0;
+  Point origin{};
+  std::array<double, 3> spacing{};
+  std::array<double, 9> direction{};
+  BoundaryFaces faces;
+  std::vector<ImagePiece::OuterValue> outer;
+
+  /// Another rank's. Throws std::runtime_error where it has other axes.
+  void add(Reader& reader);
+};
+
 /// Surfaces in the axes that `direction` leads from. Null: there are none.
 vtkSmartPointer<vtkDataObject> turnedBack(
   vtkDataObject* bodies, const std::array<double, 9>& direction);

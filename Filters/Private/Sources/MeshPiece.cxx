@@ -144,4 +144,37 @@ DataPiece::Samples MeshPiece::sample(const schlieren::Lattice& lattice) const
   return samples;
 }
 
+void BoundaryOfMeshes::add(Reader& reader)
+{
+  const auto measured = reader.GetAll<std::vector<CellTree::MeasuredCell>>();
+  this->cells.insert(this->cells.end(), measured.begin(), measured.end());
+  Faces more;
+  more.points = reader.GetAll<std::vector<Point>>();
+  const auto datasets = reader.GetAll<std::vector<std::uint32_t>>();
+  more.corners = reader.GetAll<std::vector<std::int32_t>>();
+  more.starts = reader.GetAll<std::vector<std::size_t>>();
+  more.owners = reader.GetAll<std::vector<Point>>();
+  more.states = reader.GetAll<std::vector<State>>();
+  more.areParts = reader.GetAll<std::vector<unsigned char>>();
+  const auto firstPoint = static_cast<std::int32_t>(faces.points.size());
+  const std::size_t firstCorner = faces.corners.size();
+  for (std::size_t n = 0; n < more.points.size(); ++n)
+  {
+    faces.contributions.push_back(
+      { datasets.at(n), static_cast<vtkIdType>(faces.points.size()), 1 });
+    faces.addPoint(more.points[n]);
+  }
+  for (const std::int32_t corner : more.corners)
+  {
+    faces.corners.push_back(firstPoint + corner);
+  }
+  for (std::size_t face = 0; face < more.size(); ++face)
+  {
+    faces.starts.push_back(firstCorner + more.starts[face + 1]);
+  }
+  faces.owners.insert(faces.owners.end(), more.owners.begin(), more.owners.end());
+  faces.states.insert(faces.states.end(), more.states.begin(), more.states.end());
+  faces.areParts.insert(faces.areParts.end(), more.areParts.begin(), more.areParts.end());
+}
+
 } // namespace filters

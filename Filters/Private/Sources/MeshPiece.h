@@ -21,6 +21,8 @@ class vtkDataSet;
 namespace filters
 {
 
+class Reader;
+
 /// What of a piece depends on its mesh alone, and not on the values: it is kept from one time step to the next.
 struct PieceMesh
 {
@@ -74,6 +76,17 @@ private:
   CellTree Cells;
   CellSampler Values;
   FieldsOfMesh Fields;
+};
+
+/// What all ranks make of MeshPiece::putBoundary().
+struct BoundaryOfMeshes
+{
+  std::vector<CellTree::MeasuredCell> cells;
+  Faces
+    faces; ///< each contribution is the value that is sent with the point; `leaf`: the dataset's number on all ranks
+
+  /// Another rank's.
+  void add(Reader& reader);
 };
 
 } // namespace filters

@@ -195,34 +195,6 @@ void addCandidates(
   }
 }
 
-/// Numbers that become equal.
-class Classes
-{
-public:
-  explicit Classes(std::size_t count)
-    : Roots(count)
-  {
-    std::iota(this->Roots.begin(), this->Roots.end(), std::size_t{ 0 });
-  }
-  std::size_t rootOf(std::size_t i)
-  {
-    while (this->Roots[i] != i)
-    {
-      i = this->Roots[i] = this->Roots[this->Roots[i]];
-    }
-    return i;
-  }
-  /// The lower one stays.
-  void join(std::size_t a, std::size_t b)
-  {
-    const auto [low, high] = std::minmax({ this->rootOf(a), this->rootOf(b) });
-    this->Roots[high] = low;
-  }
-
-private:
-  std::vector<std::size_t> Roots;
-};
-
 /// Of the points of a mesh: whether they belong to so many cells that hang together that walls may be between them.
 std::vector<unsigned char> maySheetsMeet(const MeshArrays& mesh)
 {

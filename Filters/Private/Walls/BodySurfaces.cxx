@@ -101,24 +101,13 @@ Triangles surfaceOf(vtkDataObject* bodies)
 /// The part that each triangle belongs to: those with the same points. -1: of parts that are open.
 std::vector<std::int32_t> closedParts(const Triangles& surface, std::int32_t& numberOfParts)
 {
-  std::vector<std::int32_t> roots(surface.points.size());
-  std::iota(roots.begin(), roots.end(), 0);
-  const auto rootOf = [&](std::int32_t i)
-  {
-    while (roots[static_cast<std::size_t>(i)] != i)
-    {
-      roots[static_cast<std::size_t>(i)] =
-        roots[static_cast<std::size_t>(roots[static_cast<std::size_t>(i)])];
-      i = roots[static_cast<std::size_t>(i)];
-    }
-    return i;
-  };
+  Classes ofPoints(surface.points.size());
+  const auto rootOf = [&](std::int32_t i) { return ofPoints.rootOf(static_cast<std::size_t>(i)); };
   for (const Triangles::Corners& corners : surface.corners)
   {
     for (const std::int32_t corner : { corners[1], corners[2] })
     {
-      const auto [low, high] = std::minmax({ rootOf(corners[0]), rootOf(corner) });
-      roots[static_cast<std::size_t>(high)] = low;
+      ofPoints.join(static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(corner));
     }
   }
   std::vector<unsigned char> isOpen(surface.points.size(), 0); // of roots
@@ -129,7 +118,7 @@ std::vector<std::int32_t> closedParts(const Triangles& surface, std::int32_t& nu
       edge, edges.end(), [&](const EdgeOfTriangle& other) { return !other.isSameEdge(*edge); });
     if ((next - edge) % 2 != 0)
     {
-      isOpen[static_cast<std::size_t>(rootOf(edge->low))] = 1;
+      isOpen[rootOf(edge->low)] = 1;
     }
     edge = next;
   }
@@ -137,7 +126,7 @@ std::vector<std::int32_t> closedParts(const Triangles& surface, std::int32_t& nu
   numberOfParts = 0;
   for (const Triangles::Corners& corners : surface.corners)
   {
-    const auto root = static_cast<std::size_t>(rootOf(corners[0]));
+    const std::size_t root = rootOf(corners[0]);
     if (!isOpen[root] && numbers[root] < 0)
     {
       numbers[root] = numberOfParts++;

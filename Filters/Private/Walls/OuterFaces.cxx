@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Walls/OuterFaces.h"
 
+#include "Input/CoincidentPoints.h"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -151,58 +153,36 @@ private:
     return dot(this->Normals[one], this->Normals[other]) > cosineOfSmooth;
   }
 
-  void resetRoots()
-  {
-    this->Roots.resize(this->Surface.size());
-    std::iota(this->Roots.begin(), this->Roots.end(), std::size_t{ 0 });
-  }
-
-  void join(std::size_t one, std::size_t other)
-  {
-    const auto [low, high] = std::minmax({ rootOf(one), rootOf(other) });
-    this->Roots[high] = low;
-  }
-
-  std::size_t rootOf(std::size_t t)
-  {
-    while (this->Roots[t] != t)
-    {
-      this->Roots[t] = this->Roots[this->Roots[t]];
-      t = this->Roots[t];
-    }
-    return t;
-  }
-
   /// Of the hull: what hangs together in one plane and does not continue smoothly to other hull.
   std::vector<unsigned char> findFlatSides()
   {
-    resetRoots();
+    this->Parts = Classes(this->Surface.size());
     forNeighbours(
       [&](std::size_t one, std::size_t other)
       {
         if (this->IsOnHull[one] && this->IsOnHull[other] && areInOnePlane(one, other))
         {
-          join(one, other);
+          this->Parts.join(one, other);
         }
       });
     std::vector<int> sizes(this->Surface.size(), 0);
     for (std::size_t t = 0; t < this->Surface.size(); ++t)
     {
-      ++sizes[rootOf(t)];
+      ++sizes[this->Parts.rootOf(t)];
     }
     forNeighbours(
       [&](std::size_t one, std::size_t other)
       {
         if (this->IsOnHull[one] && this->IsOnHull[other] && isSmooth(one, other) &&
-          rootOf(one) != rootOf(other))
+          this->Parts.rootOf(one) != this->Parts.rootOf(other))
         {
-          sizes[rootOf(one)] = sizes[rootOf(other)] = 0;
+          sizes[this->Parts.rootOf(one)] = sizes[this->Parts.rootOf(other)] = 0;
         }
       });
     std::vector<unsigned char> isFlat(this->Surface.size());
     for (std::size_t t = 0; t < this->Surface.size(); ++t)
     {
-      isFlat[t] = this->IsOnHull[t] && sizes[rootOf(t)] >= fewestOfFlat ? 1 : 0;
+      isFlat[t] = this->IsOnHull[t] && sizes[this->Parts.rootOf(t)] >= fewestOfFlat ? 1 : 0;
     }
     return isFlat;
   }
@@ -210,13 +190,13 @@ private:
   std::vector<unsigned char> joinOthers()
   {
     const std::vector<unsigned char> isFlat = findFlatSides();
-    resetRoots();
+    this->Parts = Classes(this->Surface.size());
     forNeighbours(
       [&](std::size_t one, std::size_t other)
       {
         if (!this->IsOnHull[one] && !this->IsOnHull[other] && isSmooth(one, other))
         {
-          join(one, other);
+          this->Parts.join(one, other);
         }
       });
     std::vector<unsigned char> isOuter(this->Surface.size(), 0); // of roots
@@ -228,7 +208,7 @@ private:
           const std::size_t hull = this->IsOnHull[one] ? one : other;
           if (!isFlat[hull] && isSmooth(one, other))
           {
-            isOuter[rootOf(this->IsOnHull[one] ? other : one)] = 1;
+            isOuter[this->Parts.rootOf(this->IsOnHull[one] ? other : one)] = 1;
           }
         }
       });
@@ -236,7 +216,7 @@ private:
     std::vector<unsigned char> result(this->Surface.size());
     for (std::size_t t = 0; t < this->Surface.size(); ++t)
     {
-      result[t] = this->IsOnHull[t] || isOuter[rootOf(t)] ? 1 : 0;
+      result[t] = this->IsOnHull[t] || isOuter[this->Parts.rootOf(t)] ? 1 : 0;
     }
     return result;
   }
@@ -286,7 +266,7 @@ private:
           if ((touchesLow && !(facedHere & (1u << (2 * axis)))) ||
             (touchesHigh && !(facedHere & (2u << (2 * axis)))))
           {
-            isOuter[rootOf(t)] = 1;
+            isOuter[this->Parts.rootOf(t)] = 1;
           }
         }
       }
@@ -301,7 +281,7 @@ private:
   std::vector<Point> Normals; // outward
   std::vector<double> Heights;
   std::vector<unsigned char> IsOnHull;
-  std::vector<std::size_t> Roots;
+  Classes Parts{ 0 };
 };
 
 } // namespace

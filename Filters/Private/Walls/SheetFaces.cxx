@@ -3,10 +3,10 @@
 #include "Walls/SheetFaces.h"
 
 #include "Common/WeightedMedian.h"
+#include "Input/CoincidentPoints.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace filters
@@ -70,16 +70,7 @@ std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<do
 {
   const std::vector<double> jumps = jumpsOf(cuts, values);
   // Parts, by one of their faces.
-  std::vector<std::size_t> roots(cuts.size());
-  std::iota(roots.begin(), roots.end(), std::size_t{ 0 });
-  const auto rootOf = [&](std::size_t face)
-  {
-    while (roots[face] != face)
-    {
-      face = roots[face] = roots[roots[face]];
-    }
-    return face;
-  };
+  Classes partsOfFaces(cuts.size());
   std::vector<std::pair<std::int32_t, std::size_t>> corners; // place, face
   for (std::size_t face = 0; face < cuts.size(); ++face)
   {
@@ -93,9 +84,7 @@ std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<do
   {
     if (corners[i].first == corners[i - 1].first)
     {
-      const auto [low, high] =
-        std::minmax({ rootOf(corners[i].second), rootOf(corners[i - 1].second) });
-      roots[high] = low;
+      partsOfFaces.join(corners[i].second, corners[i - 1].second);
     }
   }
   std::vector<std::vector<WeightedValue>> parts(cuts.size()); // jump, area
@@ -103,7 +92,7 @@ std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<do
   {
     if (jumps[face] > 0)
     {
-      parts[rootOf(face)].push_back({ jumps[face], cuts.areas[face] });
+      parts[partsOfFaces.rootOf(face)].push_back({ jumps[face], cuts.areas[face] });
     }
   }
   std::vector<unsigned char> areSheets(cuts.size(), 0);
@@ -116,7 +105,7 @@ std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<do
   }
   for (std::size_t face = cuts.size(); face-- > 0;)
   {
-    areSheets[face] = jumps[face] > 0 ? areSheets[rootOf(face)] : 0;
+    areSheets[face] = jumps[face] > 0 ? areSheets[partsOfFaces.rootOf(face)] : 0;
   }
   return areSheets;
 }

@@ -1,29 +1,22 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Input/BetweenTimeSteps.h"
+#include "Ranks/BetweenTimeSteps.h"
 
+#include "Cells/MeshKey.h"
 #include "Common/AvailableMemory.h"
-#include "Common/CellTypes.h"
 #include "Common/ImagePlace.h"
 
-#include "vtkAOSDataArrayTemplate.h"
-#include "vtkArrayDispatch.h"
-#include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkDataArrayRange.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkSMPTools.h"
-#include "vtkStructuredGrid.h"
-#include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -37,78 +30,14 @@ namespace
 
 [[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what); }
 
-struct AreSame
+/// Whether a hash of something in both datasets is the same.
+bool areSame(void (*add)(Hash&, vtkDataSet*), vtkDataSet* a, vtkDataSet* b)
 {
-  bool Result = false;
-
-  template <class ArrayA, class ArrayB>
-  void operator()(ArrayA* a, ArrayB* b)
-  {
-    const auto ofA = vtk::DataArrayValueRange(a);
-    const auto ofB = vtk::DataArrayValueRange(b);
-    this->Result = std::equal(ofA.begin(), ofA.end(), ofB.begin(), ofB.end());
-  }
-};
-
-bool areSame(vtkDataArray* a, vtkDataArray* b)
-{
-  if (a == b || !a || !b)
-  {
-    return a == b;
-  }
-  AreSame compare;
-  if (!vtkArrayDispatch::Dispatch2BySameValueType<vtkArrayDispatch::Integrals>::Execute(
-        a, b, compare))
-  {
-    compare(a, b);
-  }
-  return compare.Result;
+  Hash ofA, ofB;
+  add(ofA, a);
+  add(ofB, b);
+  return ofA.value() == ofB.value();
 }
-
-bool areSame(vtkCellArray* a, vtkCellArray* b)
-{
-  return a == b ||
-    (a && b && areSame(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
-      areSame(a->GetConnectivityArray(), b->GetConnectivityArray()));
-}
-
-struct Blend
-{
-  double Ratio;
-  vtkDataArray* Result;
-
-  template <class ArrayA, class ArrayB>
-  void operator()(ArrayA* a, ArrayB* b)
-  {
-    using Number = vtk::GetAPIType<ArrayA>;
-    const auto earlier = vtk::DataArrayValueRange(a);
-    const auto later = vtk::DataArrayValueRange(b);
-    auto blended = vtk::DataArrayValueRange(this->Result);
-    if (auto* plain = vtkAOSDataArrayTemplate<Number>::FastDownCast(this->Result))
-    {
-      this->Write(earlier, later, vtk::DataArrayValueRange(plain));
-    }
-    else
-    {
-      this->Write(earlier, later, blended);
-    }
-  }
-
-  template <class RangeA, class RangeB, class Out>
-  void Write(const RangeA& earlier, const RangeB& later, Out blended) const
-  {
-    vtkSMPTools::For(0, earlier.size(),
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (vtkIdType i = begin; i < end; ++i)
-        {
-          const double from = static_cast<double>(earlier[i]);
-          blended[i] = static_cast<typename Out::ValueType>(
-            from + this->Ratio * (static_cast<double>(later[i]) - from));
-        }
-      });
-  }
-};
 
 vtkSmartPointer<vtkDataArray> blend(vtkDataArray* earlier, vtkDataArray* later, double ratio)
 {
@@ -117,12 +46,14 @@ vtkSmartPointer<vtkDataArray> blend(vtkDataArray* earlier, vtkDataArray* later, 
   result->SetName(earlier->GetName());
   result->SetNumberOfComponents(earlier->GetNumberOfComponents());
   setTuples(result, earlier->GetNumberOfTuples());
-  Blend blender{ ratio, result };
-  if (!vtkArrayDispatch::Dispatch2BySameValueType<vtkArrayDispatch::Reals>::Execute(
-        earlier, later, blender))
-  {
-    blender(earlier, later);
-  }
+  vtkSMPTools::For(0, earlier->GetNumberOfTuples(),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        result->InterpolateTuple(i, i, earlier, i, later, ratio);
+      }
+    });
   return result;
 }
 
@@ -170,7 +101,7 @@ void blendCoordinates(
 
 void blendPoints(vtkPointSet* earlier, vtkPointSet* later, double ratio, vtkPointSet* to)
 {
-  if (!earlier->GetPoints() || earlier->GetPoints() == later->GetPoints())
+  if (!earlier->GetPoints() || areSame(addPoints, earlier, later))
   {
     return;
   }
@@ -178,28 +109,6 @@ void blendPoints(vtkPointSet* earlier, vtkPointSet* later, double ratio, vtkPoin
     vtkSmartPointer<vtkPoints>::Take(vtkPoints::New(earlier->GetPoints()->GetDataType()));
   points->SetData(blend(earlier->GetPoints()->GetData(), later->GetPoints()->GetData(), ratio));
   to->SetPoints(points);
-}
-
-bool haveSameCells(vtkDataSet* a, vtkDataSet* b)
-{
-  if (auto* structured = vtkStructuredGrid::SafeDownCast(a))
-  {
-    const int* extent = structured->GetExtent();
-    return std::equal(extent, extent + 6, vtkStructuredGrid::SafeDownCast(b)->GetExtent());
-  }
-  if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(a))
-  {
-    auto* other = vtkUnstructuredGrid::SafeDownCast(b);
-    return areSame(mesh->GetCells(), other->GetCells()) &&
-      areSame(cellTypesOf(mesh), cellTypesOf(other));
-  }
-  if (auto* surface = vtkPolyData::SafeDownCast(a))
-  {
-    auto* other = vtkPolyData::SafeDownCast(b);
-    return areSame(surface->GetPolys(), other->GetPolys()) &&
-      areSame(surface->GetStrips(), other->GetStrips());
-  }
-  return true;
 }
 
 vtkSmartPointer<vtkDataObject> blendLeaves(
@@ -234,7 +143,7 @@ vtkSmartPointer<vtkDataObject> blendLeaves(
     blendCoordinates(rectilinear, vtkRectilinearGrid::SafeDownCast(later), ratio,
       vtkRectilinearGrid::SafeDownCast(result));
   }
-  else if (!haveSameCells(earlier, later))
+  else if (!areSame(addCells, earlier, later))
   {
     fail("their cells have different points");
   }
