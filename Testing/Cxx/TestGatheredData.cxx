@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Data that are spread over ranks become what one rank would have.
 #include "Fixtures.h"
-#include "Input/DataParts.h"
+#include "Input/DatasetPieces.h"
 #include "Input/GatheredData.h"
 
 #include "vtkAppendFilter.h"
@@ -184,9 +184,9 @@ const std::vector<std::string> names{ "rho", "of cells" };
 std::vector<char> packedData(vtkDataObject* data, const std::vector<std::string>& arrays)
 {
   std::vector<char> bytes;
-  for (const Part& part : partsOf(data, arrays))
+  for (const DatasetPiece& piece : piecesOf(data, arrays))
   {
-    pack(part, bytes);
+    pack(piece, bytes);
   }
   return bytes;
 }
@@ -234,7 +234,7 @@ TEST(GatheredData, PartsOfAMeshAreTheMesh)
   const auto all = gatheredOf({ low, high });
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(all);
   ASSERT_TRUE(mesh);
-  // Points between the parts are one each.
+  // Points between the pieces are one each.
   const auto expected = meshOf(whole);
   EXPECT_EQ(mesh->GetNumberOfPoints(), expected->GetNumberOfPoints());
   ASSERT_EQ(mesh->GetNumberOfCells(), expected->GetNumberOfCells());
@@ -271,7 +271,7 @@ TEST(GatheredData, CopiesOfOtherRanksCellsAreLeftOut)
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(gathered);
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->GetNumberOfCells(), 10 * ofLayer);
-  ASSERT_TRUE(mesh->GetCellGhostArray()); // though one part has none
+  ASSERT_TRUE(mesh->GetCellGhostArray()); // though one piece has none
   for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
   {
     EXPECT_EQ(
@@ -324,7 +324,7 @@ TEST(GatheredData, GridsThatAreNoPartsOfOneStayBlocks)
   EXPECT_TRUE(vtkMultiBlockDataSet::SafeDownCast(gatheredOf({ low, elsewhere })));
 }
 
-// As some readers do where ranks read a part of a block each.
+// As some readers do where ranks read a piece of a block each.
 TEST(GatheredData, GridsThatAreNumberedAlikeStayBlocks)
 {
   for (const auto& gridOf : { rectilinearOf, curvilinearOf })

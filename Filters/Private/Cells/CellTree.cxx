@@ -199,7 +199,7 @@ void CellTree::setValues(const WorkProgress& progress)
   }
   const std::size_t count = mesh.numbers.size();
   this->Ranges.emplace_back(mesh.levels[0].size());
-  forParts(static_cast<vtkIdType>(this->Ranges[0].size()), progress.part(0.7, 1),
+  forChunks(static_cast<vtkIdType>(this->Ranges[0].size()), progress.part(0.7, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
       vtkSmartPointer<vtkGenericCell> curved;

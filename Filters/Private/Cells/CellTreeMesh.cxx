@@ -178,14 +178,14 @@ void CellTree::findCells(Mesh& mesh, Copies copies, const WorkProgress& progress
     }
   }
   const Number end = mesh.firstNumbers.back();
-  const std::size_t count = (std::size_t{ end } + partSize - 1) / partSize;
+  const std::size_t count = (std::size_t{ end } + chunkSize - 1) / chunkSize;
   std::vector<std::vector<Number>> found(count), foundCopies(count);
   std::vector<Bounds> boxes(
     count, Bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } });
-  forParts(end, progress,
+  forChunks(end, progress,
     [&](vtkIdType begin, vtkIdType last)
     {
-      const auto i = static_cast<std::size_t>(begin / partSize);
+      const auto i = static_cast<std::size_t>(begin / chunkSize);
       for (auto number = static_cast<Number>(begin); number < static_cast<Number>(last); ++number)
       {
         const Cell one = this->cell(number);
@@ -270,7 +270,7 @@ void CellTree::sortCells(Mesh& mesh, const WorkProgress& progress)
   using Entry = std::pair<std::uint64_t, Number>;
   const std::size_t count = mesh.numbers.size();
   std::vector<Entry> entries(count);
-  forParts(static_cast<vtkIdType>(count), progress.part(0, 0.4),
+  forChunks(static_cast<vtkIdType>(count), progress.part(0, 0.4),
     [&](vtkIdType begin, vtkIdType end)
     {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
@@ -328,7 +328,7 @@ void CellTree::makeGroups(Mesh& mesh, const WorkProgress& progress)
   }
   mesh.boxes.resize(count);
   mesh.levels.emplace_back((count + width - 1) / width);
-  forParts(static_cast<vtkIdType>(mesh.levels[0].size()), progress,
+  forChunks(static_cast<vtkIdType>(mesh.levels[0].size()), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
       vtkSmartPointer<vtkGenericCell> curved;
@@ -387,7 +387,7 @@ std::vector<CellTree::MeasuredCell> CellTree::measuredCells(std::int64_t cellsOf
   std::mutex lock; // of these
   const std::uint64_t highest = highestOrder(cellsOfAll);
   const std::size_t count = this->Sorted->numbers.size();
-  forParts(static_cast<vtkIdType>(count), WorkProgress(),
+  forChunks(static_cast<vtkIdType>(count), WorkProgress(),
     [&](vtkIdType begin, vtkIdType end)
     {
       std::vector<MeasuredCell> measured;

@@ -44,7 +44,7 @@ CellsOfPoints cellsOfPoints(const MeshArrays& mesh, const std::vector<unsigned c
   std::vector<std::atomic<std::uint32_t>> counts(points);
   const auto forCells = [&](const WorkProgress& done, const auto& visit)
   {
-    forParts(mesh.cells(), done,
+    forChunks(mesh.cells(), done,
       [&](vtkIdType begin, vtkIdType end)
       {
         for (vtkIdType cell = begin; cell < end; ++cell)
@@ -73,7 +73,7 @@ CellsOfPoints cellsOfPoints(const MeshArrays& mesh, const std::vector<unsigned c
       const std::uint32_t left = counts[point].fetch_sub(1, std::memory_order_relaxed);
       result.cells[result.starts[point] + left - 1] = static_cast<std::uint32_t>(cell);
     });
-  forParts(mesh.points(), progress.part(0.7, 1),
+  forChunks(mesh.points(), progress.part(0.7, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
       const auto placeOf = [&](vtkIdType point)
@@ -337,9 +337,9 @@ PointNeighbours::PointNeighbours(
   const CellsOfPoints known = cellsOfPoints(mesh, isCellUsed, progress.part(0, 0.3));
   const vtkIdType points = mesh.points();
   std::vector<std::vector<std::uint32_t>> parts(
-    static_cast<std::size_t>((points + partSize - 1) / partSize));
+    static_cast<std::size_t>((points + chunkSize - 1) / chunkSize));
   this->Starts.resize(static_cast<std::size_t>(points) + 1);
-  forParts(points, progress.part(0.3, 1),
+  forChunks(points, progress.part(0.3, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
       PointSet found;
@@ -354,7 +354,7 @@ PointNeighbours::PointNeighbours(
       for (vtkIdType point = begin; point < end; ++point)
       {
         findNeighbours(mesh, forCells, point, found);
-        std::vector<std::uint32_t>& part = parts[static_cast<std::size_t>(point / partSize)];
+        std::vector<std::uint32_t>& part = parts[static_cast<std::size_t>(point / chunkSize)];
         part.insert(part.end(), found.points().begin() + 1, found.points().end());
         this->Starts[static_cast<std::size_t>(point) + 1] = found.points().size() - 1;
       }
@@ -405,7 +405,7 @@ std::vector<PointTrend> PointNeighbours::trends(
   const MeshArrays& mesh, const WorkProgress& progress) const
 {
   std::vector<PointTrend> trends(static_cast<std::size_t>(mesh.points()));
-  forParts(mesh.points(), progress,
+  forChunks(mesh.points(), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
       FitOfPoints fit(PointFit::Values::AtPoints,
@@ -430,7 +430,7 @@ std::vector<double> PointNeighbours::valuesFromCells(
     float correction, gradient[3];
   };
   std::vector<Change> changes(points);
-  forParts(mesh.points(), progress.part(0, 0.9),
+  forChunks(mesh.points(), progress.part(0, 0.9),
     [&](vtkIdType begin, vtkIdType end)
     {
       FitOfPoints fit(PointFit::Values::Means,
@@ -453,7 +453,7 @@ std::vector<double> PointNeighbours::valuesFromCells(
   }
   const bool isPositive = lowest > -1e-6 * largest;
   std::vector<double> values(points);
-  forParts(mesh.points(), progress.part(0.9, 1),
+  forChunks(mesh.points(), progress.part(0.9, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
       this->forNeighbours(mesh, begin, end,

@@ -52,28 +52,28 @@ private:
   double From = 0, To = 1;
 };
 
-/// Length of the intervals of forParts().
-constexpr vtkIdType partSize = 4096;
+/// Length of a chunk of forChunks().
+constexpr vtkIdType chunkSize = 4096;
 
-/// Calls work(begin, end) in several threads for intervals of 0 to `count` that begin at multiples
-/// of partSize. Cancels between groups of intervals that are short enough to end soon.
+/// Calls work(begin, end) in several threads for chunks of 0 to `count`, which begin at multiples
+/// of chunkSize. Cancels between groups of chunks that are short enough to end soon.
 template <class Work>
-void forParts(vtkIdType count, const WorkProgress& progress, const Work& work)
+void forChunks(vtkIdType count, const WorkProgress& progress, const Work& work)
 {
-  const vtkIdType parts = (count + partSize - 1) / partSize;
+  const vtkIdType chunks = (count + chunkSize - 1) / chunkSize;
   const vtkIdType atOnce = vtkIdType{ 8 } * vtkSMPTools::GetEstimatedNumberOfThreads();
-  for (vtkIdType first = 0; first < parts; first += atOnce)
+  for (vtkIdType first = 0; first < chunks; first += atOnce)
   {
-    const vtkIdType last = std::min(parts, first + atOnce);
+    const vtkIdType last = std::min(chunks, first + atOnce);
     vtkSMPTools::For(first, last, 1,
       [&](vtkIdType begin, vtkIdType end)
       {
-        for (vtkIdType part = begin; part < end; ++part)
+        for (vtkIdType chunk = begin; chunk < end; ++chunk)
         {
-          work(part * partSize, std::min(count, (part + 1) * partSize));
+          work(chunk * chunkSize, std::min(count, (chunk + 1) * chunkSize));
         }
       });
-    progress.reach(static_cast<double>(last) / static_cast<double>(parts));
+    progress.reach(static_cast<double>(last) / static_cast<double>(chunks));
   }
 }
 

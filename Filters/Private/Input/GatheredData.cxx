@@ -3,7 +3,7 @@
 #include "Input/GatheredData.h"
 
 #include "Common/ImagePlace.h"
-#include "Input/DataParts.h"
+#include "Input/DatasetPieces.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -38,20 +38,20 @@ vtkUnsignedCharArray* ghostsOf(vtkDataSetAttributes* attributes)
 
 /// Clears the flag of copies in all ghost arrays, and keeps that of hidden points and cells. Adds
 /// the array to datasets that lack it if others have it.
-void forgetCopies(const std::vector<vtkDataSet*>& parts, int kind)
+void forgetCopies(const std::vector<vtkDataSet*>& pieces, int kind)
 {
   const int copy = kind == vtkDataObject::CELL
     ? static_cast<int>(vtkDataSetAttributes::DUPLICATECELL)
     : static_cast<int>(vtkDataSetAttributes::DUPLICATEPOINT);
-  const bool isNeeded = std::any_of(parts.begin(), parts.end(),
-    [kind](vtkDataSet* part) { return ghostsOf(part->GetAttributes(kind)) != nullptr; });
-  for (vtkDataSet* part : parts)
+  const bool isNeeded = std::any_of(pieces.begin(), pieces.end(),
+    [kind](vtkDataSet* piece) { return ghostsOf(piece->GetAttributes(kind)) != nullptr; });
+  for (vtkDataSet* piece : pieces)
   {
-    vtkDataSetAttributes* attributes = part->GetAttributes(kind);
+    vtkDataSetAttributes* attributes = piece->GetAttributes(kind);
     vtkUnsignedCharArray* ghosts = ghostsOf(attributes);
     vtkNew<vtkUnsignedCharArray> others; // the array may belong to the input
     others->SetName(vtkDataSetAttributes::GhostArrayName());
-    others->SetNumberOfValues(part->GetNumberOfElements(kind));
+    others->SetNumberOfValues(piece->GetNumberOfElements(kind));
     for (vtkIdType i = 0; i < others->GetNumberOfValues(); ++i)
     {
       const int flags = ghosts ? ghosts->GetValue(i) & ~copy : 0;
@@ -69,12 +69,12 @@ void forgetCopies(const std::vector<vtkDataSet*>& parts, int kind)
 
 //------------------------------------------------------------------------------
 std::vector<vtkSmartPointer<vtkDataSet>> joined(
-  const std::vector<vtkSmartPointer<vtkDataSet>>& parts)
+  const std::vector<vtkSmartPointer<vtkDataSet>>& pieces)
 {
-  const std::vector<vtkDataSet*> all(parts.begin(), parts.end());
+  const std::vector<vtkDataSet*> all(pieces.begin(), pieces.end());
   const int type = all[0]->GetDataObjectType();
-  const bool areOfOneType = std::all_of(
-    all.begin(), all.end(), [type](vtkDataSet* part) { return part->GetDataObjectType() == type; });
+  const bool areOfOneType = std::all_of(all.begin(), all.end(),
+    [type](vtkDataSet* piece) { return piece->GetDataObjectType() == type; });
   vtkSmartPointer<vtkDataSet> whole;
   if (all.size() > 1 && areOfOneType)
   {
@@ -87,7 +87,7 @@ std::vector<vtkSmartPointer<vtkDataSet>> joined(
       : type == VTK_UNSTRUCTURED_GRID || type == VTK_POLY_DATA ? joinedMesh(all)
                                                                : nullptr;
   }
-  return whole ? std::vector<vtkSmartPointer<vtkDataSet>>{ whole } : parts;
+  return whole ? std::vector<vtkSmartPointer<vtkDataSet>>{ whole } : pieces;
 }
 
 //------------------------------------------------------------------------------
@@ -99,8 +99,8 @@ vtkSmartPointer<vtkDataObject> gatheredData(const std::vector<std::vector<char>>
     Reader reader(bytes);
     while (!reader.IsAtEnd())
     {
-      Part part = unpack(reader);
-      slots[std::move(part.slot)].push_back(std::move(part.data));
+      DatasetPiece piece = unpack(reader);
+      slots[std::move(piece.slot)].push_back(std::move(piece.data));
     }
   }
   std::vector<vtkSmartPointer<vtkDataSet>> blocks;

@@ -18,7 +18,7 @@ namespace filters
 /// Joins the pieces of each image, grid or mesh, merging points that are equal to the last bit.
 /// Copies of cells become ordinary ones.
 std::vector<vtkSmartPointer<vtkDataSet>> joined(
-  const std::vector<vtkSmartPointer<vtkDataSet>>& parts);
+  const std::vector<vtkSmartPointer<vtkDataSet>>& pieces);
 
 /// Joins the messages of several ranks, made by pack(). Blocks stay separate. Null for no data.
 /// Throws std::runtime_error for unreadable messages.

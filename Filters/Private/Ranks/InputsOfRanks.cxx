@@ -7,7 +7,7 @@
 #include "Input/GatheredData.h"
 #include "Input/InputDescription.h"
 #include "Input/RefractivitySource.h"
-#include "Ranks/PartsOfRanks.h"
+#include "Ranks/PiecesOfRanks.h"
 #include "Sources/MediumMaker.h"
 
 #include "vtkAlgorithm.h"
@@ -174,8 +174,8 @@ InputsOfRanks::Inputs InputsOfRanks::gather(double maxCells)
     }
     const Located& data = this->Places[0];
     const double ofImages =
-      data.kind == static_cast<int>(PartsOfRanks::Kind::Image) ? cellsOfImageForOne : 1;
-    this->InPieces = data.kind != static_cast<int>(PartsOfRanks::Kind::Gathered) &&
+      data.kind == static_cast<int>(PiecesOfRanks::Kind::Image) ? cellsOfImageForOne : 1;
+    this->InPieces = data.kind != static_cast<int>(PiecesOfRanks::Kind::Gathered) &&
       !data.isOnRank0 && data.cells / ofImages > maxCells;
     for (const int port : { 0, 1 })
     {
@@ -205,9 +205,9 @@ std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
   std::vector<char> ofBodies;
   if (bodies)
   {
-    for (const Part& part : partsOf(bodies, {}))
+    for (const DatasetPiece& piece : piecesOf(bodies, {}))
     {
-      pack(part, ofBodies);
+      pack(piece, ofBodies);
     }
   }
   std::vector<char> request = requestOf(Make);
@@ -293,13 +293,13 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
     case Gather:
     {
       const auto port = static_cast<std::size_t>(reader.Get<int>());
-      PartsOfRanks parts(ranks, this->Own[port],
+      PiecesOfRanks pieces(ranks, this->Own[port],
         port == 0 ? arraysOf(this->Maker->choice().settings) : std::vector<std::string>());
       if (Reader(request).Get<std::uint32_t>() == Gather)
       {
-        this->Gathered[port] = parts.gather();
+        this->Gathered[port] = pieces.gather();
       }
-      this->Places[port] = { parts.cells(), static_cast<int>(parts.kind()), parts.areOnRank0() };
+      this->Places[port] = { pieces.cells(), static_cast<int>(pieces.kind()), pieces.areOnRank0() };
       break;
     }
     case Make:

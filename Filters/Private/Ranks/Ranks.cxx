@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/Ranks.h"
 
-#include "Input/DataParts.h"
+#include "Input/DatasetPieces.h"
 #include "Input/RefractivitySource.h"
 
 #include "vtkAlgorithm.h"

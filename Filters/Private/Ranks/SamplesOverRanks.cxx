@@ -4,7 +4,7 @@
 
 #include "Cells/LatticeDistances.h"
 #include "Common/ForEach.h"
-#include "Input/DataParts.h"
+#include "Input/DatasetPieces.h"
 
 #include <algorithm>
 #include <limits>

@@ -9,7 +9,7 @@
 #include "Input/FlatData.h"
 #include "Input/RefractivityOfImage.h"
 #include "Input/RefractivitySource.h"
-#include "Ranks/PartsOfRanks.h"
+#include "Ranks/PiecesOfRanks.h"
 #include "Sources/FieldTints.h"
 #include "Sources/ImagePiece.h"
 #include "Sources/MediumMaker.h"
@@ -71,9 +71,9 @@ private:
   const bool HasFields;
   KeptOverRanks& Kept;
 
-  std::vector<PartsOfRanks::Piece> Parts;
+  std::vector<PiecesOfRanks::Piece> Pieces;
   bool IsImage = false;
-  vtkSmartPointer<vtkDataObject> Data; // of Parts; null: no data
+  vtkSmartPointer<vtkDataObject> Data; // of Pieces; null: no data
   Source Chosen;
   std::vector<FieldMean::Range> OfModel, OfFields; // ranges on all ranks
   std::unique_ptr<DataPiece> Piece;
@@ -135,18 +135,18 @@ void Maker::chooseArrays()
       Ranks::Bytes bytes;
       std::vector<FieldMean::Range> ofModel, ofFields;
       std::string lacks;
-      if (!this->Parts.empty())
+      if (!this->Pieces.empty())
       {
         if (this->IsImage)
         {
-          this->Data = this->Parts[0].data;
+          this->Data = this->Pieces[0].data;
         }
         else
         {
           vtkNew<vtkMultiBlockDataSet> blocks;
-          for (const PartsOfRanks::Piece& part : this->Parts)
+          for (const PiecesOfRanks::Piece& piece : this->Pieces)
           {
-            blocks->SetBlock(blocks->GetNumberOfBlocks(), part.data);
+            blocks->SetBlock(blocks->GetNumberOfBlocks(), piece.data);
           }
           this->Data = blocks;
         }
@@ -231,9 +231,9 @@ void Maker::makePieceOfMeshes()
     const bool areApart = leaves.size() == source.leaves.size();
     for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
     {
-      const auto part = std::find_if(this->Parts.begin(), this->Parts.end(),
-        [&](const PartsOfRanks::Piece& of) { return of.data == source.leaves[leaf].input; });
-      datasets.push_back(areApart && part != this->Parts.end() ? part->dataset : 0);
+      const auto piece = std::find_if(this->Pieces.begin(), this->Pieces.end(),
+        [&](const PiecesOfRanks::Piece& of) { return of.data == source.leaves[leaf].input; });
+      datasets.push_back(areApart && piece != this->Pieces.end() ? piece->dataset : 0);
     }
   }
   auto piece = std::make_unique<MeshPiece>(leaves,
@@ -254,7 +254,7 @@ void Maker::makePieceOfImage(vtkDataObject* bodies)
   this->Made.tally = convertImage(this->Chosen,
     this->Of.settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, refractivity);
   mergeMasks(refractivity);
-  ImagePiece::Extents extents{ this->Parts[0].whole, this->Parts[0].own };
+  ImagePiece::Extents extents{ this->Pieces[0].whole, this->Pieces[0].own };
   for (const std::size_t high : { 1, 3, 5 })
   {
     if (this->Chosen.leaves[0].ofCells)
@@ -460,9 +460,9 @@ void Maker::findBoundary(vtkDataObject* bodies)
 MadeOverRanks Maker::make(vtkDataObject* data, vtkDataObject* bodies, std::uint64_t number)
 {
   {
-    PartsOfRanks parts(this->All, data, arraysOf(this->Of.choice().settings));
-    this->IsImage = parts.kind() == PartsOfRanks::Kind::Image;
-    this->Parts = parts.withGhostCells();
+    PiecesOfRanks pieces(this->All, data, arraysOf(this->Of.choice().settings));
+    this->IsImage = pieces.kind() == PiecesOfRanks::Kind::Image;
+    this->Pieces = pieces.withGhostCells();
   }
   this->reach(0.2);
   this->chooseArrays();

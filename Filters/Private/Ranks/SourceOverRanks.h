@@ -39,7 +39,7 @@ struct MadeOverRanks
   std::string label; ///< see Source::label
 };
 
-/// Makes the source of data in pieces; see PartsOfRanks. All ranks call it, with the same settings
+/// Makes the source of data in pieces; see PiecesOfRanks. All ranks call it, with the same settings
 /// of `maker`, bodies (may be null) and number. Throws std::runtime_error on all ranks.
 MadeOverRanks makeOverRanks(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
   vtkDataObject* bodies, bool hasFields, std::uint64_t number, KeptOverRanks& kept);

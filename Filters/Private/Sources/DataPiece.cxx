@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sources/DataPiece.h"
 
-#include "Input/DataParts.h"
+#include "Input/DatasetPieces.h"
 
 #include <algorithm>
 #include <limits>

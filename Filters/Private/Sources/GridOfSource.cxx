@@ -94,7 +94,7 @@ struct LatticeOfGrid
 
   /// Calls work(part of the lattice, function from its points to those of the grid) for all parts, from several threads.
   template <class Work>
-  void forParts(const WorkProgress& progress, const Work& work) const
+  void forChunks(const WorkProgress& progress, const Work& work) const
   {
     const int layers = this->lattice.points[this->slow];
     const int parts = (layers + layersAtATime - 1) / layersAtATime;
@@ -244,7 +244,7 @@ template <class Set>
 void sampleAt(const LatticeOfGrid& points, const schlieren::MediumSource& source,
   const WorkProgress& progress, WallsOfGrid* walls, const Set& set)
 {
-  points.forParts(progress,
+  points.forChunks(progress,
     [&](const schlieren::Lattice& part, vtkIdType begin)
     {
       const auto size = static_cast<std::size_t>(part.size());
@@ -310,7 +310,7 @@ std::vector<float> fieldsAtGrid(
   const auto count = static_cast<std::size_t>(grid->GetNumberOfPoints());
   const auto fields = static_cast<std::size_t>(source.fields());
   std::vector<float> all(fields * count);
-  points.forParts(progress,
+  points.forChunks(progress,
     [&](const schlieren::Lattice& part, vtkIdType begin)
     {
       const auto size = static_cast<std::size_t>(part.size());

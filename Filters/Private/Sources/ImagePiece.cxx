@@ -5,7 +5,7 @@
 #include "Amr/AmrFaces.h"
 #include "Common/FieldFromImage.h"
 #include "Common/WeightedMedian.h"
-#include "Input/DataParts.h"
+#include "Input/DatasetPieces.h"
 #include "Input/FlatData.h"
 #include "Schlieren.h"
 #include "Walls/BodySurfaces.h"

@@ -3,7 +3,7 @@
 #include "Sources/MeshPiece.h"
 
 #include "Cells/LatticeDistances.h"
-#include "Input/DataParts.h"
+#include "Input/DatasetPieces.h"
 #include "Sources/MeshSource.h"
 
 #include "vtkDataSet.h"

@@ -34,12 +34,12 @@ struct PieceMesh
 };
 
 /// What one rank has of meshes that are spread over several: its own cells. Copies of other ranks' cells around them (see
-/// PartsOfRanks) give the points between them the values and trends that they would have in one mesh.
+/// PiecesOfRanks) give the points between them the values and trends that they would have in one mesh.
 class MeshPiece : public DataPiece
 {
 public:
   /// `leaves`: with N at their points, see preparedLeaves(). May be none. `kept`: of another piece, which may be of the same
-  /// mesh; may be null. `datasets`: of each leaf a number that its parts on other ranks have, too; none: these have no parts.
+  /// mesh; may be null. `datasets`: of each leaf a number that its pieces on other ranks have, too; none: these have no pieces.
   MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept = nullptr,
     std::vector<std::uint32_t> datasets = {});

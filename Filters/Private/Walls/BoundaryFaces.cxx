@@ -350,7 +350,7 @@ CellsTest testInParallel(const CellTest& isInCell, const WorkProgress& progress)
   return [isInCell, progress](const std::vector<Point>& places)
   {
     std::vector<unsigned char> areInCells(places.size(), 0);
-    forParts(static_cast<vtkIdType>(places.size()), progress,
+    forChunks(static_cast<vtkIdType>(places.size()), progress,
       [&](vtkIdType begin, vtkIdType end)
       {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)

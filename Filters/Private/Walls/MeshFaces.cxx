@@ -45,7 +45,7 @@ std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress
 {
   std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfPoints()), State::Visible);
   vtkDataArray* scalars = data->GetPointData()->GetScalars();
-  forParts(data->GetNumberOfPoints(), progress,
+  forChunks(data->GetNumberOfPoints(), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType i = begin; i < end; ++i)
@@ -78,7 +78,7 @@ std::vector<State> statesOf(vtkDataSet* data, const WorkProgress& progress)
   const std::vector<State> ofPoints = statesOfPoints(data, progress.part(0, 0.3));
   std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfCells()));
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  forParts(data->GetNumberOfCells(), progress.part(0.3, 1),
+  forChunks(data->GetNumberOfCells(), progress.part(0.3, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
       vtkNew<vtkIdList> ids;

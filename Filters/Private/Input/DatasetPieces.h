@@ -23,7 +23,7 @@ namespace filters
 /// The position of a dataset in the tree of blocks, equal on all ranks that have cells of it.
 using Slot = std::vector<int>;
 
-struct Part
+struct DatasetPiece
 {
   Slot slot;
   vtkSmartPointer<vtkDataSet> data;
@@ -31,18 +31,18 @@ struct Part
 
 /// Lists the datasets that have points, with the named arrays and without copies of other ranks'
 /// cells (except in images and grids, where they may touch).
-std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& arrays);
+std::vector<DatasetPiece> piecesOf(vtkDataObject* data, const std::vector<std::string>& arrays);
 
 /// Copies cells of a mesh, with all arrays.
 vtkSmartPointer<vtkUnstructuredGrid> extractedCells(vtkUnstructuredGrid* mesh, vtkIdList* cells);
 
 /// Writes and reads a dataset. Throw std::runtime_error for types of data that VTK cannot send.
-void pack(const Part& part, std::vector<char>& bytes);
-Part unpack(Reader& reader);
+void pack(const DatasetPiece& piece, std::vector<char>& bytes);
+DatasetPiece unpack(Reader& reader);
 
 /// Throws std::runtime_error if arrays of points or cells (vtkDataObject::POINT, CELL) differ,
 /// because joining would lose some.
-void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind);
+void requireSameArrays(const std::vector<vtkDataSet*>& pieces, int kind);
 
 /// Returns whether points have three indices: image, rectilinear or curvilinear grid.
 bool isGrid(vtkDataSet* data);
@@ -50,11 +50,11 @@ bool isGrid(vtkDataSet* data);
 std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells);
 
 /// Joins the extents of one image or grid; null for other datasets.
-vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts);
+vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& pieces);
 
 /// Joins meshes, cells in their order. Merges points that are equal to the last bit and, if an
 /// array is named, have the same values of it.
 vtkSmartPointer<vtkDataSet> joinedMesh(
-  const std::vector<vtkDataSet*>& parts, const char* alsoTheSame = nullptr);
+  const std::vector<vtkDataSet*>& pieces, const char* alsoTheSame = nullptr);
 
 } // namespace filters

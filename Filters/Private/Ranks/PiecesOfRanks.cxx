@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Ranks/PartsOfRanks.h"
+#include "Ranks/PiecesOfRanks.h"
 
 #include "Cells/MeshKey.h"
 #include "Common/AvailableMemory.h"
@@ -204,15 +204,15 @@ void restoreHidden(vtkDataSet* mesh, int kind)
 
 /// Returns a rank's extent without that of ranks before it, because readers may give grids with
 /// copies of others' cells. Ranks whose extents contain each other number their points separately.
-PartsOfRanks::Extent withoutOverlap(const std::vector<PartsOfRanks::Extent>& extents,
+PiecesOfRanks::Extent withoutOverlap(const std::vector<PiecesOfRanks::Extent>& extents,
   const std::vector<std::size_t>& ranks, std::size_t rank)
 {
   const auto at =
     static_cast<std::size_t>(std::find(ranks.begin(), ranks.end(), rank) - ranks.begin());
-  PartsOfRanks::Extent own = extents[at];
+  PiecesOfRanks::Extent own = extents[at];
   for (std::size_t n = 0; n < at; ++n)
   {
-    const PartsOfRanks::Extent& other = extents[n];
+    const PiecesOfRanks::Extent& other = extents[n];
     bool overlap = true;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -240,7 +240,7 @@ PartsOfRanks::Extent withoutOverlap(const std::vector<PartsOfRanks::Extent>& ext
   return own;
 }
 
-void crop(vtkDataSet* grid, const PartsOfRanks::Extent& extent)
+void crop(vtkDataSet* grid, const PiecesOfRanks::Extent& extent)
 {
   if (auto* image = vtkImageData::SafeDownCast(grid))
   {
@@ -259,7 +259,7 @@ void crop(vtkDataSet* grid, const PartsOfRanks::Extent& extent)
 } // namespace
 
 /// The description of a piece that is sent to all ranks.
-struct PartsOfRanks::Facts
+struct PiecesOfRanks::Facts
 {
   Slot slot;
   std::string arrays;
@@ -272,32 +272,32 @@ struct PartsOfRanks::Facts
   } numbers;
 };
 
-PartsOfRanks::Facts PartsOfRanks::factsOf(const Part& part)
+PiecesOfRanks::Facts PiecesOfRanks::factsOf(const DatasetPiece& piece)
 {
-  Facts facts{ part.slot, arraysIn(part.data),
-    { part.data->GetDataObjectType(), dimensionOf(part.data),
-      hasCellValues(part.data) ? layersForCells : layersForPoints, part.data->GetNumberOfCells(),
-      placesOf(part.data), { 0, -1, 0, -1, 0, -1 } } };
-  if (isGrid(part.data))
+  Facts facts{ piece.slot, arraysIn(piece.data),
+    { piece.data->GetDataObjectType(), dimensionOf(piece.data),
+      hasCellValues(piece.data) ? layersForCells : layersForPoints, piece.data->GetNumberOfCells(),
+      placesOf(piece.data), { 0, -1, 0, -1, 0, -1 } } };
+  if (isGrid(piece.data))
   {
-    facts.numbers.extent = extentOf(part.data, false);
+    facts.numbers.extent = extentOf(piece.data, false);
   }
   return facts;
 }
 
-PartsOfRanks::PartsOfRanks(
+PiecesOfRanks::PiecesOfRanks(
   const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays)
   : All(ranks)
 {
   const std::vector<Ranks::Bytes> ofRanks = ranks.allGather(
     [&]
     {
-      this->Own = own ? partsOf(own, arrays) : std::vector<Part>();
+      this->Own = own ? piecesOf(own, arrays) : std::vector<DatasetPiece>();
       Ranks::Bytes bytes;
       put(vtkUniformGridAMR::SafeDownCast(own) != nullptr, bytes);
-      for (const Part& part : this->Own)
+      for (const DatasetPiece& piece : this->Own)
       {
-        const Facts facts = factsOf(part);
+        const Facts facts = factsOf(piece);
         putAll(facts.slot, bytes);
         putAll(facts.arrays, bytes);
         put(facts.numbers, bytes);
@@ -306,7 +306,7 @@ PartsOfRanks::PartsOfRanks(
     });
   std::vector<std::vector<Facts>> all;
   std::set<std::pair<Slot, std::uint64_t>> known;
-  std::vector<Part> kept;
+  std::vector<DatasetPiece> kept;
   for (const Ranks::Bytes& bytes : ofRanks)
   {
     const std::size_t rank = all.size();
@@ -333,7 +333,7 @@ PartsOfRanks::PartsOfRanks(
   this->findDatasets(all);
 }
 
-void PartsOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
+void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
 {
   std::map<Slot, Dataset> datasets;
   std::map<Slot, std::string> arrays;
@@ -354,7 +354,7 @@ void PartsOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
       if (arrays[facts.slot] != facts.arrays)
       {
         throw std::runtime_error(
-          "The parts of the input on several ranks have not the same arrays. Check the reader or "
+          "The pieces of the input on several ranks have not the same arrays. Check the reader or "
           "filter that has made them.");
       }
       dataset.type = dataset.type == numbers.type ? dataset.type : -1;
@@ -383,7 +383,7 @@ void PartsOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
   }
 }
 
-double PartsOfRanks::cells() const
+double PiecesOfRanks::cells() const
 {
   double cells = 0;
   for (const Dataset& dataset : this->Datasets)
@@ -393,13 +393,13 @@ double PartsOfRanks::cells() const
   return cells;
 }
 
-bool PartsOfRanks::areOnRank0() const
+bool PiecesOfRanks::areOnRank0() const
 {
   return std::all_of(this->Datasets.begin(), this->Datasets.end(),
     [](const Dataset& dataset) { return dataset.ranks == std::vector<std::size_t>{ 0 }; });
 }
 
-PartsOfRanks::Kind PartsOfRanks::kind() const
+PiecesOfRanks::Kind PiecesOfRanks::kind() const
 {
   bool areImages = true, areDivisible = !this->IsAmr;
   int dimension = 0;
@@ -415,7 +415,7 @@ PartsOfRanks::Kind PartsOfRanks::kind() const
                                                                       : Kind::Meshes;
 }
 
-vtkSmartPointer<vtkDataObject> PartsOfRanks::gather()
+vtkSmartPointer<vtkDataObject> PiecesOfRanks::gather()
 {
   if (this->areOnRank0())
   {
@@ -425,9 +425,9 @@ vtkSmartPointer<vtkDataObject> PartsOfRanks::gather()
   this->All.agree(
     [&]
     {
-      for (const Part& part : this->Own)
+      for (const DatasetPiece& piece : this->Own)
       {
-        pack(part, own);
+        pack(piece, own);
       }
     });
   const auto sizes = this->All.allGather(
@@ -455,10 +455,10 @@ vtkSmartPointer<vtkDataObject> PartsOfRanks::gather()
   return this->All.rank() == 0 ? gatheredData(all) : nullptr;
 }
 
-std::vector<PartsOfRanks::Piece> PartsOfRanks::withGhostCells()
+std::vector<PiecesOfRanks::Piece> PiecesOfRanks::withGhostCells()
 {
   const bool isImage = this->kind() == Kind::Image;
-  std::vector<Piece> pieces;
+  std::vector<Piece> result;
   for (std::size_t n = 0; n < this->Datasets.size(); ++n)
   {
     const Dataset& dataset = this->Datasets[n];
@@ -466,21 +466,21 @@ std::vector<PartsOfRanks::Piece> PartsOfRanks::withGhostCells()
     this->All.agree(
       [&]
       {
-        std::vector<vtkSmartPointer<vtkDataSet>> parts;
-        for (const Part& part : this->Own)
+        std::vector<vtkSmartPointer<vtkDataSet>> pieces;
+        for (const DatasetPiece& piece : this->Own)
         {
-          if (part.slot == dataset.slot)
+          if (piece.slot == dataset.slot)
           {
-            parts.push_back(part.data);
+            pieces.push_back(piece.data);
           }
         }
-        parts = parts.size() > 1 ? joined(parts) : parts;
-        if (parts.size() > 1)
+        pieces = pieces.size() > 1 ? joined(pieces) : pieces;
+        if (pieces.size() > 1)
         {
-          throw std::runtime_error("A rank has several parts of one dataset of the input, which "
+          throw std::runtime_error("A rank has several pieces of one dataset of the input, which "
                                    "are no dataset together. Make them blocks of their own.");
         }
-        own = parts.empty() ? nullptr : parts[0];
+        own = pieces.empty() ? nullptr : pieces[0];
       });
     Extent extent{ 0, -1, 0, -1, 0, -1 };
     if (own && isGrid(own))
@@ -529,10 +529,10 @@ std::vector<PartsOfRanks::Piece> PartsOfRanks::withGhostCells()
     }
     if (own)
     {
-      pieces.push_back({ own, static_cast<std::uint32_t>(n), extent, dataset.whole });
+      result.push_back({ own, static_cast<std::uint32_t>(n), extent, dataset.whole });
     }
   }
-  return pieces;
+  return result;
 }
 
 } // namespace filters

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Input/DataParts.h"
+#include "Input/DatasetPieces.h"
 
 #include "Common/ImagePlace.h"
 #include "Input/RefractivitySource.h"
@@ -46,7 +46,7 @@ namespace filters
 namespace
 {
 
-void addParts(vtkDataObject* data, const Slot& slot, std::vector<Part>& parts)
+void addPieces(vtkDataObject* data, const Slot& slot, std::vector<DatasetPiece>& pieces)
 {
   const auto below = [&slot](int child)
   {
@@ -64,7 +64,7 @@ void addParts(vtkDataObject* data, const Slot& slot, std::vector<Part>& parts)
     int child = 0;
     for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
     {
-      addParts(iterator->GetCurrentDataObject(), areParts ? slot : below(child), parts);
+      addPieces(iterator->GetCurrentDataObject(), areParts ? slot : below(child), pieces);
       ++child;
     }
   }
@@ -73,15 +73,15 @@ void addParts(vtkDataObject* data, const Slot& slot, std::vector<Part>& parts)
     auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(amr->NewIterator());
     for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
     {
-      addParts(iterator->GetCurrentDataObject(),
-        below(static_cast<int>(iterator->GetCurrentFlatIndex())), parts);
+      addPieces(iterator->GetCurrentDataObject(),
+        below(static_cast<int>(iterator->GetCurrentFlatIndex())), pieces);
     }
   }
   else if (auto* leaf = vtkDataSet::SafeDownCast(data))
   {
     if (leaf->GetNumberOfPoints() > 0)
     {
-      parts.push_back({ slot, leaf });
+      pieces.push_back({ slot, leaf });
     }
   }
 }
@@ -201,28 +201,28 @@ vtkIdType sizeOf(const std::array<int, 6>& extent)
 }
 
 /// Copies the arrays of several extents to the whole grid.
-void copyAttributes(const std::vector<vtkDataSet*>& parts, bool ofCells, vtkDataSet* whole)
+void copyAttributes(const std::vector<vtkDataSet*>& pieces, bool ofCells, vtkDataSet* whole)
 {
   const int kind = ofCells ? vtkDataObject::CELL : vtkDataObject::POINT;
   const std::array<int, 6> extent = extentOf(whole, ofCells);
   vtkDataSetAttributes* to = whole->GetAttributes(kind);
   to->CopyAllOn();
-  to->CopyAllocate(parts[0]->GetAttributes(kind), sizeOf(extent));
-  for (vtkDataSet* part : parts)
+  to->CopyAllocate(pieces[0]->GetAttributes(kind), sizeOf(extent));
+  for (vtkDataSet* piece : pieces)
   {
     to->CopyStructuredData(
-      part->GetAttributes(kind), extentOf(part, ofCells).data(), extent.data());
+      piece->GetAttributes(kind), extentOf(piece, ofCells).data(), extent.data());
   }
 }
 
 /// Joins the coordinates of rectilinear grids along an axis.
 vtkSmartPointer<vtkDataArray> joinedCoordinates(
-  const std::vector<vtkDataSet*>& parts, std::size_t axis, const std::array<int, 6>& extent)
+  const std::vector<vtkDataSet*>& pieces, std::size_t axis, const std::array<int, 6>& extent)
 {
   vtkSmartPointer<vtkDataArray> joined;
-  for (vtkDataSet* part : parts)
+  for (vtkDataSet* piece : pieces)
   {
-    auto* grid = vtkRectilinearGrid::SafeDownCast(part);
+    auto* grid = vtkRectilinearGrid::SafeDownCast(piece);
     vtkDataArray* of = axis == 0 ? grid->GetXCoordinates()
       : axis == 1                ? grid->GetYCoordinates()
                                  : grid->GetZCoordinates();
@@ -232,22 +232,22 @@ vtkSmartPointer<vtkDataArray> joinedCoordinates(
       joined->SetNumberOfTuples(extent[2 * axis + 1] - extent[2 * axis] + 1);
     }
     joined->InsertTuples(
-      extentOf(part, false)[2 * axis] - extent[2 * axis], of->GetNumberOfTuples(), 0, of);
+      extentOf(piece, false)[2 * axis] - extent[2 * axis], of->GetNumberOfTuples(), 0, of);
   }
   return joined;
 }
 
 /// Joins the points of curvilinear grids.
 vtkSmartPointer<vtkPoints> joinedPoints(
-  const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
+  const std::vector<vtkDataSet*>& pieces, const std::array<int, 6>& extent)
 {
   auto joined = vtkSmartPointer<vtkPoints>::New();
-  joined->SetDataType(vtkStructuredGrid::SafeDownCast(parts[0])->GetPoints()->GetDataType());
+  joined->SetDataType(vtkStructuredGrid::SafeDownCast(pieces[0])->GetPoints()->GetDataType());
   joined->SetNumberOfPoints(sizeOf(extent));
-  for (vtkDataSet* part : parts)
+  for (vtkDataSet* piece : pieces)
   {
-    const std::array<int, 6> of = extentOf(part, false);
-    vtkDataArray* from = vtkStructuredGrid::SafeDownCast(part)->GetPoints()->GetData();
+    const std::array<int, 6> of = extentOf(piece, false);
+    vtkDataArray* from = vtkStructuredGrid::SafeDownCast(piece)->GetPoints()->GetData();
     vtkIdType next = 0;
     for (int k = of[4]; k <= of[5]; ++k)
     {
@@ -265,12 +265,12 @@ vtkSmartPointer<vtkPoints> joinedPoints(
 }
 
 /// Returns whether the grids contain all points of an extent.
-bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& extent)
+bool isCovered(const std::vector<vtkDataSet*>& pieces, const std::array<int, 6>& extent)
 {
   std::vector<bool> isThere(static_cast<std::size_t>(sizeOf(extent)));
-  for (vtkDataSet* part : parts)
+  for (vtkDataSet* piece : pieces)
   {
-    const std::array<int, 6> of = extentOf(part, false);
+    const std::array<int, 6> of = extentOf(piece, false);
     for (int k = of[4]; k <= of[5]; ++k)
     {
       for (int j = of[2]; j <= of[3]; ++j)
@@ -288,9 +288,9 @@ bool isCovered(const std::vector<vtkDataSet*>& parts, const std::array<int, 6>& 
 
 /// Returns whether a grid's points lie where the same indices of the whole do. Readers may number
 /// the grids of each rank from 0.
-bool liesIn(vtkDataSet* part, vtkDataSet* whole)
+bool liesIn(vtkDataSet* piece, vtkDataSet* whole)
 {
-  const std::array<int, 6> of = extentOf(part, false), all = extentOf(whole, false);
+  const std::array<int, 6> of = extentOf(piece, false), all = extentOf(whole, false);
   vtkIdType next = 0;
   for (int k = of[4]; k <= of[5]; ++k)
   {
@@ -300,7 +300,7 @@ bool liesIn(vtkDataSet* part, vtkDataSet* whole)
       {
         const int index[3] = { i, j, k };
         double own[3], ofWhole[3];
-        part->GetPoint(next++, own);
+        piece->GetPoint(next++, own);
         whole->GetPoint(vtkStructuredData::ComputePointIdForExtent(all.data(), index), ofWhole);
         if (!std::equal(own, own + 3, ofWhole))
         {
@@ -335,18 +335,18 @@ std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells)
   return extent;
 }
 
-std::vector<Part> partsOf(vtkDataObject* data, const std::vector<std::string>& arrays)
+std::vector<DatasetPiece> piecesOf(vtkDataObject* data, const std::vector<std::string>& arrays)
 {
-  std::vector<Part> parts;
-  addParts(data, {}, parts);
-  for (Part& part : parts)
+  std::vector<DatasetPiece> pieces;
+  addPieces(data, {}, pieces);
+  for (DatasetPiece& piece : pieces)
   {
-    part.data = sparseCopy(part.data, arrays);
+    piece.data = sparseCopy(piece.data, arrays);
   }
-  parts.erase(std::remove_if(parts.begin(), parts.end(),
-                [](const Part& part) { return part.data->GetNumberOfPoints() == 0; }),
-    parts.end());
-  return parts;
+  pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
+                 [](const DatasetPiece& piece) { return piece.data->GetNumberOfPoints() == 0; }),
+    pieces.end());
+  return pieces;
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> extractedCells(vtkUnstructuredGrid* mesh, vtkIdList* cells)
@@ -361,20 +361,20 @@ vtkSmartPointer<vtkUnstructuredGrid> extractedCells(vtkUnstructuredGrid* mesh, v
   return extracted;
 }
 
-void pack(const Part& part, std::vector<char>& bytes)
+void pack(const DatasetPiece& piece, std::vector<char>& bytes)
 {
   vtkNew<vtkCharArray> buffer;
-  if (!vtkCommunicator::MarshalDataObject(part.data, buffer))
+  if (!vtkCommunicator::MarshalDataObject(piece.data, buffer))
   {
-    throw std::runtime_error(std::string("Data of the type ") + part.data->GetClassName() +
+    throw std::runtime_error(std::string("Data of the type ") + piece.data->GetClassName() +
       " are spread over several ranks and cannot be sent from rank to rank. Use one process, or "
       "take the data from before the filter that has spread them.");
   }
-  const auto length = static_cast<std::int64_t>(part.slot.size());
+  const auto length = static_cast<std::int64_t>(piece.slot.size());
   put(&length, 1, bytes);
-  put(part.slot.data(), part.slot.size(), bytes);
+  put(piece.slot.data(), piece.slot.size(), bytes);
   Place place;
-  if (auto* image = vtkImageData::SafeDownCast(part.data))
+  if (auto* image = vtkImageData::SafeDownCast(piece.data))
   {
     std::copy_n(image->GetDirectionMatrix()->GetData(), 9, place.direction.begin());
     image->GetOrigin(place.origin.data());
@@ -386,13 +386,13 @@ void pack(const Part& part, std::vector<char>& bytes)
   put(buffer->GetPointer(0), static_cast<std::size_t>(size), bytes);
 }
 
-Part unpack(Reader& reader)
+DatasetPiece unpack(Reader& reader)
 {
-  Part part;
+  DatasetPiece piece;
   std::int64_t length = 0;
   reader.Get(&length, 1);
-  part.slot.resize(static_cast<std::size_t>(length));
-  reader.Get(part.slot.data(), part.slot.size());
+  piece.slot.resize(static_cast<std::size_t>(length));
+  reader.Get(piece.slot.data(), piece.slot.size());
   Place place;
   reader.Get(&place, 1);
   std::int64_t size = 0;
@@ -400,35 +400,35 @@ Part unpack(Reader& reader)
   vtkNew<vtkCharArray> buffer;
   buffer->SetNumberOfValues(size);
   reader.Get(buffer->GetPointer(0), static_cast<std::size_t>(size));
-  part.data = vtkDataSet::SafeDownCast(
+  piece.data = vtkDataSet::SafeDownCast(
     vtkCommunicator::UnMarshalDataObject(buffer.GetPointer()).GetPointer());
-  if (!part.data)
+  if (!piece.data)
   {
     throw std::runtime_error("VTK cannot read what another rank has sent of its data.");
   }
-  if (vtkImageData::SafeDownCast(part.data))
+  if (vtkImageData::SafeDownCast(piece.data))
   {
     vtkNew<vtkImageData> image; // VTK returns vtkStructuredPoints
-    image->ShallowCopy(part.data);
+    image->ShallowCopy(piece.data);
     image->SetDirectionMatrix(place.direction.data());
     image->SetOrigin(place.origin.data());
     image->SetSpacing(place.spacing.data());
-    part.data = image;
+    piece.data = image;
   }
-  return part;
+  return piece;
 }
 
-void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind)
+void requireSameArrays(const std::vector<vtkDataSet*>& pieces, int kind)
 {
-  vtkDataSetAttributes* first = parts[0]->GetAttributes(kind);
-  for (vtkDataSet* part : parts)
+  vtkDataSetAttributes* first = pieces[0]->GetAttributes(kind);
+  for (vtkDataSet* piece : pieces)
   {
-    vtkDataSetAttributes* other = part->GetAttributes(kind);
+    vtkDataSetAttributes* other = piece->GetAttributes(kind);
     if (!haveSameArrays(first, other))
     {
       const std::string what = kind == vtkDataObject::CELL ? "cells" : "points";
       throw std::runtime_error(
-        "The parts of the input on several ranks have not the same arrays of " + what + ": " +
+        "The pieces of the input on several ranks have not the same arrays of " + what + ": " +
         namesOf(first) + " on one of them, " + namesOf(other) +
         " on another, or their types differ. Check the reader or filter that has made them.");
     }
@@ -436,23 +436,23 @@ void requireSameArrays(const std::vector<vtkDataSet*>& parts, int kind)
 }
 
 vtkSmartPointer<vtkDataSet> joinedMesh(
-  const std::vector<vtkDataSet*>& parts, const char* alsoTheSame)
+  const std::vector<vtkDataSet*>& pieces, const char* alsoTheSame)
 {
-  if (vtkPolyData::SafeDownCast(parts[0]))
+  if (vtkPolyData::SafeDownCast(pieces[0]))
   {
     vtkNew<vtkAppendPolyData> append;
-    for (vtkDataSet* part : parts)
+    for (vtkDataSet* piece : pieces)
     {
-      append->AddInputData(vtkPolyData::SafeDownCast(part));
+      append->AddInputData(vtkPolyData::SafeDownCast(piece));
     }
     append->Update();
     return append->GetOutput();
   }
   vtkNew<vtkAppendFilter> append;
   vtkNew<vtkStaticCleanUnstructuredGrid> merge;
-  for (vtkDataSet* part : parts)
+  for (vtkDataSet* piece : pieces)
   {
-    append->AddInputData(part);
+    append->AddInputData(piece);
   }
   merge->SetInputConnection(append->GetOutputPort());
   merge->ToleranceIsAbsoluteOn();
@@ -464,37 +464,37 @@ vtkSmartPointer<vtkDataSet> joinedMesh(
   return merge->GetOutput();
 }
 
-vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts)
+vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& pieces)
 {
-  std::array<int, 6> extent = extentOf(parts[0], false);
-  for (vtkDataSet* part : parts)
+  std::array<int, 6> extent = extentOf(pieces[0], false);
+  for (vtkDataSet* piece : pieces)
   {
-    const std::array<int, 6> of = extentOf(part, false);
+    const std::array<int, 6> of = extentOf(piece, false);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       extent[2 * axis] = std::min(extent[2 * axis], of[2 * axis]);
       extent[2 * axis + 1] = std::max(extent[2 * axis + 1], of[2 * axis + 1]);
     }
-    auto* image = vtkImageData::SafeDownCast(part);
-    if (image && !haveSamePlace(image, vtkImageData::SafeDownCast(parts[0])))
+    auto* image = vtkImageData::SafeDownCast(piece);
+    if (image && !haveSamePlace(image, vtkImageData::SafeDownCast(pieces[0])))
     {
       return nullptr;
     }
   }
   vtkIdType points = 0;
-  for (vtkDataSet* part : parts)
+  for (vtkDataSet* piece : pieces)
   {
-    points += part->GetNumberOfPoints();
+    points += piece->GetNumberOfPoints();
   }
-  if (sizeOf(extent) > points || !isCovered(parts, extent))
+  if (sizeOf(extent) > points || !isCovered(pieces, extent))
   {
     return nullptr;
   }
   vtkSmartPointer<vtkDataSet> whole;
-  whole.TakeReference(parts[0]->NewInstance());
+  whole.TakeReference(pieces[0]->NewInstance());
   if (auto* image = vtkImageData::SafeDownCast(whole))
   {
-    auto* first = vtkImageData::SafeDownCast(parts[0]);
+    auto* first = vtkImageData::SafeDownCast(pieces[0]);
     image->SetOrigin(first->GetOrigin());
     image->SetSpacing(first->GetSpacing());
     image->SetDirectionMatrix(first->GetDirectionMatrix());
@@ -503,22 +503,23 @@ vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& parts)
   else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(whole))
   {
     rectilinear->SetExtent(extent.data());
-    rectilinear->SetXCoordinates(joinedCoordinates(parts, 0, extent));
-    rectilinear->SetYCoordinates(joinedCoordinates(parts, 1, extent));
-    rectilinear->SetZCoordinates(joinedCoordinates(parts, 2, extent));
+    rectilinear->SetXCoordinates(joinedCoordinates(pieces, 0, extent));
+    rectilinear->SetYCoordinates(joinedCoordinates(pieces, 1, extent));
+    rectilinear->SetZCoordinates(joinedCoordinates(pieces, 2, extent));
   }
   else if (auto* structured = vtkStructuredGrid::SafeDownCast(whole))
   {
     structured->SetExtent(extent.data());
-    structured->SetPoints(joinedPoints(parts, extent));
+    structured->SetPoints(joinedPoints(pieces, extent));
   }
   if (!vtkImageData::SafeDownCast(whole) &&
-    !std::all_of(parts.begin(), parts.end(), [&](vtkDataSet* part) { return liesIn(part, whole); }))
+    !std::all_of(
+      pieces.begin(), pieces.end(), [&](vtkDataSet* piece) { return liesIn(piece, whole); }))
   {
     return nullptr;
   }
-  copyAttributes(parts, false, whole);
-  copyAttributes(parts, true, whole);
+  copyAttributes(pieces, false, whole);
+  copyAttributes(pieces, true, whole);
   return whole;
 }
 

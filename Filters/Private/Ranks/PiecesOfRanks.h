@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Input/DataParts.h"
+#include "Input/DatasetPieces.h"
 #include "Ranks/Ranks.h"
 
 #include "vtkSmartPointer.h"
@@ -22,14 +22,14 @@ namespace filters
 
 /// Finds the datasets of an input on all ranks. Datasets that several ranks have completely count
 /// once. All ranks call all functions that are not const.
-class PartsOfRanks
+class PiecesOfRanks
 {
 public:
   using Extent = std::array<int, 6>;
 
   /// Describes the named arrays of `own`, which may be null. Throws std::runtime_error, as all
   /// functions do.
-  PartsOfRanks(const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays);
+  PiecesOfRanks(const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays);
 
   double cells() const;
   bool areOnRank0() const;
@@ -58,11 +58,11 @@ public:
 
 private:
   struct Facts;
-  static Facts factsOf(const Part& part);
+  static Facts factsOf(const DatasetPiece& piece);
   void findDatasets(const std::vector<std::vector<Facts>>& all);
 
   const Ranks& All;
-  std::vector<Part> Own;
+  std::vector<DatasetPiece> Own;
   /// The description of a dataset, equal on all ranks.
   struct Dataset
   {
