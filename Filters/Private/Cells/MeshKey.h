@@ -36,13 +36,13 @@ private:
   std::uint64_t Value = 1;
 };
 
-/// Points, cells and which of them ghost arrays hide.
+/// Hashes points, cells and ghost arrays.
 void addMesh(Hash& hash, vtkDataSet* data);
 
-/// Which points have a finite scalar.
+/// Hashes which points have a finite scalar.
 void addGas(Hash& hash, vtkDataSet* data);
 
-/// The surfaces of bodies; may be null.
+/// Hashes the surfaces of bodies; may be null.
 void addBodies(Hash& hash, vtkDataObject* bodies);
 
 } // namespace filters
