@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The boundaries of all ranks' pieces, as DataPiece::putBoundary() sends them to all.
+// Collects the boundaries of all ranks' pieces that DataPiece::putBoundary() sends.
 #pragma once
 
 #include "Cells/CellTree.h"
@@ -24,7 +24,7 @@ struct BoundaryOfMeshes
   Faces
     faces; ///< each contribution is the value that is sent with the point; `leaf`: the dataset's number on all ranks
 
-  /// Another rank's.
+  /// Adds the boundary of another rank.
   void add(Reader& reader);
 };
 
@@ -37,7 +37,7 @@ struct BoundaryOfImage
   BoundaryFaces faces;
   std::vector<ImagePiece::OuterValue> outer;
 
-  /// Another rank's. Throws std::runtime_error where it has other axes.
+  /// Adds the boundary of another rank. Throws std::runtime_error if its axes differ.
   void add(Reader& reader);
 };
 
