@@ -998,8 +998,8 @@ private:
 
   struct Internals;
 
-  /// Hands the array selections, and the wavelength if it matters there, on to Medium, which changes
-  /// only if they have.
+  /// Passes the array selections, and the wavelength if it matters, to Medium, which changes only
+  /// if they have.
   void PassToMedium();
   void OnMediumProgress();
   /// Updates the refractivity. Returns false if aborted.

@@ -55,7 +55,7 @@ public:
     const WorkProgress& progress = WorkProgress());
   const std::shared_ptr<const Mesh>& mesh() const { return this->Sorted; }
 
-  /// Counts cells through all blocks, including hidden ones.
+  /// Numbers cells through all blocks, including hidden ones.
   using Number = std::uint32_t;
   struct Cell
   {

@@ -36,7 +36,7 @@ private:
   std::uint64_t Value = 1;
 };
 
-/// Hashes points, cells and ghost arrays.
+/// Points, cells and which of them ghost arrays hide.
 void addMesh(Hash& hash, vtkDataSet* data);
 
 /// Hashes which points have a finite scalar.

@@ -17,17 +17,17 @@ namespace filters
  */
 struct PointFit
 {
-  static constexpr int points = 8; // per fit
+  static constexpr int points = 8; // at once
   enum class Values
   {
     AtPoints,
     Means
   };
 
-  /// Removes all neighbours. `most`: maximum number for each point.
+  /// Sets how many neighbours the points have at most, and that they have none as yet.
   void clear(std::size_t most, Values values = Values::AtPoints);
 
-  /// Adds a neighbour, relative to the point.
+  /// Adds one, counted from the point.
   void add(std::size_t point, const double x[3], double value)
   {
     double* to = this->numbers.data() + this->perNeighbour * points * this->counts[point]++ + point;
@@ -51,24 +51,24 @@ struct PointFit
   }
 
   Values values = Values::AtPoints;
-  std::size_t neighbours = 0;   // maximum of all points
+  std::size_t neighbours = 0;   // of the point with most of them
   std::size_t perNeighbour = 4; // numbers
   std::vector<double>
-    numbers; // x, y, z, value (and second moments) of each neighbour, points fastest; else 0
+    numbers; // x, y, z, value (and second moments) of each neighbour, of all points at a time; else 0
   std::size_t counts[points] = {};
-  double own[9][points] = {}; // for means: first and second moments of the points' own means
+  double own[9][points] = {}; // of means: first and second moments of the points' own ones
 
-  // Results for each point; 0 without a good gradient.
+  // What is found of each point: 0 where there is no good gradient.
   double gradient[3][points];
-  double correction[points]; // for means: added to the point's mean, the value at the point
-  double unfit[points];      // fraction of the values' squares that the polynomial leaves
+  double correction[points]; // of means: what makes its own one the value at the point
+  double unfit[points];      // the part of the values' squares that the polynomial leaves
   double lowest[points], highest[points]; // of the values and 0
 };
 
-/// Fits the polynomials of all points, independently of each other.
+/// Fits the polynomials of all points, each by itself, whatever the others are.
 using FitPoints = void (*)(PointFit& fit);
 
-/// Returns variants for the instructions that this processor has, slowest first.
+/// For the instructions that this processor has, slower ones first.
 std::vector<FitPoints> functionsToFit();
 
 } // namespace filters

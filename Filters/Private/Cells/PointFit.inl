@@ -16,7 +16,7 @@ SCHLIEREN_INLINE void store(const Real& pack, double* to)
   __builtin_memcpy(to, &pack, sizeof(pack));
 }
 
-/// Scales moments by a lower triangular matrix, and by what a symmetric one makes of it.
+/// Units for moments: those of a lower triangular matrix, and what a symmetric one makes of them.
 struct Units
 {
   Real spread[3][3], perSpread[3], shrunk[3][3];
@@ -43,7 +43,7 @@ struct Units
     }
   }
 
-  /// Transforms second moments xx, yy, zz, xy, yz, zx along rows and columns.
+  /// Of second moments xx, yy, zz, xy, yz, zx: the same along rows and columns.
   template <bool shrinks>
   SCHLIEREN_INLINE void scaleSecond(const Real* from, Real* to) const
   {
@@ -119,7 +119,7 @@ inline void fitPack(PointFit& fit, int firstPoint)
     isGood[lane] = count >= fewest ? -1 : 0;
   }
 
-  // Finds L with L * transposed(L) = the mean of x * transposed(x), which makes directions equal.
+  // L with L * transposed(L) = the mean of x * transposed(x): places in units of it are as far along every axis.
   Units units;
   Real(&spread)[3][3] = units.spread;
   Real sums[3][3] = {}, low = zero, high = zero;
@@ -160,7 +160,7 @@ inline void fitPack(PointFit& fit, int firstPoint)
       Real sum = sums[i][k] * perCount;
       if constexpr (ofMeans)
       {
-        // Adds the size of the mean's volume, the unit where all positions along an axis are equal.
+        // With the size of what the mean is over: where all have the same place along an axis, that is its unit.
         sum += own[i == k ? 3 + i : i == 1 ? 6 : k == 1 ? 7 : 8] - own[i] * own[k];
       }
       for (int j = 0; j < k; ++j)
@@ -191,7 +191,7 @@ inline void fitPack(PointFit& fit, int firstPoint)
     units.shrinkWhereFlat(scaled);
   }
 
-  // Accumulates the lower half of the fit's matrix, the right side, and the sum of squared values.
+  // The fit's matrix, the lower half of it; its right side, and the sum of the values' squares.
   Real matrix[unknowns][unknowns] = {}, right[unknowns] = {}, all = zero;
   for (const double* from = first; from != last; from += perNeighbour * points)
   {
@@ -240,7 +240,7 @@ inline void fitPack(PointFit& fit, int firstPoint)
                           : (ofMeans ? leastSecondOfMeans : leastSecond) / 6 * trace[1];
   }
 
-  // Factorizes matrix = U * D * transposed(U) by columns, with 1 / D in U's diagonal.
+  // matrix = U * D * transposed(U), by columns; U has 1 in its diagonal, where 1 / D is put.
   for (int k = 0; k < unknowns; ++k)
   {
     isGood &= matrix[k][k] > 0;
@@ -269,7 +269,7 @@ inline void fitPack(PointFit& fit, int firstPoint)
       x[i] -= matrix[i][j] * x[j];
     }
   }
-  // Computes the residual of the best fit: the squares less the right side's contribution.
+  // What is left of the squares: for the best fit, all that the right side does not take away.
   Real left = all;
   for (int i = unknowns - 1; i >= 0; --i)
   {

@@ -164,7 +164,7 @@ void findNeighbours(
 
 const FitPoints fitPoints = functionsToFit().back();
 
-/// Returns the trend of one of the points.
+/// What is known of one of the points.
 PointTrend trendOf(const PointFit& fit, std::size_t point)
 {
   const double more = overshoot * (fit.highest[point] - fit.lowest[point]);
@@ -224,7 +224,7 @@ double partAtBoundary(const CellsAround& cells)
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Fits polynomials of single points in groups. Calls take(fit, index in fit, point).
+/// Fits polynomials of points that come one by one, several at once. Calls take(fit, its number there, point).
 template <class Take>
 class FitOfPoints
 {
@@ -275,7 +275,7 @@ private:
     mesh.coordinates(point, x.data());
     mesh.coordinates(other, away.data());
     away = away - x;
-    if (away[0] == 0 && away[1] == 0 && away[2] == 0) // coincides with the point
+    if (away[0] == 0 && away[1] == 0 && away[2] == 0) // a double of the point
     {
       return;
     }
@@ -319,8 +319,8 @@ private:
   Take Taken;
   PointFit Fit;
   vtkIdType Points[PointFit::points];
-  std::vector<std::uint32_t> Ids;     // of all points in the fit
-  std::size_t Ends[PointFit::points]; // in Ids
+  std::vector<std::uint32_t> Ids;     // of all points that are fitted at once
+  std::size_t Ends[PointFit::points]; // in them
   std::size_t Count = 0, Most = 0;
 };
 

@@ -20,8 +20,7 @@ void flattenLayer(Source& source, const Source* like);
 /// A layer between two planes that meet in an axis.
 struct Wedge
 {
-  int axis,
-    across; // axes along the wedge, and nearest to the middle plane's normal
+  int axis, across; // along the wedge, and nearest to the normal of its middle plane
   double degrees;
 };
 

@@ -120,7 +120,7 @@ private:
   std::vector<std::unique_ptr<const ImageSpline>> Splines;
 };
 
-/// Transforms surfaces to the axes that `direction` leads from. Null if there are none.
+/// Surfaces in the axes that `direction` leads from. Null: there are none.
 vtkSmartPointer<vtkDataObject> turnedBack(
   vtkDataObject* bodies, const std::array<double, 9>& direction);
 

@@ -136,7 +136,7 @@ private:
     vtkDataObject* bodies, vtkImageData* output, std::string& warning, std::string& note);
   std::shared_ptr<const schlieren::MediumSource> makeSourceOfImage(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields);
-  /// Drops the state of a mesh, or leaves it to other makers.
+  /// Frees what is kept of a mesh, or leaves it to others that have it.
   void leaveMesh();
 
   Progress Report;

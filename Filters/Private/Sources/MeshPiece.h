@@ -21,7 +21,7 @@ class vtkDataSet;
 namespace filters
 {
 
-/// State of a piece that depends on its mesh alone, kept between time steps.
+/// What of a piece depends on its mesh alone, and not on the values: it is kept from one time step to the next.
 struct PieceMesh
 {
   std::uint64_t key; // see DataPiece::meshKey()

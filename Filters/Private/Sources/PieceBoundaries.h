@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Collects the boundaries of all ranks' pieces that DataPiece::putBoundary() sends.
+// The boundaries of all ranks' pieces, as DataPiece::putBoundary() sends them to all.
 #pragma once
 
 #include "Cells/CellTree.h"
@@ -24,7 +24,7 @@ struct BoundaryOfMeshes
   Faces
     faces; ///< each contribution is the value that is sent with the point; `leaf`: the dataset's number on all ranks
 
-  /// Adds the boundary of another rank.
+  /// Another rank's.
   void add(Reader& reader);
 };
 
@@ -37,7 +37,7 @@ struct BoundaryOfImage
   BoundaryFaces faces;
   std::vector<ImagePiece::OuterValue> outer;
 
-  /// Adds the boundary of another rank. Throws std::runtime_error if its axes differ.
+  /// Another rank's. Throws std::runtime_error where it has other axes.
   void add(Reader& reader);
 };
 

@@ -195,7 +195,7 @@ void addCandidates(
   }
 }
 
-/// Classes of equal numbers.
+/// Numbers that become equal.
 class Classes
 {
 public:
@@ -212,7 +212,7 @@ public:
     }
     return i;
   }
-  /// Joins two classes under the lower number.
+  /// The lower one stays.
   void join(std::size_t a, std::size_t b)
   {
     const auto [low, high] = std::minmax({ this->rootOf(a), this->rootOf(b) });
@@ -223,7 +223,7 @@ private:
   std::vector<std::size_t> Roots;
 };
 
-/// Returns whether each point belongs to a connected set of cells large enough for sheets.
+/// Of the points of a mesh: whether they belong to so many cells that hang together that walls may be between them.
 std::vector<unsigned char> maySheetsMeet(const MeshArrays& mesh)
 {
   const auto points = static_cast<std::size_t>(mesh.points());
@@ -472,7 +472,7 @@ SharedPoints::SharedPoints(
   }
   if (candidates.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
   {
-    return; // no memory is needed
+    return; // too many to be numbered
   }
   Joiner joiner(leaves, meshes, dimension, candidates, kinds);
   Classes groups(leaves.size());

@@ -263,7 +263,7 @@ void BodySurfaces::findInside(
           if (isPassed(a, b, j, k) ^ isPassed(b, c, j, k) ^ isPassed(c, a, j, k))
           {
             const double x = a[0] - (normal[1] * (j - a[1]) + normal[2] * (k - a[2])) / normal[0];
-            const double safe = std::isfinite(x) ? x : a[0]; // in the plane of the edge
+            const double safe = std::isfinite(x) ? x : a[0]; // parallel to x
             const double within =
               std::clamp(safe, std::min({ a[0], b[0], c[0] }), std::max({ a[0], b[0], c[0] }));
             const double i = std::ceil(std::max(within, 0.));

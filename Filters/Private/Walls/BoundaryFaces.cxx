@@ -29,10 +29,8 @@ namespace filters
 namespace
 {
 
-constexpr double lookingPart =
-  0.05; // depth of tests behind a face, relative to a cell's height or a face's edge
-constexpr double cellTolerance =
-  4e-3; // relative to a cell's height: maximum distance of points in a cell
+constexpr double lookingPart = 0.05;   // depth of tests behind a face, in cell heights or edges
+constexpr double cellTolerance = 4e-3; // maximum distance of points in a cell, in cell heights
 
 /// Removes the sides of a layer across z, whose corners all have the same z.
 Faces withoutSidesAcrossZ(const Faces& all)

@@ -174,7 +174,7 @@ private:
     return t;
   }
 
-  /// Finds connected plane regions of the hull that do not continue smoothly.
+  /// Of the hull: what hangs together in one plane and does not continue smoothly to other hull.
   std::vector<unsigned char> findFlatSides()
   {
     resetRoots();

@@ -68,7 +68,7 @@ std::vector<double> jumpsOf(const CutFaces& cuts, const std::vector<double>& val
 std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<double>& values)
 {
   const std::vector<double> jumps = jumpsOf(cuts, values);
-  // Finds connected parts, each by a face.
+  // Parts, by one of their faces.
   std::vector<std::size_t> roots(cuts.size());
   std::iota(roots.begin(), roots.end(), std::size_t{ 0 });
   const auto rootOf = [&](std::size_t face)
@@ -79,7 +79,7 @@ std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<do
     }
     return face;
   };
-  std::vector<std::pair<std::int32_t, std::size_t>> corners; // position, face
+  std::vector<std::pair<std::int32_t, std::size_t>> corners; // place, face
   for (std::size_t face = 0; face < cuts.size(); ++face)
   {
     for (std::size_t i = cuts.starts[face]; jumps[face] > 0 && i < cuts.starts[face + 1]; ++i)
