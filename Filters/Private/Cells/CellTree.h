@@ -85,11 +85,8 @@ public:
     }
   }
 
-  std::size_t size() const { return this->Sorted->numbers.size(); } // cells in the tree
-  std::size_t copies() const
-  {
-    return this->Sorted->copies.size();
-  }                          // copies, used as neighbours only
+  std::size_t size() const { return this->Sorted->numbers.size(); }  // cells in the tree
+  std::size_t copies() const { return this->Sorted->copies.size(); } // only neighbours
   std::size_t bytes() const; // memory, without the datasets'
 
   struct Bounds // low > high: none
