@@ -27,7 +27,8 @@ class PartsOfRanks
 public:
   using Extent = std::array<int, 6>;
 
-  /// Describes the named arrays of `own` (may be null). All functions throw std::runtime_error.
+  /// Describes the named arrays of `own`, which may be null. Throws std::runtime_error, as all
+  /// functions do.
   PartsOfRanks(const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays);
 
   double cells() const;
@@ -41,7 +42,8 @@ public:
   };
   Kind kind() const;
 
-  /// Returns all data on rank 0, in few datasets; null on others, or if rank 0 has them.
+  /// Returns all data on rank 0, in as few datasets as possible; null on others, or if rank 0 has
+  /// them.
   vtkSmartPointer<vtkDataObject> gather();
 
   /// A rank's cells of a dataset, surrounded by copies of other ranks' cells (DUPLICATECELL).
