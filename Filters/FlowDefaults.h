@@ -45,14 +45,13 @@ struct FlowDefaults
   std::vector<std::string> gases;
   bool ofVolume = false;
 
-  /// The array of the property Mask, its association, and whether it marks gas rather than bodies;
-  /// empty: none.
+  /// The array of the property Mask (empty: none), its association, and whether it marks gas.
   std::string mask;
   FlowArray::Association maskAssociation = FlowArray::Points;
   bool isMaskOfGas = false;
 
-  /// The choice and names that were not understood as a text for the user; whether all were
-  /// understood.
+  /// The choice as a text for the user, with names that were not understood; whether there are
+  /// none.
   std::string message;
   bool isSure = true;
   /// Names that were not understood, mostly empty.
@@ -95,16 +94,14 @@ VTKSCHLIERENFILTERS_EXPORT bool dependsOnRange(const std::string& name);
 VTKSCHLIERENFILTERS_EXPORT double scaleByUnit(
   const std::string& property, const std::string& array);
 
-/// Lists the arrays of one component and their ranges: "point arrays rho (1 to 1.2), T (280 to
-/// 300)". Empty: none.
+/// Lists the arrays of one component: "point arrays rho (1 to 1.2), T (280 to 300)". Empty: none.
 VTKSCHLIERENFILTERS_EXPORT std::string arraysInWords(const std::vector<FlowArray>& arrays);
 
 /// The input of implausible().
 struct FlowInUse
 {
   MediumSettings::Models indexModel = MediumSettings::GladstoneDale;
-  /// The densities, or for moist air the temperature and the pressure, with the ranges of the
-  /// values in use.
+  /// The densities, or for moist air temperature and pressure, with the ranges in use.
   std::vector<FlowArray> arrays;
   std::vector<double> scales; ///< factors to SI units
   bool isScaleGiven = false;  ///< by the user or by a unit

@@ -41,9 +41,8 @@ struct TransferCurve
   }
 };
 
-/// Values of the properties of vtkRefractiveIndex under their names: numbers, texts and lists. See
-/// the filter for their meaning; its setters check ranges. Equal settings and data give the same
-/// medium.
+/// Values of the properties of vtkRefractiveIndex under their names; see the filter for their
+/// meaning, and its setters for their ranges. Equal settings and data give the same medium.
 struct MediumSettings
 {
   /// Values of IndexModel; see vtkRefractiveIndex::IndexModels.

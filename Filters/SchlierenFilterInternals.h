@@ -90,8 +90,7 @@ struct vtkSchlierenFilter::Internals
       (!this->Refractivity->Source || (this->Refractivity->Source->fields() > 0) == needsFields);
   }
 
-  // Gradients of the fields that tint, on the grid of Refractivity; empty if unused or if a source
-  // has them.
+  // Gradients of the fields that tint, on the grid of Refractivity; empty if a source has them.
   std::vector<float> FieldGradients;
 
   // Newest times of this filter and of everything upstream, except Refine(), of the last failure,

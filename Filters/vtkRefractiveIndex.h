@@ -170,8 +170,7 @@ public:
 
   ///@{
   /**
-   * For mixtures: the species' Gladstone-Dale constants in m^3/kg, one for each array, not
-   * negative.
+   * For mixtures: the Gladstone-Dale constants in m^3/kg, one for each array, not negative.
    */
   virtual void AddMixtureConstant(double constant);
   virtual void ClearMixtureConstants();
@@ -189,8 +188,7 @@ public:
 
   ///@{
   /**
-   * For mixtures by volume fractions: the species' molar masses in kg/mol, one for each array,
-   * positive.
+   * For mixtures by volume: the species' molar masses in kg/mol, one for each array, positive.
    */
   virtual void AddMixtureMolarMass(double molarMass);
   virtual void ClearMixtureMolarMasses();
@@ -370,8 +368,7 @@ public:
 
   ///@{
   /**
-   * Outside for older scripts: 0 is OUTSIDE_PASSES, 1 is OUTSIDE_BLOCKS; negative numbers change
-   * nothing.
+   * Outside for older scripts: 0 is OUTSIDE_PASSES, 1 is OUTSIDE_BLOCKS, negative: no change.
    */
   void SetOutsideBlocksLight(int blocks)
   {
@@ -511,8 +508,7 @@ public:
   vtkTypeInt64 GetMeshBuilds();
 
   /**
-   * Counts the grids chosen for inputs other than images: one for each input and set of
-   * properties.
+   * Counts the grids chosen for inputs other than images, once for each set of properties.
    */
   vtkTypeInt64 GetGridPlans();
 

@@ -416,8 +416,7 @@ public:
 
   ///@{
   /**
-   * Whether the knife edge or the graded filter is reversed: intensity I becomes 1 - I. Default:
-   * off.
+   * Whether the knife edge or graded filter is reversed: I becomes 1 - I. Default: off.
    */
   vtkSetMacro(InvertCutoff, bool);
   vtkGetMacro(InvertCutoff, bool);
@@ -502,8 +501,7 @@ public:
 
   ///@{
   /**
-   * Advance of the edge from the middle of the source's image, millimetres, for KFromOptics.
-   * Default: 0.
+   * Advance of the edge into the source's image, millimetres, for KFromOptics. Default: 0.
    */
   vtkSetMacro(CutoffPosition, double);
   vtkGetMacro(CutoffPosition, double);
@@ -529,8 +527,7 @@ public:
   ///@{
   /**
    * Transmission, 0 to 1, of the GRADED_FILTER across its width, 0 to 1; undisturbed light passes
-   * its middle. Null (the default) or without points: a straight line from 0 to 1. Sampled at 1025
-   * points.
+   * the middle. Null (the default) or without points: a line from 0 to 1. Sampled at 1025 points.
    */
   virtual void SetGradedFilter(vtkPiecewiseFunction* function);
   vtkPiecewiseFunction* GetGradedFilter() const;
@@ -661,8 +658,7 @@ public:
 
   ///@{
   /**
-   * Colours of the fields: red, green and blue, 0 to 1, for each. Empty (the default): distinct
-   * hues.
+   * Colours of the fields: red, green and blue, 0 to 1. Empty (the default): distinct hues.
    */
   virtual void AddFieldColor(double value);
   virtual void ClearFieldColors();
@@ -944,8 +940,7 @@ public:
   bool GetHasImage();
 
   /**
-   * Returns the fraction of the image's rays and light that is done, per cent; 100 only for a
-   * finished one.
+   * Returns the completed fraction of the image, per cent; 100 only for a finished one.
    */
   int GetPercentDone();
 
@@ -1021,8 +1016,7 @@ private:
   bool UseOwnRanks();
   /// Finds the gradients of the fields that tint, if needed.
   void UpdateFieldGradients(vtkDataObject* input);
-  /// Return the newest time of all properties except Refine(), and of these and everything
-  /// upstream.
+  /// Return the newest time of all properties but Refine(), and of these and upstream.
   vtkMTimeType GetTimeOfProperties();
   vtkMTimeType GetTimeOfImage();
   /// Returns whether an update only resumes the unfinished image.
@@ -1041,8 +1035,7 @@ private:
   bool RefineOnRank0();
   /// Returns whether a new image can begin between updates. `now`: GetTimeOfImage().
   bool CanBegin(vtkMTimeType now);
-  /// Return the automatic k and ambient refractivity kept from an earlier image; unset where none
-  /// is or none applies.
+  /// Return the automatic k and ambient refractivity kept from an earlier image; unset: none.
   std::optional<double> KeptK();
   std::optional<double> KeptAmbient();
   filters::ImageCircumstances CircumstancesOf(std::vector<double> medium, std::vector<double> rays);

@@ -12,8 +12,7 @@
 namespace pqColorFilterImage
 {
 
-/// Returns the colour of the wheel, the filter without an image: direction is hue, distance is
-/// saturation.
+/// Returns the colour of the wheel: direction is hue, distance is saturation.
 QRgb wheelColor(const QPointF& place);
 QImage wheel();
 

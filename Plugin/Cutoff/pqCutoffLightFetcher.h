@@ -13,8 +13,7 @@ class QWidget;
 class vtkEventQtSlotConnect;
 class vtkSMProxy;
 
-/// Fetches the light on a filter's cutoff plane from the server when the image is finished and a
-/// widget shows it.
+/// Fetches the light on a filter's cutoff plane for a visible widget, after the image is finished.
 class pqCutoffLightFetcher : public QObject
 {
   Q_OBJECT

@@ -17,8 +17,7 @@ class pqLiveEdit
 public:
   pqLiveEdit(vtkSMProxy* filter, const QString& label);
 
-  /// Returns whether the filter has made an image (PictureCount); before that, properties wait for
-  /// Apply.
+  /// Returns whether the filter has made an image; before that, properties wait for Apply.
   static bool isPossible(vtkSMProxy* filter);
 
   /// Applies values for display.

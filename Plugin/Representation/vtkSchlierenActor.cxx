@@ -197,8 +197,7 @@ vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
   camera->GetDirectionOfProjection(view.Direction.data());
   camera->GetViewUp(view.Up.data());
   camera->GetFocalPoint(view.FocalPoint.data());
-  // Undoes tiling: vtkWindowToImageFilter draws larger images in tiles with a camera each; the
-  // whole is traced.
+  // Undoes tiling: vtkWindowToImageFilter draws tiles with a camera each; the whole is traced.
   const double tiles = renderer->GetRenderWindow()->GetTileScale()[1];
   const double half = std::min(0.5 * vtkMath::RadiansFromDegrees(widestAngle),
     std::asin(
@@ -209,8 +208,7 @@ vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
     view.ParallelScale = camera->GetDistance() * std::tan(half);
     view.ViewAngle = 2 * vtkMath::DegreesFromRadians(half);
   }
-  // Uses the window's size, which is that of all tiles; the renderer's is outdated while a layout
-  // is captured.
+  // Uses the window's size, that of all tiles; the renderer's is outdated in captured layouts.
   const int* size = renderer->GetRenderWindow()->GetSize();
   const double* port = renderer->GetViewport();
   for (std::size_t axis = 0; axis < 2; ++axis)
@@ -252,8 +250,7 @@ void vtkSchlierenActor::SetFillsView(vtkRenderer* renderer)
 void vtkSchlierenActor::AddTo(vtkRenderer* renderer)
 {
   renderer->AddActor(this);
-  // Suspends FXAA before, and restores it after, compositing between processes, which also restores
-  // it.
+  // Suspends FXAA around the compositing between processes, which also restores it.
   constexpr float beforeAllOthers = 100, afterAllOthers = -100;
   renderer->AddObserver(vtkCommand::StartEvent, this->SuspendFXAA, beforeAllOthers);
   renderer->AddObserver(vtkCommand::EndEvent, this->RestoreFXAA, afterAllOthers);

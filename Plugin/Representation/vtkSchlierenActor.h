@@ -68,8 +68,7 @@ public:
   vtkImageData* ImageForElsewhere(const View& view, int occasion);
 
   /**
-   * Sets a function that traces in another process, where the bench is. Unset: the bench is in this
-   * one.
+   * Sets a function that traces in another process. Unset: the bench is in this one.
    */
   using Tracer = std::function<vtkSmartPointer<vtkImageData>(const View& view, int occasion)>;
   void SetTracerElsewhere(Tracer tracer) { this->TracerElsewhere = std::move(tracer); }
@@ -86,8 +85,7 @@ public:
   void RemoveFrom(vtkRenderer* renderer);
 
   /**
-   * Sets the tracing time of a rendering or Refine(), seconds; 0 (the default): images are
-   * complete.
+   * Sets the time of tracing per rendering, seconds; 0 (the default): images are complete.
    */
   void SetTimeSlice(double seconds) { this->TimeSlice = this->HasOtherRanks ? 0 : seconds; }
 

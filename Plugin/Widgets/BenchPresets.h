@@ -20,6 +20,5 @@ struct BenchPreset
   std::vector<PresetSetting> settings;
 };
 
-/// Returns all presets. Each sets the same properties, so that the result does not depend on
-/// earlier values.
+/// Returns all presets. Each sets the same properties, regardless of earlier values.
 const std::vector<BenchPreset>& benchPresets();

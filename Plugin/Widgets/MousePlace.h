@@ -5,8 +5,7 @@
 
 #include <QMouseEvent>
 
-/// Returns the mouse position, pixels of the widget: Qt 6 deprecates the only name that Qt 5 has
-/// for it.
+/// Returns the mouse position, pixels: Qt 6 deprecates the only name that Qt 5 has for it.
 inline QPointF mousePlace(const QMouseEvent* event)
 {
 #if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)

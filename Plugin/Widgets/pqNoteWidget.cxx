@@ -60,8 +60,7 @@ pqNoteWidget::~pqNoteWidget() = default;
 //------------------------------------------------------------------------------
 void pqNoteWidget::changeEvent(QEvent* event)
 {
-  // Keeps the widget enabled: ParaView disables read-only widgets, which then look like a line
-  // edit.
+  // Keeps the widget enabled, because disabled ones look like a line edit.
   if (event->type() == QEvent::EnabledChange && this->testAttribute(Qt::WA_ForceDisabled))
   {
     this->setEnabled(true);

@@ -29,8 +29,7 @@ QMap<QString, QVariant> valuesOf(const BenchPreset& preset)
   return values;
 }
 
-/// Applies a preset as one step of the cutoff's editor: at once, without other changes that wait
-/// for Apply.
+/// Applies a preset at once as one undo step, without other changes that wait for Apply.
 void applyPreset(vtkSMProxy* filter, const BenchPreset& preset)
 {
   pqLiveEdit edit(filter, QObject::tr("Bench: %1").arg(preset.name));

@@ -21,8 +21,7 @@ QString problemOfFlow(pqOutputPort* port);
 
 std::vector<FlowArray> arraysOfFlow(pqOutputPort* port);
 
-/// Returns the range of an array, or {0, -1}. Finds field data, too, such as numbers in a filter's
-/// output.
+/// Returns the range of an array, or of field data, such as numbers in an output; else {0, -1}.
 std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name);
 
 /// Sets the properties of a Schlieren or RefractiveIndex filter.

@@ -16,8 +16,7 @@ namespace imagesInViews
 
 bool isSchlieren(pqPipelineSource* source);
 
-/// Returns the Schlieren filter that an image is from: the source or one upstream; null if there is
-/// none.
+/// Returns the Schlieren filter of an image, the source or one upstream; null if there is none.
 pqPipelineSource* filterOf(pqPipelineSource* source);
 
 /// Returns the active 3-D view, or another one in its layout. Null if all show images of filters.

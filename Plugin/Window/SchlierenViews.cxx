@@ -110,8 +110,7 @@ vtkSMProxy* drawnAsSchlieren(pqOutputPort* flow, pqView* view)
   return shown && pqRepresentationRefiner::isSchlieren(shown) ? shown->getProxy() : nullptr;
 }
 
-/// Copies the settings of a Schlieren filter, or of one inside of a representation, except flow,
-/// camera and size.
+/// Copies the settings of a filter, or of one in a representation, except flow, camera and size.
 void copySettings(vtkSMProxy* from, vtkSMProxy* to)
 {
   auto properties = vtkSmartPointer<vtkSMPropertyIterator>::Take(to->NewPropertyIterator());

@@ -31,6 +31,5 @@ private:
 /// Returns a function that sets the present camera of a view in another one.
 std::function<void()> cameraSetter(vtkSMRenderViewProxy* from, vtkSMProxy* to);
 
-/// Links the cameras of two views, like Tools > Add Camera Link, as the last step of the current
-/// undo set.
+/// Links the cameras of two views, like Tools > Add Camera Link, as the undo set's last step.
 void linkCameras(pqRenderView* first, pqRenderView* second);

@@ -197,8 +197,7 @@ void pqImageProgress::letAbort(vtkObject* filter)
   this->enableAbort(bar, true);
   const QScopedValueRollback<vtkAlgorithm*> executing(
     this->Executing, vtkAlgorithm::SafeDownCast(filter));
-  // Unblocks events, because ParaView blocks them during updates, those of the button's window
-  // included.
+  // Unblocks events, because ParaView blocks them during updates, also in the button's window.
   const bool wasUnblocked = manager()->unblockEvents(true);
   QCoreApplication::instance()->installEventFilter(this);
   QCoreApplication::processEvents(

@@ -33,8 +33,7 @@ public:
   /// Returns the only instance; the first call makes it.
   static pqImageRefiner* instance();
 
-  /// Shows the image of a filter, or of one inside of a representation, in all its views after
-  /// UpdateVTKObjects().
+  /// Shows a filter's image, also in a representation, in all its views after UpdateVTKObjects().
   void refine(vtkSMProxy* filter);
 
   /// Stops refining all images until something else changes them.

@@ -7,8 +7,7 @@
 class pqRenderView;
 class pqView;
 
-/// Shows the status of images, of filters and of those inside of representations, at the lower left
-/// of views. Not saved.
+/// Shows the status of images at the lower left of their views. Not saved.
 class pqImageStatus : public QObject
 {
   Q_OBJECT

@@ -50,8 +50,7 @@ bool isUnfinished(pqRepresentation* representation)
     std::strncmp(vtkSMPropertyHelper(bench, "Status").GetAsString(), "Preview", 7) == 0;
 }
 
-/// Returns whether the process that draws also traces: then streaming updates refine images; else
-/// each rendering does.
+/// Returns whether streaming updates refine images, in the process that draws; else renderings do.
 bool isTracedWhereDrawn(pqView* view)
 {
   auto* client = vtkPVRenderView::SafeDownCast(view->getProxy()->GetClientSideObject());

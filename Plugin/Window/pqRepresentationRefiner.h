@@ -28,8 +28,7 @@ public:
   /// Returns whether the user turns or moves a render view.
   static bool isAnyBeingTurned();
 
-  /// Renders the views of a filter inside of a representation after changes of its proxy; ignores
-  /// others.
+  /// Renders the views of a filter inside of a representation after changes; ignores others.
   static void renderViewsOf(vtkSMProxy* bench);
 
 private Q_SLOTS:

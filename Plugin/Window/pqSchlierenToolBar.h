@@ -11,8 +11,7 @@
 class QAction;
 class QMessageBox;
 
-/// The toolbar and menu Schlieren, whose first action is also among the views for an empty cell of
-/// a layout.
+/// The toolbar and menu Schlieren; its first action is also in empty cells of a layout.
 class pqSchlierenToolBar : public QToolBar, public pqViewFrameActionsInterface
 {
   Q_OBJECT

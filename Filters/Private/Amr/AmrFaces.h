@@ -20,8 +20,7 @@ enum class CellState : unsigned char
   Solid
 };
 
-/// Collects the faces between gas and cells without gas. Each is as large as the smaller cell
-/// beside it.
+/// Collects the faces between gas and other cells, each as large as the smaller cell beside it.
 class AmrFaces
 {
 public:
@@ -33,8 +32,8 @@ public:
     Counts cells; // cells of the domain
   };
 
-  /// `origin`: first corner of the domain. `levels`: coarsest first. `stateOf`: the state of a cell
-  /// in the domain.
+  /// `origin`: first corner of the domain. `levels`: coarsest first. `stateOf`: of cells in the
+  /// domain.
   AmrFaces(
     const std::array<double, 3>& origin, std::vector<Level> levels, StateOf stateOf, Extent extent)
     : Origin(origin)
@@ -68,8 +67,7 @@ private:
   std::unordered_map<std::uint64_t, std::int32_t> Points; // by index on the finest level
 };
 
-/// Sorts triangles and points, so that their order does not depend on ranks, and removes duplicate
-/// triangles.
+/// Sorts triangles and points, independently of ranks, and removes duplicate triangles.
 void sortTriangles(BoundaryFaces& faces);
 
 } // namespace filters

@@ -356,8 +356,7 @@ CellTree::Content AmrField::contentOf(const schlieren::Box& box) const
         {
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
-            // Halves the size, because the spline has more detail than voxels of the cell's size
-            // resolve.
+            // Halves the size, because the spline has more detail than voxels of a cell's size.
             content.cellSize[axis] = std::min(content.cellSize[axis], level.spacing[axis] / 2);
           }
         }

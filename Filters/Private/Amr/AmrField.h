@@ -45,15 +45,12 @@ public:
   /// Returns the faces around cells without gas, and those of gas beside cells that no block has.
   BoundaryFaces faces() const;
 
-  /// Returns the values at the border of the domain, weighted by area; of more than a million, each
-  /// nth.
+  /// Returns the values at the domain's border, weighted by area; of more than a million, each nth.
   std::vector<WeightedValue> outerValues() const;
 
-  /// Returns the content of the cells within a few cells of a box; see CellTree::content(). lowest
-  /// > highest: none.
+  /// Returns the content of the cells near a box; see CellTree::content(). lowest > highest: none.
   CellTree::Content contentOf(const schlieren::Box& box) const;
-  /// Returns whether a cell contains the point. Points outside of a box-shaped domain are clamped
-  /// to it.
+  /// Returns whether a cell contains the point, which a box-shaped domain clamps to it.
   bool hasGasAt(const Point& place) const;
   /// Returns hasGasAt() for all points of a lattice.
   std::vector<unsigned char> gasAt(const schlieren::Lattice& lattice) const;
@@ -62,8 +59,7 @@ public:
 
 private:
   /// Maximum distance, in cells of the lattice's level, of the cells that a value depends on: two
-  /// spline coefficients, each of which reads two more cells. Interpolation from coarser levels
-  /// reads fewer.
+  /// coefficients, which read two more cells. Coarser levels are read less far.
   static constexpr int cellsOfSpline = 4;
 
   /// Known cells of a level: those of a block, or means of a finer block's cells.

@@ -101,8 +101,7 @@ void findOwnCells(vtkDataSet* data, AmrImage& image)
     });
 }
 
-/// Sorts the images by level, coarsest first, without positions. Empty if they are not all flat
-/// along the same axis.
+/// Sorts the images by level, coarsest first. Empty if they are not all flat along the same axis.
 std::vector<AmrLevel> sortedByLevel(const std::vector<AmrImage>& images)
 {
   std::vector<AmrLevel> levels;

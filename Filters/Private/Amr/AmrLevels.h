@@ -34,8 +34,7 @@ struct AmrImage
     ownEnd; // the box of cells that are not copies, which surround it
   int flat; // axis with one layer of points; -1: none
 };
-/// Returns nothing for other leaves: with point arrays, turned, or with one point along several
-/// axes.
+/// Returns nothing for leaves with point arrays, turned, or with one point along several axes.
 std::optional<AmrImage> amrImageOf(const Leaf& leaf);
 
 /// A block and its position on the lattice of its level.
@@ -66,8 +65,7 @@ struct AmrLevels
 
 /// Returns nothing if the images do not fit into one lattice.
 std::optional<AmrLevels> findLevels(const std::vector<AmrImage>& images);
-/// Returns nothing if amrImageOf() does so for a leaf, or if the images do not fit into one
-/// lattice.
+/// Returns nothing for other leaves, or for images that do not fit into one lattice.
 std::optional<AmrLevels> findLevels(const std::vector<Leaf>& leaves);
 
 /// Sets the depth of flat levels, by default one unit, about the same plane.
@@ -131,8 +129,7 @@ class BoxBins
 public:
   explicit BoxBins(std::vector<CellBox> boxes);
 
-  /// Calls visit(number, cells) for disjoint boxes of cells that together cover the intersections
-  /// with `box`.
+  /// Calls visit(number, cells) for disjoint boxes that together are the intersections with `box`.
   template <class Visit>
   void forPartsIn(const CellBox& box, const Visit& visit) const
   {
@@ -191,8 +188,7 @@ BoxBins binsOf(const AmrLevel& level);
 /// Sorts the cells of a level that finer blocks cover into bins.
 BoxBins coveredCells(const std::vector<AmrLevel>& levels, std::size_t level);
 
-/// N of a block's cells, NaN in solids, and which of them are neither copies nor under finer
-/// blocks.
+/// N of a block's cells, NaN in solids, and which are neither copies nor under finer blocks.
 struct AmrValues
 {
   std::vector<double> values;

@@ -21,7 +21,7 @@ struct Reconstruction
   /// The interval has the width `width`; `centre` is relative to that of the middle cell.
   Reconstruction(double centre, double width)
   {
-    // Integrates to a polynomial of fifth degree through six faces; cell k adds to the faces behind
+    // Integrates to a fifth-degree polynomial through six faces; cell k adds to the faces behind
     // it.
     constexpr int faces = 6;
     this->weights.fill(0);

@@ -20,7 +20,7 @@ namespace filters
 namespace
 {
 
-/// Dimensions of the factors of a type of cells; none: it is no such product.
+/// Returns the dimensions of the factors of a type of cells; none: it is no product.
 std::vector<int> factorsOf(int type)
 {
   switch (type)
@@ -56,7 +56,7 @@ bool isBezier(int type)
     type == VTK_BEZIER_HEXAHEDRON || type == VTK_BEZIER_TETRAHEDRON || type == VTK_BEZIER_WEDGE;
 }
 
-/// Null where a cell has none.
+/// Returns null for cells without weights.
 vtkDoubleArray* rationalWeightsOf(vtkCell* cell)
 {
   vtkDoubleArray* weights = nullptr;
@@ -83,7 +83,7 @@ vtkDoubleArray* rationalWeightsOf(vtkCell* cell)
   return weights && weights->GetNumberOfTuples() > 0 ? weights : nullptr;
 }
 
-/// How many different values there are, less one.
+/// Returns the number of different values, less one.
 int orderAlong(const std::vector<double>& places, std::size_t axis)
 {
   std::vector<double> values;
@@ -97,7 +97,7 @@ int orderAlong(const std::vector<double>& places, std::size_t axis)
   return static_cast<int>(end - values.begin()) - 1;
 }
 
-/// Silvester's polynomial of a node's barycentric coordinate, and its slope: a product of (n x - m) / (m + 1).
+/// Evaluates Silvester's polynomial, the product of (n x - m) / (m + 1), and its slope.
 void lagrange(int order, int node, double x, double& value, double& slope)
 {
   value = 1;
@@ -110,7 +110,7 @@ void lagrange(int order, int node, double x, double& value, double& slope)
   }
 }
 
-/// x^node / node!, so that n! times the product is Bernstein's polynomial; and its slope.
+/// Evaluates x^node / node!, whose product times n! is Bernstein's polynomial, and its slope.
 void bernstein(int node, double x, double& value, double& slope)
 {
   value = 1;
@@ -194,7 +194,7 @@ bool BasisProduct::make(int type)
   {
     return false;
   }
-  // Where each point is among the nodes.
+  // Finds the index of each point among the nodes.
   this->Points.assign(count, count);
   for (std::size_t point = 0; point < count; ++point)
   {
@@ -226,7 +226,7 @@ bool BasisProduct::make(int type)
   return std::find(this->Points.begin(), this->Points.end(), count) == this->Points.end();
 }
 
-/// Whether VTK's functions give the same at some place.
+/// Returns whether VTK's functions give the same at a test point.
 bool BasisProduct::isLike(vtkCell* cell, int type)
 {
   const std::size_t count = this->Places.size() / 3;
@@ -249,7 +249,7 @@ bool BasisProduct::isLike(vtkCell* cell, int type)
 
 void BasisProduct::findBasis(Factor& factor, const double* place) const
 {
-  // Of each barycentric coordinate, for all nodes along it.
+  // Evaluates the basis by each barycentric coordinate for all nodes.
   constexpr std::size_t most = 21;
   double values[4][most], slopes[4][most];
   double left = 1;

@@ -23,24 +23,24 @@ namespace filters
 class BasisProduct
 {
 public:
-  /// Of a cell; whether this gives what VTK's functions do. `type`: of the cell.
+  /// Sets a cell of type `type`. Returns whether VTK's functions give the same.
   bool set(vtkGenericCell* cell, int type);
 
-  /// The sum of `points` with their weights at parametric coordinates, and its derivative along each of them.
+  /// Interpolates `points` with their weights, and differentiates by each parametric coordinate.
   void evaluate(
     const double place[3], const std::vector<Vector>& points, Vector& sum, Vector derivatives[3]);
   void weights(const double place[3], double* weights);
 
 private:
-  /// Of a line, a triangle or a tetrahedron.
+  /// A line, a triangle or a tetrahedron.
   struct Factor
   {
     int dimension = 0; // 0: no factor
     int order = 0;
     std::vector<std::array<int, 4>>
-      nodes; // barycentric coordinates, times the order; the first is what is left
-    std::vector<double> basis;                 // of each node
-    std::array<std::vector<double>, 3> slopes; // by each of its coordinates
+      nodes;                   // barycentric coordinates times the order; the first is implied
+    std::vector<double> basis; // at each node
+    std::array<std::vector<double>, 3> slopes; // by each coordinate
   };
 
   static Factor factorOf(int dimension, int order);
@@ -54,9 +54,8 @@ private:
   bool IsUsable = false, IsBezier = false;
   std::vector<double> Places; // parametric coordinates of the cell's points
   std::array<Factor, 3> Factors;
-  std::vector<std::size_t>
-    Points; // their numbers in the cell: the first factor's nodes one after the other, ...
-  std::vector<double> Rational; // weights of the points; empty: they are equal
+  std::vector<std::size_t> Points; // points in the order of nodes, the first factor's fastest
+  std::vector<double> Rational;    // weights of the points; empty: equal
   std::vector<Vector> Weighted, WeightsAlone;
 };
 

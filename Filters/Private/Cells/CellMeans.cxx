@@ -28,7 +28,7 @@ namespace filters
 namespace
 {
 
-/// Sums over pieces of a cell, from an origin that lies in it or near.
+/// Sums moments over tetrahedra of a cell, from an origin in it or near it.
 struct Sums
 {
   double volume = 0;
@@ -56,7 +56,7 @@ struct Sums
     this->add(part, c);
     const Vector sum = a + b + c;
     this->add(part, sum);
-    // The volume, and the first moments: a quarter of it at each corner.
+    // Adds the volume and the first moments: a quarter of the volume at each corner.
     this->volume += 16 * part;
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -64,7 +64,7 @@ struct Sums
     }
   }
 
-  /// False where there is no volume.
+  /// Returns false if there is no volume.
   bool finish(const Vector& origin, CellMoments& result) const
   {
     const double perVolume = 1 / this->volume;
@@ -81,7 +81,7 @@ struct Sums
   }
 };
 
-/// Places in a cell, as counted from its middle in parametric coordinates, and their weights.
+/// Points of a cell relative to its parametric middle, and their weights.
 struct Place
 {
   double weight, u, v, w;
@@ -112,7 +112,8 @@ CellMoments ofBox(const Sums& corners, const Vector& origin)
   return result;
 }
 
-/// Of the box that has its corners spread like the cell's, where there is no volume or nothing better is known.
+/// Returns the moments of a box with the corners' spread, for cells without volume or of other
+/// types.
 CellMoments momentsOfCorners(const MeshArrays& mesh, vtkIdType cell)
 {
   Sums sums;
@@ -221,9 +222,9 @@ CellMoments momentsOfPolyhedron(vtkUnstructuredGrid* mesh, vtkIdType cell)
   {
     ofCorners.add(1, at(ids->GetId(i)) - origin);
   }
-  // Tetrahedra between that, the middle of each face and each of its edges.
+  // Adds tetrahedra from the origin to the middle of each face and each of its edges.
   Sums sums;
-  mesh->GetFaceStream(cell, ids); // faces, and for each its points' number and the points
+  mesh->GetFaceStream(cell, ids); // for each face the number of points, and the points
   vtkIdType next = 1;
   for (vtkIdType face = 0; face < ids->GetId(0); ++face)
   {
@@ -299,7 +300,7 @@ void setMeansAroundPoints(const MeshArrays& mesh, vtkDoubleArray* ofCells,
   }
   for (std::size_t i = 0; i < points; ++i)
   {
-    values[i] /= counts[i]; // NaN where there are none
+    values[i] /= counts[i]; // NaN for none
   }
   if (!around)
   {

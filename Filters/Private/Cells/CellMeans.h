@@ -20,17 +20,17 @@ class vtkUnstructuredGrid;
 namespace filters
 {
 
-/// Where a cell is, and how far it reaches: the means of x and of (x - middle)(x - middle) over it.
+/// The means of x and of (x - middle)(x - middle) over a cell.
 struct CellMoments
 {
   Vector middle;
   std::array<double, 6> second; // xx, yy, zz, xy, yz, zx
 };
 
-/// Of a 3-D cell. Cells that are turned inside out, and others, have those of what they enclose.
+/// Returns the moments of a 3-D cell; of inverted and other cells, those of what they enclose.
 CellMoments momentsOf(const MeshArrays& mesh, vtkIdType cell);
 
-/// Of a polyhedron in a mesh.
+/// Returns the moments of a polyhedron.
 CellMoments momentsOfPolyhedron(vtkUnstructuredGrid* mesh, vtkIdType cell);
 
 /// The mean over the cells around each point, NaN where there are none, of those that are `valid`. As the array that
@@ -42,7 +42,7 @@ void setMeansAroundPoints(const MeshArrays& mesh, vtkDoubleArray* ofCells,
 /// cells' values, and `around` as an array of the points; else the dataset has the means only.
 void bringToPoints(vtkDataSet* data, bool areKept);
 
-/// As an array of a dataset, for MeshArrays to find.
+/// Name of the array of CellsAround, which MeshArrays reads.
 constexpr const char* cellsAroundName = "CellsAround";
 vtkSmartPointer<vtkDataArray> arrayOf(const std::vector<CellsAround>& around);
 

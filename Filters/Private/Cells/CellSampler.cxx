@@ -19,28 +19,28 @@ namespace filters
 namespace
 {
 
-// How far out of their range parametric coordinates may be; see MeshCell.cxx.
+// Tolerances of parametric coordinates; see MeshCell.cxx.
 constexpr double toleranceOfPlaneFaces = 1e-6;
 constexpr double toleranceOfCurvedFaces = 1e-3;
 
-/// Rounding must not decide for a later block where an earlier one has a point on a face.
+/// Prefers the earlier block for points on its faces, regardless of rounding.
 constexpr double nothing = 1e-9;
 
-/// Hexahedra are parallelepipeds where their corners say so, by this part of their length.
+/// Relative error of corners up to which hexahedra count as parallelepipeds.
 constexpr double bendOfParallelepipeds = 1e-12;
 
 const LocateInCell locateInCell = functionsToLocate().back();
 
-/// The points of a lattice, and what is found there so far.
+/// The points of a lattice, and the cells found so far.
 class Brick
 {
 public:
   Brick(const CellTree& tree, const schlieren::Lattice& lattice, double* values);
 
-  /// Whether points lie in a box, which is then the one that add() adds cells to.
+  /// Sets the box for add(). Returns whether it contains points.
   bool enter(const CellTree::Steps& box);
   void add(std::size_t place);
-  /// Of a cell that is known to hold these points, and no others that count.
+  /// Adds a cell that is known to contain these points, and no others.
   void add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end);
   std::size_t countFound() const;
   void finish(unsigned char* found, CellsOfLattice* cells) const;
@@ -64,21 +64,21 @@ private:
   const CellTree& Tree;
   const schlieren::Lattice& Lattice;
   double* Values;
-  // From steps of the tree's boxes to indices of points.
+  // Converts steps of the tree's boxes to indices of points.
   double PerStep[3], AtOrigin[3], Rounding[3], Slack[3];
-  int First[3], Last[3]; // in the last box
+  int First[3], Last[3]; // of the last box
 
-  // Of the best cells so far.
+  // Misses and values of the best cells so far.
   std::vector<float> Misses;
   std::vector<CellTree::Number> Owners;
-  std::vector<std::uint32_t> Cells; // the same by their places in the tree
+  std::vector<std::uint32_t> Cells; // these cells' places in the tree
 
   CellTree::Number Number = 0;
   std::uint32_t Cell = 0;
   const std::uint16_t *GivenBegin = nullptr, *GivenEnd = nullptr;
   double Tolerance = 0;
   double Low[4],
-    High[4]; // of normal coordinates in the cell, and of their sum where there is a slanting face
+    High[4]; // of normal coordinates, and of their sum for slanting faces
   CellPoints Points;
   std::size_t Places[CellPoints::most];
   int Count = 0;
@@ -187,12 +187,12 @@ void Brick::add(std::size_t place)
   }
 }
 
-/// Between what the normal coordinates are in a cell.
+/// Finds the bounds of the normal coordinates in a cell.
 template <CellShape shape>
 void Brick::findSlabs(const double corners[4][8], const Polynomial place[3], const Vector rows[3])
 {
   constexpr bool isSimplex = shape == CellShape::Tetrahedron || shape == CellShape::Wedge;
-  // What is interpolated lies between the corners, and so does the cell.
+  // Uses that interpolation, and so the cell, is bounded by the corners.
   for (int i = 0; i < 4; ++i)
   {
     this->Low[i] = std::numeric_limits<double>::infinity();
@@ -223,7 +223,7 @@ void Brick::findSlabs(const double corners[4][8], const Polynomial place[3], con
   }
 }
 
-/// Whether the cell has a volume where its middle is.
+/// Returns whether the cell has a volume at its middle.
 template <CellShape shape>
 bool Brick::addNormal(const CellTree::Cell& cell)
 {
@@ -272,7 +272,7 @@ bool Brick::addNormal(const CellTree::Cell& cell)
     normal.isAffine = shape == CellShape::Tetrahedron || shape == CellShape::Voxel;
   }
   this->Tolerance = normal.isAffine ? toleranceOfPlaneFaces : toleranceOfCurvedFaces;
-  // Far from the origin, rounding of coordinates is more.
+  // Enlarges the tolerance for coordinates far from the origin, which are rounded more.
   for (const Vector& row : rows)
   {
     this->Tolerance = std::max(this->Tolerance,
@@ -432,7 +432,7 @@ void Brick::flush(const NormalCell& cell)
   }
   else
   {
-    // The rest of the last pack: any finite numbers.
+    // Fills the last pack with any finite numbers.
     for (int i = this->Count; i < this->Count + 7 && this->Count > 0; ++i)
     {
       for (double* of : { this->Points.normal[0], this->Points.normal[1], this->Points.normal[2] })
@@ -501,13 +501,13 @@ void Brick::addOther(const CellTree::Cell& cell)
   }
   this->Other->set(cell.block->data(), cell.id);
   this->OtherValues = cell.block->values();
-  this->Tolerance = infinity; // MeshCell has its own
+  this->Tolerance = infinity; // MeshCell has its own tolerance
   NormalCell other{};
   other.shape = CellShape::Other;
   this->scan(other, origin, rows);
 }
 
-/// From all points of a cell.
+/// Bounds the normal coordinates by all points of a cell.
 void Brick::setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3])
 {
   std::fill_n(this->Low, 3, std::numeric_limits<double>::infinity());
@@ -572,7 +572,7 @@ void Brick::finish(unsigned char* found, CellsOfLattice* cells) const
     return;
   }
   const std::size_t count = this->countFound();
-  // Cells get numbers in the order in which points meet them, by a table with open addresses.
+  // Numbers the cells in the order in which points meet them, by a hash table.
   std::size_t last = 1;
   while (last < 2 * count)
   {

@@ -19,7 +19,7 @@ struct CellsOfLattice
 {
   static constexpr std::int64_t maxPoints = 0xffff;
 
-  std::vector<std::uint32_t> cells;  // by their places in the tree
+  std::vector<std::uint32_t> cells;  // places in the tree
   std::vector<std::uint16_t> starts; // of each cell's points, and the end
   std::vector<std::uint16_t> points;
 
@@ -40,7 +40,7 @@ struct CellsOfLattice
 class CellSampler
 {
 public:
-  /// The tree must outlive this.
+  /// Keeps a reference to the tree.
   explicit CellSampler(const CellTree& tree);
 
   /// Sets `values` and `found`, 1 or 0, at all points of a lattice; values are 0 where no cell is. Fills `cells` where

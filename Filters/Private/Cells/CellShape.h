@@ -18,7 +18,7 @@
 namespace filters
 {
 
-/// How far curved cells may reach out of the box of their points, in parts of its lengths.
+/// Maximum distance of curved cells beyond the box of their points, relative to its lengths.
 constexpr double bulge = 0.05;
 
 enum class CellShape : unsigned char
@@ -28,7 +28,7 @@ enum class CellShape : unsigned char
   Pyramid,
   Hexahedron,
   Voxel,
-  Other // what VTK finds places and weights in
+  Other // weights by VTK
 };
 
 inline CellShape shapeOf(int type)
@@ -50,7 +50,7 @@ inline CellShape shapeOf(int type)
   }
 }
 
-/// The shape of the corners of a curved cell, which come first among its points.
+/// Returns the shape of a curved cell's corners, which are its first points.
 inline CellShape skeletonOf(int type)
 {
   switch (type)
@@ -78,7 +78,7 @@ inline CellShape skeletonOf(int type)
   }
 }
 
-/// Whether a cell is three-dimensional and curved, of the kinds that are known.
+/// Returns whether a cell is three-dimensional, curved, and of a known kind.
 inline bool isCurved(int type)
 {
   return shapeOf(type) == CellShape::Other && skeletonOf(type) != CellShape::Other;
@@ -99,7 +99,7 @@ constexpr int cornersOf(CellShape shape)
   }
 }
 
-/// The edges of a cell's corners; none where these are in no known order.
+/// Returns the edges between a cell's corners; none if their order is unknown.
 inline const std::vector<std::array<int, 2>>& edgesOf(CellShape shape)
 {
   using Edges = std::vector<std::array<int, 2>>;
@@ -130,7 +130,7 @@ inline const std::vector<std::array<int, 2>>& edgesOf(CellShape shape)
   }
 }
 
-/// Where parametric coordinates u, v, w are zero here: in the middle of the cell.
+/// Returns the middle of the cell in parametric coordinates, the origin of u, v, w.
 inline const Vector& middleOf(CellShape shape)
 {
   static constexpr Vector tetrahedron = { 0.25, 0.25, 0.25 }, wedge = { 1. / 3, 1. / 3, 0.5 },
@@ -148,10 +148,10 @@ inline const Vector& middleOf(CellShape shape)
   }
 }
 
-/// Factors of 1, u, v, w, uv, vw, uw and uvw.
+/// Coefficients of 1, u, v, w, uv, vw, uw and uvw.
 using Polynomial = std::array<double, 8>;
 
-/// Of what has these values at a cell's corners, in VTK's order.
+/// Returns the polynomial with these values at a cell's corners, in VTK's order.
 template <CellShape shape>
 Polynomial polynomialOf(const double* c)
 {
@@ -181,7 +181,7 @@ Polynomial polynomialOf(const double* c)
     constexpr bool isVoxel = shape == CellShape::Voxel;
     const double c2 = c[isVoxel ? 3 : 2], c3 = c[isVoxel ? 2 : 3];
     const double c6 = c[isVoxel ? 7 : 6], c7 = c[isVoxel ? 6 : 7];
-    // Along u: sums and differences; then along v and w.
+    // Sums and subtracts along u, then along v and w.
     const double s0 = c[0] + c[1], d0 = c[1] - c[0], s1 = c3 + c2, d1 = c2 - c3;
     const double s2 = c[4] + c[5], d2 = c[5] - c[4], s3 = c7 + c6, d3 = c6 - c7;
     const double ss0 = s0 + s1, ss1 = s2 + s3, sd0 = s1 - s0, sd1 = s3 - s2;
@@ -208,10 +208,10 @@ inline Polynomial polynomialOf(CellShape shape, const double* corners)
   }
 }
 
-/// The rows of the inverse of a matrix of three columns. Whether there is one, rounding apart.
+/// Computes the rows of the inverse of a matrix of three columns. Returns whether it is regular.
 inline bool invert(const Vector columns[3], Vector inverse[3])
 {
-  constexpr double flattest = 1e-12; // volume, of that of the box with the same edges
+  constexpr double flattest = 1e-12; // volume relative to that of the box with the same edges
   inverse[0] = cross(columns[1], columns[2]);
   inverse[1] = cross(columns[2], columns[0]);
   inverse[2] = cross(columns[0], columns[1]);

@@ -38,7 +38,7 @@ double overshootOf(int order)
   return (norm * norm * norm - 1) / 2;
 }
 
-/// Each corner's polynomial is linear: in the cell it lies between what it is at the other corners.
+/// Returns the range of corner polynomials, which are linear: bounded by the other corners.
 template <int count>
 std::array<double, 2> rangeOfCorners(const CellTree::Cell& one)
 {
@@ -128,8 +128,7 @@ void CellTree::addBlocks(const std::vector<vtkDataSet*>& blocks)
     this->Blocks.emplace_back(block);
     if (block->GetNumberOfCells() > 0)
     {
-      vtkNew<vtkGenericCell>
-        first; // VTK makes what it needs on the first call, which one thread has to do
+      vtkNew<vtkGenericCell> first; // the first call initializes VTK's data, in one thread
       block->GetCell(0, first);
     }
   }
@@ -176,7 +175,7 @@ std::size_t CellTree::bytes() const
   return sum;
 }
 
-/// What depends on the values.
+/// Sets ranges and trends, which depend on the values.
 void CellTree::setValues(const WorkProgress& progress)
 {
   const Mesh& mesh = *this->Sorted;
@@ -239,7 +238,7 @@ CellTree::Range CellTree::rangeWithin(
   return { low - more, high + more };
 }
 
-/// Of what is interpolated in a cell whose values and points are finite, curved sides apart.
+/// Returns the range of interpolation in a cell with finite points and values, without bulges.
 std::array<double, 2> CellTree::rangeOf(const Cell& one) const
 {
   double low = infinity, high = -infinity;
@@ -308,7 +307,7 @@ Vector CellTree::sizeOf(const Cell& one) const
   {
     return { infinity, infinity, infinity };
   }
-  // The coordinate that vanishes on the slanting face of tetrahedra and wedges.
+  // Chooses the coordinate that vanishes on the slanting face of tetrahedra and wedges.
   const bool isTetrahedron = shape == CellShape::Tetrahedron;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -350,7 +349,7 @@ CellTree::Content CellTree::content(const Bounds& box) const
     return content;
   }
   const Steps steps = this->stepsOf(box);
-  // Rounding apart: see stepsOf().
+  // Allows for rounding: see stepsOf().
   constexpr std::int32_t rounding = 3;
   const auto areWithin = [&](const Steps& other)
   {
@@ -377,8 +376,8 @@ CellTree::Content CellTree::content(const Bounds& box) const
       content.cellSize[axis] = std::min<double>(content.cellSize[axis], cellSize[axis]);
     }
   };
-  // First the groups within the box, so that nearly all others have nothing to add.
-  std::vector<std::size_t> atEdges; // others, of the lowest level
+  // Adds groups within the box first, after which nearly all others add nothing.
+  std::vector<std::size_t> atEdges; // other groups, of the lowest level
   const auto look = [&](const auto& self, std::size_t level, std::size_t index) -> void
   {
     const Group& group = mesh.levels[level][index];
@@ -426,7 +425,7 @@ CellTree::Content CellTree::content(const Bounds& box) const
   return content;
 }
 
-/// The cell at a place in the tree's order. What it depends on is the cell and the box alone, not the tree.
+/// Tests a cell of the tree's order. Depends on the cell and the box alone, not on the tree.
 bool CellTree::meets(std::size_t place, const Bounds& box, const Steps& steps) const
 {
   const Steps& own = this->Sorted->boxes[place];

@@ -35,10 +35,10 @@ namespace filters
 class CellTree
 {
 public:
-  /// What is interpolated in cells whose own functions are linear along each edge.
+  /// Interpolation in cells whose own functions are linear along each edge.
   enum class Reconstruction
   {
-    Linear, // these functions
+    Linear, // the cells' own functions
     Smooth  // exact for quadratic fields, by gradients at the points (see PointTrends.h)
   };
 
@@ -50,12 +50,12 @@ public:
     Reconstruction reconstruction = Reconstruction::Linear,
     const WorkProgress& progress = WorkProgress(), Copies copies = Copies::Used);
 
-  /// Of other values on the mesh of another tree, which that tree need not outlive.
+  /// Makes the tree of other values on the mesh of another tree, which it keeps.
   CellTree(const std::vector<vtkDataSet*>& blocks, std::shared_ptr<const Mesh> mesh,
     const WorkProgress& progress = WorkProgress());
   const std::shared_ptr<const Mesh>& mesh() const { return this->Sorted; }
 
-  /// Cells by numbers that count through all blocks, hidden ones too.
+  /// Numbers cells through all blocks, including hidden ones.
   using Number = std::uint32_t;
   struct Cell
   {
@@ -64,7 +64,7 @@ public:
   };
   Cell cell(Number number) const;
 
-  /// In the tree's order cells have other numbers: their places.
+  /// Returns the number of the cell at a place, its index in the tree's order.
   Number number(std::size_t place) const { return this->Sorted->numbers[place]; }
 
   /// Cells that follow each other in the tree's order are anywhere in a dataset, and the processor waits for memory. To be
@@ -85,9 +85,9 @@ public:
     }
   }
 
-  std::size_t size() const { return this->Sorted->numbers.size(); }  // cells that are there
-  std::size_t copies() const { return this->Sorted->copies.size(); } // that are neighbours only
-  std::size_t bytes() const; // of memory, without the datasets'
+  std::size_t size() const { return this->Sorted->numbers.size(); }  // cells in the tree
+  std::size_t copies() const { return this->Sorted->copies.size(); } // only neighbours
+  std::size_t bytes() const; // memory, without the datasets'
 
   struct Bounds // low > high: none
   {
@@ -95,18 +95,18 @@ public:
   };
   const Bounds& bounds() const { return this->Sorted->whole; }
 
-  /// What is known of some cells.
+  /// Summary of some cells.
   struct Content
   {
     double lowest,
-      highest;       // of what is interpolated between their points; lowest > highest: no cells
-    Vector cellSize; // the smallest, along each axis; infinite: no cells
+      highest;       // range of interpolated values; lowest > highest: no cells
+    Vector cellSize; // smallest size along each axis; infinite: no cells
   };
 
-  /// Of the cells whose bounds meet a box: the same whichever other cells the tree has.
+  /// Summarizes the cells whose bounds meet a box, independently of the tree's other cells.
   Content content(const Bounds& box) const;
 
-  /// Proportions that voxels should have: how large cells are along each axis, the largest being 1.
+  /// Returns the proportions of voxels: typical cell sizes along each axis, the largest being 1.
   const Vector& voxelShape() const { return this->Sorted->voxelShape; }
 
   /// Of some cells, and what follows from them. They are those with the lowest `order`, a number that depends on a cell alone:
@@ -143,10 +143,10 @@ public:
     std::vector<Number> firstNumbers; // of each block, and the end
     Bounds whole;
     Vector origin, step, voxelShape;
-    std::vector<Number> numbers;            // sorted
-    std::vector<Number> copies;             // that are neighbours only
-    std::vector<Steps> boxes;               // of them
-    std::vector<std::vector<Group>> levels; // of eight cells, of eight times as many, ... one group
+    std::vector<Number> numbers;             // in the tree's order
+    std::vector<Number> copies;              // used as neighbours only
+    std::vector<Steps> boxes;                // of the cells
+    std::vector<std::vector<Group>> levels;  // of eight cells, of eight groups, ... one group
     std::vector<PointNeighbours> neighbours; // of each block; none: linear
 
     std::size_t bytes() const;
@@ -175,7 +175,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t width = 8; // of groups
+  static constexpr std::size_t width = 8; // children per group
 
   static bool meet(const Steps& a, const Steps& b)
   {
@@ -210,16 +210,16 @@ private:
     }
   }
 
-  /// What groups hold, level by level.
+  /// Values of groups, level by level.
   struct Range
   {
     double lowest, highest;
   };
 
   static bool isLinear(int type);
-  /// Into how many parts a curved cell's points divide its edges.
+  /// Returns the number of segments that a curved cell's points divide its edges into.
   static int orderOf(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved);
-  /// sizeOf() its parts.
+  /// Returns sizeOf() the cell, divided by orderOf().
   std::array<float, 3> voxelFor(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved) const;
   void addBlocks(const std::vector<vtkDataSet*>& blocks);
   Bounds boundsOf(const Cell& cell) const;

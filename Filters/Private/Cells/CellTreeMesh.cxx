@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a CellTree depends on the mesh alone: which cells there are, sorted by place, and the boxes of boxes.
+// Makes what a CellTree needs of the mesh alone: its cells in order, and the hierarchy of boxes.
 #include "Cells/CellTree.h"
 
 #include "Cells/MeshKey.h"
@@ -26,10 +26,10 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Steps along each axis: as many as there are in 32 bits, with room for sums.
+/// Steps along each axis: those of 32 bits, with room for sums.
 constexpr double steps = 1 << 30;
 
-/// Bits of each coordinate in a place on the Hilbert curve.
+/// Bits of each coordinate of a point on the Hilbert curve.
 constexpr int curveBits = 21;
 
 // Voxels: the size that a fraction of cells is smaller than. Proportions nearer than that to cubes are
@@ -89,7 +89,7 @@ std::uint64_t placeOnCurve(const std::int32_t middle[3])
   return place;
 }
 
-/// Cells of such orders, which are evenly spread, are a tenth more than are needed.
+/// Returns an order below which evenly spread cells are 10 % more than needed.
 std::uint64_t highestOrder(std::int64_t cells)
 {
   const double part = 1.1 * static_cast<double>(maxCellsMeasured) / static_cast<double>(cells);
@@ -97,7 +97,7 @@ std::uint64_t highestOrder(std::int64_t cells)
                   : std::numeric_limits<std::uint64_t>::max();
 }
 
-/// Of measured cells as many as are needed.
+/// Keeps as many of the measured cells as are needed.
 void keepLowest(std::vector<CellTree::MeasuredCell>& cells)
 {
   const std::size_t count = std::min(cells.size(), maxCellsMeasured);
@@ -139,11 +139,11 @@ std::array<float, 3> CellTree::voxelFor(
     static_cast<float>(size[2] / order) };
 }
 
-/// Not finite where a point or a value is not.
+/// Returns bounds that are not finite if a point or a value is not.
 CellTree::Bounds CellTree::boundsOf(const Cell& cell) const
 {
   Bounds bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
-  double sum = 0; // of minimum and maximum, NaN may come out as a number
+  double sum = 0; // detects NaN, which minimum and maximum may lose
   cell.block->forPoints(cell.id,
     [&](vtkIdType point)
     {
@@ -166,7 +166,7 @@ CellTree::Bounds CellTree::boundsOf(const Cell& cell) const
   return bounds;
 }
 
-/// The cells that are there, and the box of all.
+/// Finds the cells of the tree, and their common box.
 void CellTree::findCells(Mesh& mesh, Copies copies, const WorkProgress& progress)
 {
   std::array<bool, 256> isVolume{};
@@ -200,7 +200,7 @@ void CellTree::findCells(Mesh& mesh, Copies copies, const WorkProgress& progress
         {
           sum += (bounds.high[axis] - bounds.low[axis]) * 0;
         }
-        if (sum != 0) // NaN: somewhere it is not finite, or there are no points
+        if (sum != 0) // NaN: a value is not finite, or there are no points
         {
           continue;
         }
@@ -284,7 +284,7 @@ void CellTree::sortCells(Mesh& mesh, const WorkProgress& progress)
         entries[i] = { placeOnCurve(middle), mesh.numbers[i] };
       }
     });
-  // Parts of fixed size, then pairs of parts, then pairs of these.
+  // Sorts chunks of fixed size, then merges pairs of them.
   constexpr std::size_t part = 1 << 15;
   const auto at = [&](std::size_t i)
   { return entries.begin() + static_cast<std::ptrdiff_t>(std::min(i, count)); };
@@ -384,7 +384,7 @@ void CellTree::makeGroups(Mesh& mesh, const WorkProgress& progress)
 std::vector<CellTree::MeasuredCell> CellTree::measuredCells(std::int64_t cellsOfAll) const
 {
   std::vector<MeasuredCell> cells;
-  std::mutex lock; // of these
+  std::mutex lock; // guards the measured cells
   const std::uint64_t highest = highestOrder(cellsOfAll);
   const std::size_t count = this->Sorted->numbers.size();
   forChunks(static_cast<vtkIdType>(count), WorkProgress(),
@@ -410,7 +410,7 @@ std::vector<CellTree::MeasuredCell> CellTree::measuredCells(std::int64_t cellsOf
   return cells;
 }
 
-/// See voxelShape().
+/// Computes voxelShape().
 Vector CellTree::voxelShapeOf(std::vector<MeasuredCell> cells)
 {
   keepLowest(cells);

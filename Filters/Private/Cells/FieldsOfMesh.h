@@ -19,19 +19,19 @@ class vtkDataSet;
 namespace filters
 {
 
-/// Further fields at the points of meshes, whose gradients rays may gather.
+/// Further fields at the points of meshes, for tints by their gradients.
 class FieldsOfMesh
 {
 public:
-  /// `leaves`: the same meshes as those of `mesh`, with the field in the place of N, NaN where it has no values.
+  /// `leaves`: the meshes of `mesh`, with the field instead of N; NaN: no value.
   void add(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     const std::shared_ptr<const CellTree::Mesh>& mesh,
     const WorkProgress& progress = WorkProgress());
 
   int count() const { return static_cast<int>(this->Fields.size()); }
-  /// See MediumSource.
+  /// Returns the range of a field; see MediumSource.
   schlieren::MediumSource::FieldRange rangeOf(int field, const schlieren::Box& box) const;
-  /// In the cells that hold the lattice's points; field after field, NaN where a field has no value.
+  /// Interpolates in the lattice's cells, field after field; NaN where a field has no value.
   void sample(const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const;
 
 private:

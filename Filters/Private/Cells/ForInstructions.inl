@@ -14,7 +14,7 @@ constexpr int lanes = 2;
 #include SCHLIEREN_CODE_FOR_PACKS
 } // namespace two
 
-// Types, too, depend on the instructions: where GCC knows of these only in functions, it compares lane by lane.
+// Sets the instructions for types, too, because GCC else compares them lane by lane.
 #if defined(__x86_64__)
 #define SCHLIEREN_HAS_AVX
 

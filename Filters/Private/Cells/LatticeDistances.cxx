@@ -24,15 +24,15 @@ struct Plane
     , offset(static_cast<float>(-dot(normal, through)))
   {
   }
-  /// Along x.
+  /// Returns the plane's height at the start of a row along x.
   float inRow(float j, float k) const { return offset + slope[1] * j + slope[2] * k; }
 };
 
 struct Edge
 {
-  Plane across; // in the triangle's plane, positive outside of it
+  Plane across; // in the triangle's plane, positive outside
   Plane before; // positive before the edge's first corner
-  Plane behind; // positive behind its second one
+  Plane behind; // positive behind its second corner
 };
 
 struct Prepared
@@ -41,7 +41,7 @@ struct Prepared
   Edge edges[3];
 };
 
-/// False where the triangle has no area.
+/// Returns false if the triangle has no area.
 bool prepare(const std::array<Point, 3>& corners, Prepared& prepared)
 {
   const Point normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
@@ -59,7 +59,7 @@ bool prepare(const std::array<Point, 3>& corners, Prepared& prepared)
   return true;
 }
 
-/// A row of points along x. What is done for all lanes is in loops of its own, which compilers vectorise.
+/// A row of points along x. Loops over all lanes are separate, so that compilers vectorise them.
 class Row
 {
 public:
@@ -150,7 +150,7 @@ void LatticeDistances::add(const std::array<Point, 3>& corners, std::int32_t num
   Prepared t;
   if (!prepare(corners, t))
   {
-    return; // the triangles beside it are there, too
+    return; // neighbouring triangles cover it
   }
   int first[3], last[3];
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -165,7 +165,7 @@ void LatticeDistances::add(const std::array<Point, 3>& corners, std::int32_t num
     for (int j = first[1]; j <= last[1]; ++j)
     {
       const auto y = static_cast<float>(j), z = static_cast<float>(k);
-      // Where the row is within reach of the triangle's plane.
+      // Finds the points within reach of the triangle's plane.
       const float height = t.height.inRow(y, z), slope = t.height.slope[0];
       float low = static_cast<float>(first[0]), high = static_cast<float>(last[0]);
       if (std::abs(slope) > 1e-3f)

@@ -9,7 +9,7 @@
 namespace filters
 {
 
-/// The points of a lattice in coordinates in which its spacings are 1 and its first point is 0.
+/// Scales a lattice to spacings of 1, with its first point at 0.
 class LatticeMetric
 {
 public:
@@ -26,7 +26,7 @@ private:
   Point First, PerUnit;
 };
 
-/// The lattice's box and `reach` spacings around it.
+/// Returns the lattice's bounds, extended by `reach` spacings.
 schlieren::Box boxAround(const schlieren::Lattice& lattice, double reach);
 
 /**
@@ -38,7 +38,7 @@ class LatticeDistances
 public:
   LatticeDistances(const schlieren::Lattice& lattice, float reach);
 
-  /// `number` is what nearest() returns.
+  /// `number`: what nearest() returns for this triangle.
   void add(const std::array<Point, 3>& corners, std::int32_t number);
 
   /// Of a row of points along x: the squares of the distances, at most that of the reach, and the nearest
@@ -49,7 +49,7 @@ public:
     return this->Nearest.data() + this->row(j, k);
   }
 
-  static constexpr int lanes = 4; ///< points that are looked at together
+  static constexpr int lanes = 4; ///< points processed at once
 
 private:
   std::size_t row(int j, int k) const

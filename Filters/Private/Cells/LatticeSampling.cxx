@@ -12,23 +12,23 @@ namespace filters
 namespace
 {
 
-constexpr float smallest = 1.f / 4096; // distances are never 0
+constexpr float smallest = 1.f / 4096; // minimum distance, which is never 0
 constexpr float depthOfThin = 0.5f;
 constexpr float onSurface =
-  1e-3f;                     // points so near to a surface are counted to the side of its normal
-constexpr float tie = 1e-3f; // of the distances to two faces
+  1e-3f; // distance to a surface below which points count to the side of its normal
+constexpr float tie = 1e-3f;              // relative difference of distances to two faces
 constexpr float squaredDiagonal = 3.001f; // of a voxel
 constexpr float cosineOfPlane = 0.9f;
-constexpr double besideVoxel = 0.01; // walls that count as meeting it
+constexpr double besideVoxel = 0.01; // distance at which walls count as meeting it
 
 constexpr int steps[6][3] = { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { 0, 0, -1 },
   { 0, 0, 1 } };
 
-/// The part of the line from one place to another at which a triangle lies across it; negative: nowhere.
+/// Returns the fraction of a line at which a triangle crosses it; negative: nowhere.
 double crossingOf(
   const std::array<Point, 3>& t, const Point& normal, const Point& from, const Point& to)
 {
-  constexpr double slack = 1e-9; // so that no line slips through between two triangles
+  constexpr double slack = 1e-9; // closes the gap between two triangles
   const Point line = to - from;
   const double fraction = dot(normal, t[0] - from) / dot(normal, line);
   if (!(fraction >= -slack && fraction <= 1 + slack)) // NaN, too
@@ -179,7 +179,7 @@ void LatticeSampling::measure(
           const std::int32_t wall = nearest[Wall][i], window = nearest[Window][i];
           const bool isTie =
             wall >= 0 && window >= 0 && std::abs(std::sqrt(toWall) - std::sqrt(toWindow)) < tie;
-          // A body whose surface is where cells end, as of a hole that a mesh leaves for it, need not be closed.
+          // Accepts open bodies whose surface is where cells end, such as a hole in a mesh.
           const bool isBody = window >= 0 && nearest[Body][i] >= 0 &&
             std::abs(std::sqrt(toBody) - std::sqrt(toWindow)) < tie;
           const bool isWall = isBody ||
@@ -193,14 +193,14 @@ void LatticeSampling::measure(
   }
 }
 
-/// Outside points with gas beside them, from which no face separates them, are gaps between cells.
+/// Finds gaps between cells: outside points that no face separates from gas beside them.
 void LatticeSampling::findGaps()
 {
   this->forPoints(
     [&](const Index& at)
     {
       const std::size_t p = this->numberOf(at);
-      // Of a face through the point beside it, rounding decides on which side that is.
+      // Skips points so near to a face that rounding decides their side.
       if (this->States[p] == InGas || this->Distances[p] >= -1 - tie)
       {
         return;
@@ -217,7 +217,7 @@ void LatticeSampling::findGaps()
     });
 }
 
-/// Outside points that are known decide for those beside them that are not.
+/// Copies known kinds of outside points to unknown neighbours.
 void LatticeSampling::spread(std::vector<Index>& known)
 {
   for (std::size_t next = 0; next < known.size(); ++next)
@@ -255,7 +255,7 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
   const bool hasWall = hasAny(InWall), hasWindow = hasAny(InWindow);
   if (!hasWall || !hasWindow)
   {
-    // Mostly all are of one kind, by the corners.
+    // Counts the corners, most of which are of one kind.
     int walls = hasWall ? 1 : 0, windows = hasWindow ? 1 : 0;
     for (int corner = 0; corner < 8 && !hasWindow; ++corner)
     {
@@ -329,7 +329,7 @@ void LatticeSampling::findSides()
     });
 }
 
-/// Which walls and bodies meet each row of voxels along x: a coarse lattice may have very many of them.
+/// Lists the walls and bodies of each row of voxels along x; coarse lattices may have many.
 void LatticeSampling::findSolidsOfRows()
 {
   const auto& points = this->Lattice.points;
@@ -393,7 +393,7 @@ void LatticeSampling::separate(const Index& low)
     places[count] = placeOf(at);
     if (this->IsBeside[p])
     {
-      // On one side of a wall that is about plane there is nothing to do.
+      // Skips points on one side of a nearly plane wall.
       const std::array<float, 3>& own = this->Sides[p];
       side = side ? side : &own;
       mayBeCrossed = mayBeCrossed ||
@@ -417,7 +417,7 @@ void LatticeSampling::separate(const Index& low)
     this->findSolidsOfRows();
   }
 
-  // The walls that meet the voxel.
+  // Lists the walls that meet the voxel.
   std::vector<const Near*> walls;
   const std::size_t row = this->rowOf(low);
   for (std::size_t n = this->StartsOfRows[row]; n < this->StartsOfRows[row + 1]; ++n)
@@ -434,8 +434,8 @@ void LatticeSampling::separate(const Index& low)
   {
     return;
   }
-  std::array<int, 8> sides{ 0, 1, 2, 3, 4, 5, 6, 7 }; // the same number: not separated
-  double crossing[8][8]; // the mean of the first and the last one; negative: none
+  std::array<int, 8> sides{ 0, 1, 2, 3, 4, 5, 6, 7 }; // equal number: not separated
+  double crossing[8][8]; // mean of the first and the last one; negative: none
   for (std::size_t a = 0; a < count; ++a)
   {
     for (std::size_t b = a + 1; b < count; ++b)
@@ -476,7 +476,7 @@ void LatticeSampling::separate(const Index& low)
   }
 }
 
-/// Whether there is gas on two opposite sides of a point in a wall.
+/// Returns whether there is gas on two opposite sides of a point in a wall.
 bool LatticeSampling::isThin(const Index& at) const
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -502,7 +502,7 @@ void LatticeSampling::thickenPlates()
   this->findSides();
   this->Marked.assign(this->States.size(), 0);
   const auto& points = this->Lattice.points;
-  // Voxels of one layer are squares.
+  // Allows for flat lattices, whose voxels are squares.
   const int layers = std::max(1, points[2] - 1);
   const int up = points[2] > 1 ? 1 : 0;
   for (int k = 0; k < layers; ++k)

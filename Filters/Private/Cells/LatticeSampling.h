@@ -15,15 +15,16 @@
 namespace filters
 {
 
-/// Gives the sides that two corners of a voxel are on one number, the lower one.
+/// Joins the sides of two corners of a voxel under the lower number.
 inline void joinSides(std::array<int, 8>& sides, std::size_t a, std::size_t b)
 {
-  // By value: std::replace reads both while it changes the array.
+  // Copies the values, because std::replace reads them while it changes the array.
   const int high = std::max(sides[a], sides[b]), low = std::min(sides[a], sides[b]);
   std::replace(sides.begin(), sides.end(), high, low);
 }
 
-/// What the points of one lattice are, and how far from where the gas ends; see GasBoundary::sample().
+/// Classifies the points of a lattice, with distances to the gas's boundary; see
+/// GasBoundary::sample().
 class LatticeSampling
 {
 public:
@@ -31,10 +32,10 @@ public:
 
   explicit LatticeSampling(const schlieren::Lattice& lattice);
 
-  /// Faces of meshes, whose normals point into the gas.
+  /// Adds faces of meshes, whose normals point into the gas.
   void addFaces(
     const Triangles& surface, const TriangleTree& tree, const std::vector<unsigned char>& walls);
-  /// Surfaces in the gas. Whether there are any within reach.
+  /// Adds surfaces in the gas. Returns whether any is within reach.
   bool addBodies(const Triangles& surface, const TriangleTree& tree);
 
   /// `isInBody`: empty where no point is. `kindAt` returns what is at a place outside from the faces beyond
@@ -52,9 +53,9 @@ private:
   struct Near // a triangle within reach
   {
     std::array<Point, 3> corners; // in the lattice's metric
-    Point normal;                 // of unit length there
+    Point normal;                 // unit length, in the lattice's metric
   };
-  /// The points, by their indices.
+  /// A point by its indices.
   struct Index
   {
     int i, j, k;
@@ -99,28 +100,28 @@ private:
   const schlieren::Lattice Lattice;
   LatticeMetric Metric;
   std::vector<Near> Nearby;
-  std::array<std::unique_ptr<LatticeDistances>, 3> Fields; // of each kind; null: none within reach
-  std::array<std::vector<std::int32_t>, 3> Numbers;        // of each kind
-  // Walls and bodies by rows of voxels: those of a row are SolidsOfRows[StartsOfRows[row]] to the next row's.
-  std::vector<std::size_t> StartsOfRows; // empty: not found yet
+  std::array<std::unique_ptr<LatticeDistances>, 3> Fields; // by kind; null: none within reach
+  std::array<std::vector<std::int32_t>, 3> Numbers;        // by kind
+  // Walls and bodies by rows of voxels, from SolidsOfRows[StartsOfRows[row]] to the next row's.
+  std::vector<std::size_t> StartsOfRows; // empty: not computed
   std::vector<std::int32_t> SolidsOfRows;
 
-  // Of each point.
+  // State of each point.
   enum State : unsigned char
   {
     InGas,
     InWall,
     InWindow,
-    Unknown // outside, of what kind?
+    Unknown // outside, kind unknown
   };
   std::vector<unsigned char> States;
   std::vector<float> Distances;
-  std::vector<float> SquaredToSolid;      // walls and bodies
+  std::vector<float> SquaredToSolid;      // to walls and bodies
   std::vector<std::int32_t> NearestSolid; // -1: none within reach
   std::vector<std::array<float, 3>>
-    Sides; // in gas near a solid: its normal, turned to the point; else 0
+    Sides;                             // normals, turned to the point, of gas near a solid; else 0
   std::vector<unsigned char> IsBeside; // whether it has such a normal
-  std::vector<unsigned char> Marked;   // to become walls
+  std::vector<unsigned char> Marked;   // will become walls
 };
 
 } // namespace filters

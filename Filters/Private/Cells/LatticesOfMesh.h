@@ -17,14 +17,14 @@
 namespace filters
 {
 
-/// What a mesh alone decides on the points of a lattice.
+/// Results at a lattice's points that depend on the mesh alone.
 struct KnownLattice
 {
   CellsOfLattice cells;
-  std::vector<schlieren::Place> places; // empty: gas everywhere
-  std::vector<float> distances;         // empty: not requested yet
+  std::vector<schlieren::Place> places; // empty: all gas
+  std::vector<float> distances;         // empty: not computed
 
-  /// `toDistances`: may be null where none were requested.
+  /// `toDistances`: may be null if none were computed.
   void copyTo(schlieren::Place* toPlaces, float* toDistances, std::size_t points) const;
 };
 
@@ -42,13 +42,13 @@ class LatticesOfMesh
 public:
   static constexpr std::size_t maxBytes = std::size_t{ 1 } << 29;
 
-  /// Null: not known.
+  /// Returns null for unknown lattices.
   std::shared_ptr<const KnownLattice> find(const schlieren::Lattice& lattice, bool hasDistances);
 
   bool hasRoomFor(const schlieren::Lattice& lattice) const;
   void keep(const schlieren::Lattice& lattice, KnownLattice known);
 
-  /// What the last two steps have not needed goes.
+  /// Drops lattices that the last two steps have not used.
   void beginStep();
 
   std::size_t bytes() const;

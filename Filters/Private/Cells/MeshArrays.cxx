@@ -30,7 +30,7 @@ namespace filters
 namespace
 {
 
-/// Null where the array is of another kind.
+/// Returns null for arrays of other types.
 template <class Number>
 const Number* numbersOf(vtkDataArray* array)
 {
@@ -48,7 +48,7 @@ MeshArrays::MeshArrays(vtkDataSet* data)
   this->Values = vtkDoubleArray::SafeDownCast(data->GetPointData()->GetScalars())->GetPointer(0);
   if (const float* around = numbersOf<float>(data->GetPointData()->GetArray(cellsAroundName)))
   {
-    this->Around = reinterpret_cast<const CellsAround*>(around); // as arrayOf() has put them there
+    this->Around = reinterpret_cast<const CellsAround*>(around); // written by arrayOf()
   }
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
   this->Ghosts = ghosts ? ghosts->GetPointer(0) : nullptr;
@@ -136,7 +136,7 @@ bool MeshArrays::setStructure(const int dimensions[3])
 
 void MeshArrays::setCells()
 {
-  // What hides cells is in the ghost array: their types would be empty.
+  // Reads hidden cells from the ghost array instead of from their types, which would be empty.
   if (auto* grid = vtkStructuredGrid::SafeDownCast(this->Data))
   {
     this->Type = VTK_HEXAHEDRON;

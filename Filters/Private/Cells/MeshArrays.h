@@ -15,14 +15,14 @@ class vtkUnsignedCharArray;
 namespace filters
 {
 
-/// What is done with cells that are copies of another rank's (DUPLICATECELL).
+/// Treatment of copies of another rank's cells (DUPLICATECELL).
 enum class Copies
 {
-  Used,      ///< the same as with all others
-  Neighbours ///< only what is known of points depends on them
+  Used,      ///< like all others
+  Neighbours ///< only for results at points
 };
 
-/// How values continue around a point, and between which limits, counted from its own value.
+/// The change of values around a point, relative to its value, and its limits.
 struct PointTrend
 {
   float gradient[3] = {};
@@ -55,32 +55,32 @@ public:
   vtkIdType points() const { return this->PointCount; }
   const double* values() const { return this->Values; }
 
-  /// Of each point, where its value is a mean over cells; else null.
+  /// Returns an entry for each point if values are means over cells; else null.
   const CellsAround* cellsAround() const { return this->Around; }
-  /// Others than the dataset's, at the points themselves.
+  /// Sets values at the points that replace the dataset's.
   void setValues(std::vector<double> values);
 
-  /// Memory of what is not the dataset's own.
+  /// Returns the memory beyond the dataset's.
   std::size_t bytes() const;
 
-  /// Of each point; null where nobody has set them.
+  /// Returns an entry for each point; null if none were set.
   const PointTrend* trends() const { return this->Trends.empty() ? nullptr : this->Trends.data(); }
   void setTrends(std::vector<PointTrend> trends) { this->Trends = std::move(trends); }
 
-  /// The VTK cell type, whether or not the cell is hidden.
+  /// Returns the VTK cell type, also of hidden cells.
   int type(vtkIdType cell) const { return this->Types ? this->Types[cell] : this->Type; }
 
-  /// All types that there are.
+  /// Lists all types of cells.
   std::vector<int> types() const;
 
-  /// Whether no bit of hiddenCellBits hides it.
+  /// Returns whether no bit of hiddenCellBits hides the cell.
   bool isVisible(vtkIdType cell) const;
   bool isCopy(vtkIdType cell) const;
 
-  /// Whether cells are numbered by three indices, so that those around a point are known.
+  /// Returns whether cells have three indices, by which those around a point are known.
   bool isStructured() const { return this->Layer > 0; }
 
-  /// Calls visit(number of the cell) for all cells around a point of a structured mesh.
+  /// Calls visit(cell) for all cells around a point of a structured mesh.
   template <class Visit>
   void forCellsAround(vtkIdType point, const Visit& visit) const
   {
@@ -100,7 +100,7 @@ public:
     }
   }
 
-  /// Calls visit(number of the point) for all points of a cell, in VTK's order.
+  /// Calls visit(point) for all points of a cell, in VTK's order.
   template <class Visit>
   void forPoints(vtkIdType cell, const Visit& visit) const
   {
@@ -129,7 +129,7 @@ public:
     }
   }
 
-  /// The first `count` points of a cell, which has as many.
+  /// Copies the first `count` points of a cell with at least as many.
   void points(vtkIdType cell, int count, vtkIdType* points) const
   {
     if (this->Layer > 0)
@@ -212,7 +212,7 @@ private:
   bool setStructure(const int dimensions[3]);
   void copyCells();
 
-  /// A cell of a structured grid. The order of voxels differs from that of hexahedra.
+  /// Finds the points of a structured cell. The order of voxels differs from that of hexahedra.
   void boxPoints(vtkIdType cell, vtkIdType points[8]) const
   {
     const vtkIdType row = cell / this->CellsAlong, layer = row / this->CellsAcross;
@@ -240,10 +240,10 @@ private:
   const double* Doubles = nullptr;
   std::vector<double> OwnPoints;
 
-  int Type = 0; // of all cells where Types is null
+  int Type = 0; // of all cells, if Types is null
   const unsigned char* Types = nullptr;
   std::vector<unsigned char> OwnTypes;
-  // Of structured grids: cells in a row, rows of cells in a layer; points in a row and in a layer.
+  // Strides of structured grids: cells in a row and in a layer; points in a row and in a layer.
   vtkIdType CellsAlong = 0, CellsAcross = 0, Row = 0, Layer = 0;
   bool IsVoxel = false;
   const vtkTypeInt64 *Offsets64 = nullptr, *Points64 = nullptr;

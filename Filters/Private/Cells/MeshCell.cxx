@@ -23,13 +23,13 @@ namespace
 constexpr double toleranceOfPlaneFaces = 1e-6;
 constexpr double toleranceOfCurvedFaces = 1e-3;
 
-// Newton's method converges quadratically: after a step as small as this nothing is left.
+// Steps of Newton's method, which converges quadratically.
 constexpr int maxSteps = 15;
 constexpr double lastStep = 1e-7;
-constexpr int maxWithoutGain = 8; // steps that are not half as long as the shortest one before
-constexpr double farthest = 1;    // from the range
+constexpr int maxWithoutGain = 8; // steps at least half as long as the shortest one
+constexpr double farthest = 1;    // distance from the range
 
-/// The rows of the inverse of a matrix of three columns; not finite where there is none.
+/// Computes the rows of the inverse of a matrix of three columns; not finite if it is singular.
 void invert(const Vector columns[3], double inverse[3][3])
 {
   const Vector rows[3] = { cross(columns[1], columns[2]), cross(columns[2], columns[0]),
@@ -59,7 +59,7 @@ MeshCell::Shape MeshCell::shapeOf(int type)
     case VTK_QUAD:
     case VTK_VOXEL:
     case VTK_HEXAHEDRON:
-    case VTK_PYRAMID: // a hexahedron of which a face is a point
+    case VTK_PYRAMID: // a hexahedron with a collapsed face
     case VTK_QUADRATIC_PYRAMID:
     case VTK_QUADRATIC_QUAD:
     case VTK_BIQUADRATIC_QUAD:
@@ -113,7 +113,7 @@ void MeshCell::set(vtkDataSet* data, vtkIdType cell)
     case VTK_VOXEL:
     case VTK_HEXAHEDRON:
       this->IsProduct = false;
-      break; // their functions are static
+      break; // its functions are static
     default:
       data->GetCell(cell, this->Cell);
       this->IsProduct = this->Product.set(this->Cell, this->Type);
@@ -154,7 +154,7 @@ void MeshCell::setPoints()
   }
 }
 
-/// Whether coordinates are a linear function of the parametric ones.
+/// Returns whether coordinates are a linear function of the parametric ones.
 bool MeshCell::isAffine() const
 {
   switch (this->Type)
@@ -169,7 +169,7 @@ bool MeshCell::isAffine() const
     default:
       return false;
   }
-  // A parallelepiped: each corner is where three others put it.
+  // Tests for a parallelepiped, where three corners determine each other one.
   const std::vector<Vector>& x = this->Points;
   constexpr int sums[4][3] = { { 2, 1, 3 }, { 5, 1, 4 }, { 7, 3, 4 }, { 6, 2, 4 } };
   for (const auto& sum : sums)
@@ -209,7 +209,7 @@ void MeshCell::startInTheMiddle()
   this->Place[2] = this->FlatAxis >= 0 ? 0 : (this->Form == Shape::Wedge ? 0.5 : middle);
 }
 
-/// Where Place is, and the derivative by each of its coordinates.
+/// Evaluates the coordinates of Place, and their derivatives.
 void MeshCell::evaluate(Vector& x, Vector columns[3])
 {
   if (this->IsProduct)
@@ -239,7 +239,7 @@ void MeshCell::evaluate(Vector& x, Vector columns[3])
   }
 }
 
-/// Whether Place is the place of `x`; else the step of Newton's method that leads there.
+/// Returns whether Place is at `x`; else sets the step of Newton's method.
 bool MeshCell::isAt(const Vector& x, Vector& step)
 {
   Vector reached, columns[3];
@@ -255,7 +255,7 @@ bool MeshCell::isAt(const Vector& x, Vector& step)
   {
     step[i] = inverse[i][0] * rest[0] + inverse[i][1] * rest[1] + inverse[i][2] * rest[2];
   }
-  // Also where cells are collapsed, so that there is no step.
+  // Accepts Place in collapsed cells, too, where there is no step.
   return std::max({ std::abs(rest[0]), std::abs(rest[1]), std::abs(rest[2]) }) <=
     1e-14 * this->Length;
 }
@@ -323,7 +323,8 @@ bool MeshCell::find(const double x[3], double coordinates[3], double& outside)
   }
   else
   {
-    // The point before was mostly a neighbour. Where cells are curved there may be other solutions outside.
+    // Starts from the last point, mostly a neighbour. Curved cells may have other solutions
+    // outside.
     this->IsWarm = this->IsWarm && this->iterate(from) && this->missOf(this->Place) <= tolerance;
     if (!this->IsWarm)
     {
@@ -338,7 +339,7 @@ bool MeshCell::find(const double x[3], double coordinates[3], double& outside)
   return outside <= tolerance;
 }
 
-/// By how much the largest of the coordinates is out of its range; infinite for NaN.
+/// Returns how far the worst coordinate is outside of its range; infinite for NaN.
 double MeshCell::missOf(const double p[3]) const
 {
   if (!std::isfinite(p[0] + p[1] + p[2]))

@@ -17,7 +17,7 @@ class vtkDataSet;
 namespace filters
 {
 
-/// One cell at a time, for one thread: where in it a point lies, and what its points' values are there.
+/// Locates points in one cell at a time, and interpolates there. For one thread.
 class MeshCell
 {
 public:
@@ -30,7 +30,7 @@ public:
   /// of them is out of their range.
   bool find(const double x[3], double coordinates[3], double& outside);
 
-  /// The interpolated value at a place that was found.
+  /// Interpolates at a point that find() has found.
   double valueAt(const double x[3], const double coordinates[3], const double* values);
 
 private:
@@ -39,7 +39,7 @@ private:
     Box,
     Simplex,
     Wedge,
-    Other // VTK finds places and weights
+    Other // by VTK
   };
 
   static Shape shapeOf(int type);
@@ -52,7 +52,7 @@ private:
   bool isAt(const Vector& x, Vector& step);
   double missOf(const double coordinates[3]) const;
 
-  vtkNew<vtkGenericCell> Cell; // where VTK's functions are needed
+  vtkNew<vtkGenericCell> Cell; // if VTK's functions are needed
   vtkNew<vtkIdList> Ids;
   vtkDataSet* Data = nullptr;
   vtkIdType Number = -1;
@@ -64,9 +64,9 @@ private:
   BasisProduct Product;
   Shape Form = Shape::Other;
 
-  // For find().
+  // State of find().
   bool HasPoints = false, HasInverse = false, IsWarm = false;
-  std::vector<Vector> Points; // from the first one
+  std::vector<Vector> Points; // relative to the first one
   Vector Origin{};
   double Length = 0;
   double Inverse[3][3];

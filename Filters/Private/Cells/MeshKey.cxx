@@ -32,7 +32,7 @@ namespace filters
 namespace
 {
 
-/// Adds the hashes of parts of fixed size, made by hashPart(first, last, hash) in any order.
+/// Hashes chunks of fixed size by hashPart(first, last, hash), in parallel.
 template <class HashPart>
 void addParts(Hash& hash, vtkIdType count, const HashPart& hashPart)
 {
@@ -54,7 +54,7 @@ void addParts(Hash& hash, vtkIdType count, const HashPart& hashPart)
   }
 }
 
-/// Numbers as they lie in memory, in four hashes side by side: each has to wait for itself only.
+/// Hashes bytes in four independent sequences, which do not wait for each other.
 void addBytes(Hash& hash, const void* data, std::size_t size)
 {
   constexpr std::size_t word = sizeof(std::uint64_t), lanes = 4;
@@ -99,7 +99,7 @@ bool addIfPlain(Hash& hash, vtkDataArray* array)
   return true;
 }
 
-/// Whether the cells are known by arrays of a common kind, which are added then.
+/// Hashes the arrays of cells if these have known types. Returns whether they have.
 bool addIfPlain(Hash& hash, vtkUnstructuredGrid* mesh)
 {
   vtkCellArray* cells = mesh ? mesh->GetCells() : nullptr;
@@ -154,7 +154,7 @@ void addCells(Hash& hash, vtkDataSet* data)
   {
     int points[3];
     grid->GetDimensions(points);
-    addBytes(hash, points, sizeof(points)); // which say what the cells are
+    addBytes(hash, points, sizeof(points)); // determine the cells
     return;
   }
   if (addIfPlain(hash, vtkUnstructuredGrid::SafeDownCast(data)))
@@ -177,7 +177,7 @@ void addCells(Hash& hash, vtkDataSet* data)
   if (data->GetNumberOfCells() > 0)
   {
     Hash first;
-    hashCells(0, 1, first); // VTK makes what it needs on the first call, which one thread has to do
+    hashCells(0, 1, first); // the first call initializes VTK's data, in one thread
   }
   addParts(hash, data->GetNumberOfCells(), hashCells);
 }

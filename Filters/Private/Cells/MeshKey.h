@@ -45,10 +45,10 @@ void addCells(Hash& hash, vtkDataSet* data);
 /// Points, cells and which of them ghost arrays hide.
 void addMesh(Hash& hash, vtkDataSet* data);
 
-/// Which points have a finite scalar.
+/// Hashes which points have a finite scalar.
 void addGas(Hash& hash, vtkDataSet* data);
 
-/// The surfaces of bodies; may be null.
+/// Hashes the surfaces of bodies; may be null.
 void addBodies(Hash& hash, vtkDataObject* bodies);
 
 } // namespace filters

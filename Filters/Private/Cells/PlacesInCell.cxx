@@ -12,12 +12,12 @@ namespace filters
 namespace
 {
 
-// Newton's method converges quadratically: after a step as small as this nothing is left.
+// Steps of Newton's method, which converges quadratically.
 constexpr int maxSteps = 15;
 constexpr double lastStep = 1e-7;
-constexpr double farthest = 1; // from the range
+constexpr double farthest = 1; // distance from the range
 constexpr double nearlyAffine = 0.5;
-constexpr double nothing = 1e-14; // of what is left, in edges: also where cells are collapsed
+constexpr double nothing = 1e-14; // residual, relative to the edges; holds in collapsed cells, too
 
 #define SCHLIEREN_CODE_FOR_PACKS "PlacesInCell.inl"
 #include "ForInstructions.inl"

@@ -18,28 +18,27 @@ struct NormalCell
 {
   CellShape shape;
   bool isAffine;
-  bool isSmooth;      // else there are no slopes and limits
-  double bend[3][4];  // factors of uv, vw, uw and uvw
+  bool isSmooth;      // else slope and limit are unset
+  double bend[3][4];  // coefficients of uv, vw, uw and uvw
   double value[8];    // a polynomial
-  double slope[3][8]; // polynomials, to be added to the value, times the normal coordinates
-  double limit[2][8]; // polynomials, which the sum lies between
+  double slope[3][8]; // polynomials times the normal coordinates, added to the value
+  double limit[2][8]; // polynomials that bound the sum
 };
 
-/// Points of one cell, each number for all of them.
+/// Points of one cell, as arrays of coordinates.
 struct CellPoints
 {
   static constexpr int most = 256;
-  static constexpr int room = most + 8; // for packs
-  double normal[3][room];               // coordinates
-  double value[room];                   // what is interpolated
-  double
-    miss[room]; // by how much a parametric coordinate is out of its range; infinite: nowhere near
+  static constexpr int room = most + 8; // for whole packs
+  double normal[3][room];               // input
+  double value[room];                   // interpolated
+  double miss[room]; // distance of a parametric coordinate from its range; infinite: far outside
 };
 
-/// Sets value and miss of `count` points: each by itself, whatever the others are.
+/// Sets value and miss of `count` points, independently of each other.
 using LocateInCell = void (*)(const NormalCell& cell, int count, CellPoints& points);
 
-/// For the instructions that this processor has, slower ones first.
+/// Returns variants for the instructions that this processor has, slowest first.
 std::vector<LocateInCell> functionsToLocate();
 
 } // namespace filters

@@ -75,7 +75,7 @@ inline void locate(const NormalCell& cell, int count, CellPoints& points)
       };
       if (isNearlyAffine)
       {
-        // Half of Newton's steps are saved by one that takes the bends from where the point would be without.
+        // Saves half of Newton's steps: corrects the bends of a step without them.
         const Real uv = u * v, vw = v * w, uw = u * w, uvw = uv * w;
         u = x - b[0][0] * uv - b[0][1] * vw - b[0][2] * uw - b[0][3] * uvw;
         v = y - b[1][0] * uv - b[1][1] * vw - b[1][2] * uw - b[1][3] * uvw;

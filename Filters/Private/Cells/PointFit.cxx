@@ -16,7 +16,7 @@ namespace
 /// Added to the matrix for second derivatives, in parts of their mean: where points are too few they are
 /// small.
 constexpr double leastSecond = 1e-5;
-/// And for first ones, where all points lie in a plane or on a line.
+/// Added for first derivatives, for points in a plane or on a line.
 constexpr double leastFirst = 1e-12;
 /// Both for those of means: what first and second derivatives explain nearly alike, as at the boundary, is taken for a
 /// first one.
@@ -25,7 +25,7 @@ constexpr double leastFirstOfMeans = 1e-6;
 /// Means have nothing to be compared with along directions in which their places are spread by less than this part of
 /// their size, squared.
 constexpr double flat = 0.01;
-/// Added to squares of distances, of the mean one: no weight is infinite.
+/// Added to squared distances, relative to their mean, so that weights are finite.
 constexpr double leastSquare = 1e-6;
 
 constexpr int unknowns = 9; // three first derivatives, six second ones

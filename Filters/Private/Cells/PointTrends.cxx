@@ -25,12 +25,12 @@ namespace
 constexpr double goodFit = 0.005;
 constexpr double poorFit = 0.02;
 
-/// Values may leave the range of those around by this part of it.
+/// Fraction of the range of neighbours by which values may exceed it.
 constexpr double overshoot = 0.01;
 
 constexpr std::size_t fewNeighbours = 14;
 
-/// Which cells have a point: those of point i are cells[starts[i]] to cells[starts[i + 1]], in their order.
+/// Cells of points: those of point i are cells[starts[i]] to cells[starts[i + 1]], in order.
 struct CellsOfPoints
 {
   std::vector<std::uint64_t> starts;
@@ -66,7 +66,7 @@ CellsOfPoints cellsOfPoints(const MeshArrays& mesh, const std::vector<unsigned c
     result.starts[i + 1] = result.starts[i] + counts[i].load(std::memory_order_relaxed);
   }
   result.cells.resize(result.starts.back());
-  // From behind; then in the order of the cells, whichever thread was the first.
+  // Fills from behind, then sorts, so that the order does not depend on threads.
   forCells(progress.part(0.3, 0.7),
     [&](vtkIdType cell, std::size_t point)
     {
@@ -89,7 +89,7 @@ CellsOfPoints cellsOfPoints(const MeshArrays& mesh, const std::vector<unsigned c
   return result;
 }
 
-/// Points, each once, in the order in which they came: a table with open addresses.
+/// A set of points in the order of insertion: a hash table with open addressing.
 class PointSet
 {
 public:
@@ -135,7 +135,7 @@ private:
     return true;
   }
 
-  std::uint64_t Turn = 1; // entries of others are old
+  std::uint64_t Turn = 1; // marks valid entries
   std::vector<std::uint32_t> Points;
   std::vector<std::uint64_t> Places = std::vector<std::uint64_t>(256, 0); // a power of two
 };
@@ -198,10 +198,10 @@ PointTrend trendOf(const PointFit& fit, std::size_t point)
   return trend;
 }
 
-/// How much steeper a field may be at the boundary than at any point beside.
+/// Maximum ratio of gradients at the boundary to those at points beside it.
 constexpr double steeperAtBoundary = 2;
 
-/// The least density at a point, of that in any cell around.
+/// Minimum ratio of the density at a point to that of any cell around it.
 constexpr double leastByCell = 0.5;
 
 /// 0 where a point has cells on all sides, 1 where it is at the boundary: by how far from the point they are, in units of
@@ -448,7 +448,7 @@ std::vector<double> PointNeighbours::valuesFromCells(
   double lowest = infinity, largest = 0; // of the cells
   for (std::size_t i = 0; i < points; ++i)
   {
-    lowest = std::min(lowest, means[i] + around[i].lowest); // NaN: nothing is known
+    lowest = std::min(lowest, means[i] + around[i].lowest); // NaN: unknown
     largest = std::max(largest, std::abs(means[i]));
   }
   const bool isPositive = lowest > -1e-6 * largest;
@@ -483,7 +483,7 @@ std::vector<double> PointNeighbours::valuesFromCells(
           const auto part = static_cast<float>(steeperAtBoundary * partAtBoundary(cells));
           down *= part;
           up *= part;
-          // What is positive in all cells, as a density is, stays so.
+          // Keeps positive what is positive in all cells, such as a density.
           const double least = std::max(means[at] + std::min(cells.lowest, down) + low,
             isPositive ? leastByCell * (means[at] + cells.lowest) : -infinity);
           const double most = means[at] + std::max(cells.highest, up) + high;

@@ -25,11 +25,11 @@ namespace filters
 class PointNeighbours
 {
 public:
-  /// Of the cells, those count that are used (not 0).
+  /// Uses cells whose `isCellUsed` is not 0.
   PointNeighbours(const MeshArrays& mesh, std::vector<unsigned char> isCellUsed,
     const WorkProgress& progress = WorkProgress());
 
-  /// Of the same mesh, or of one with the same points and cells.
+  /// Returns trends for values on a mesh with the same points and cells.
   std::vector<PointTrend> trends(
     const MeshArrays& mesh, const WorkProgress& progress = WorkProgress()) const;
 
@@ -51,7 +51,7 @@ private:
   // fast.
   std::vector<std::uint64_t> Starts;
   std::vector<std::uint32_t> Ids;
-  std::vector<unsigned char> IsCellUsed; // of structured grids
+  std::vector<unsigned char> IsCellUsed; // for structured grids
 };
 
 } // namespace filters

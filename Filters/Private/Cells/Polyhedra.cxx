@@ -58,14 +58,14 @@ vtkIdType addMiddle(vtkUnstructuredGrid* mesh, vtkIdType cell, vtkPoints* points
       own.second[i + 3] =
         static_cast<float>(moments.second[i + 3] + x * (moments.middle[next] - middle[next]));
     }
-    around->InsertNextTypedTuple(own.first); // its other members follow
+    around->InsertNextTypedTuple(own.first); // including its other members
     value = mesh->GetCellData()->GetScalars()->GetComponent(cell, 0);
   }
   values->InsertNextValue(value);
   return points->InsertNextPoint(middle);
 }
 
-/// The corners of each end of a prism that VTK has no place in by its own coordinates; 0: another cell.
+/// Returns the corners of each end of a prism that VTK locates wrongly; 0: another cell.
 int cornersOfPrism(int type)
 {
   return type == VTK_PENTAGONAL_PRISM ? 5 : type == VTK_HEXAGONAL_PRISM ? 6 : 0;
@@ -77,7 +77,7 @@ bool isCut(int type) { return type == VTK_POLYHEDRON || cornersOfPrism(type) > 0
 
 vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
 {
-  // Not by the distinct types, which VTK finds anew for each dataset, in a tree.
+  // Avoids the list of distinct types, which VTK computes for each dataset.
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
   bool hasAny = false;
   if (auto* types = vtkUnsignedCharArray::SafeDownCast(mesh ? cellTypesOf(mesh) : nullptr))
@@ -145,7 +145,7 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
       continue;
     }
     const vtkIdType middle = addMiddle(mesh, cell, points, values, around);
-    mesh->GetFaceStream(cell, ids); // faces, and for each its points' number and the points
+    mesh->GetFaceStream(cell, ids); // for each face the number of points, and the points
     vtkIdType at = 1;
     for (vtkIdType face = 0; face < ids->GetId(0); ++face)
     {

@@ -31,8 +31,7 @@ enum class Numbers
   Differences // from about the ambient N, in single precision: weak flows keep their digits
 };
 
-/// The arrays that a model reads, in its order. All have one component and belong to points, or all
-/// to cells.
+/// The arrays that a model reads, in its order: of one component, all of points or all of cells.
 using Arrays = std::vector<vtkDataArray*>;
 
 /// A dataset of the input that has all chosen arrays.

@@ -105,8 +105,7 @@ void TriangleTree::build(std::int32_t begin, std::int32_t end, const std::vector
 
 int TriangleTree::nearest(const Point& place) const
 {
-  // Ratio of squared distances that rounding explains; larger ones would count more distant faces
-  // as ties.
+  // Ratio of squared distances that rounding explains.
   constexpr double tie = 1 + 1e-12;
   if (this->Nodes.empty())
   {

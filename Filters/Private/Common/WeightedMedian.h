@@ -17,8 +17,7 @@ struct WeightedValue
   double value, weight;
 };
 
-/// Returns the first value up to which half of the weight lies, within rounding; NaN without
-/// values.
+/// Returns the first value up to which half of the weight lies; NaN without values.
 inline double weightedMedian(std::vector<WeightedValue> parts)
 {
   constexpr double rounding = 1e-9; // of sums in any order

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Chooses arrays, units and gases: the user's choice where there is one, else that of
-// flowDefaults().
+// Chooses arrays, units and gases: the user's choice if there is one, else flowDefaults().
 #pragma once
 
 #include "Common/Message.h"
@@ -50,8 +49,7 @@ std::vector<FlowArray> getArrays(Reader& message);
 /// The complete choice of what is read of the data.
 struct MediumChoice
 {
-  /// Settings without open choices (model, arrays, factors to SI units, fractions) and unread
-  /// arrays.
+  /// Complete settings (model, arrays, factors to SI units, fractions), without unread arrays.
   MediumSettings settings;
   bool isScaleKnown = false; ///< whether the user or a unit in a name gives the scale
   std::string message;       ///< the choice as a text for the user

@@ -80,8 +80,7 @@ private:
   std::string Bracket; ///< the text in the last brackets
 };
 
-/// Returns the factor of a unit ("g/cm3", "kg m^-3", "kg per m3", "hPa") to kg/m^3, K or Pa; 0:
-/// unknown.
+/// Returns the factor of a unit ("g/cm3", "kg m^-3", "hPa") to kg/m^3, K or Pa; 0: unknown.
 double scaleOfUnit(Quantity quantity, const std::string& unit);
 
 } // namespace filters

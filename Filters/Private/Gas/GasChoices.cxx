@@ -17,8 +17,7 @@ namespace filters
 namespace
 {
 
-/// Relative difference below which wavelengths are equal: more than the 3e-4 between air and
-/// vacuum.
+/// Relative difference of equal wavelengths: more than the 3e-4 between air and vacuum.
 constexpr double sameWavelength = 1e-3;
 
 std::string nanometres(double metres)

@@ -13,8 +13,7 @@
 #include <variant>
 #include <vector>
 
-/// Models of the refractivity at a point or cell as a function of its arrays' values. All but
-/// Linear have
+/// Models of the refractivity at a point or cell as a function of its arrays. All but Linear have
 ///   refractivity(values)  N; NaN for states that no gas can have
 ///   isDoubtful(values)    whether the state deserves a warning
 ///   warning(fraction)     the warning; the fraction is a text such as "12 %"
@@ -60,8 +59,7 @@ using Model = std::variant<Linear, GasMixture, CiddorAir, FieldMean>;
 /// for inconsistent settings.
 FieldMean fieldMeanFrom(const MediumSettings& settings);
 
-/// Makes the model of complete settings (MediumChoice::settings). Throws std::runtime_error for
-/// inconsistent ones.
+/// Makes the model of complete settings. Throws std::runtime_error for inconsistent ones.
 Model modelFrom(const MediumSettings& settings);
 
 /// An array to look for.

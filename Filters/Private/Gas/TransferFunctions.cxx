@@ -66,8 +66,7 @@ vtkSmartPointer<vtkUnsignedCharArray> usedValues(const Leaf& leaf)
   return used;
 }
 
-/// Returns the range of the finite values that `used`, if given, marks; low > high where there are
-/// none.
+/// Returns the range of finite values that `used`, if given, marks; low > high without any.
 std::array<double, 2> rangeOf(vtkDataArray* array, vtkUnsignedCharArray* used)
 {
   std::array<double, 2> range{ HUGE_VAL, -HUGE_VAL };

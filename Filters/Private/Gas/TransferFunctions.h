@@ -25,9 +25,8 @@ public:
   bool hasRange() const { return this->Low != this->High; }
   void setRange(double low, double high);
 
-  /// Interpolates linearly in a table of 2^14 intervals of length h. The error is at most h/4 of
-  /// the change of slope at a corner and h^2/8 of the second derivative; a jump takes one interval.
-  /// `x` is finite.
+  /// Interpolates a table of 2^14 intervals of length h. The error is at most h/4 of the change of
+  /// slope at a corner and h^2/8 of the second derivative; jumps take one interval. `x` is finite.
   double at(double x) const;
 
 private:

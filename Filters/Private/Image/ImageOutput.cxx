@@ -55,8 +55,7 @@ vtkSmartPointer<Array> newArray(
   return array;
 }
 
-/// Makes an array of two values for each pixel and, because ParaView's vectors have three, a 0
-/// along the light.
+/// Makes an array of two values for each pixel and a 0, as ParaView's vectors have three.
 vtkSmartPointer<vtkFloatArray> newVectors(
   const char* name, schlieren::PixelArray<float>& values, const char* unit)
 {
@@ -90,8 +89,7 @@ void addFieldValue(vtkImageData* output, const char* name, double value, const c
   setUnit(output->GetFieldData()->GetArray(name), unit);
 }
 
-/// Places an image in the plane z = 0. Resets the direction, which VTK copies from the input since
-/// 9.3.
+/// Places an image in the plane z = 0. Resets the direction, which VTK copies since 9.3.
 void place(vtkImageData* output, double x, double y, double spacing)
 {
   output->SetOrigin(x, y, 0);

@@ -52,9 +52,8 @@ std::string deviceInWords(const schlieren::Image& image)
   return "CPU (" + threads + ranks + ")";
 }
 
-/// Describes the path model and, for straight rays, the bound on the displacement that they
-/// neglect, unless it is too large to be useful. Omits MomentumDrift, which does not bound errors
-/// of direction.
+/// Describes the path model and, for straight rays, the bound on their displacement, if useful.
+/// Omits MomentumDrift, which does not bound errors of direction.
 std::string accuracyInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
   if (image.pathModel == schlieren::PathModel::Refracted)

@@ -17,8 +17,7 @@ namespace filters
 namespace
 {
 
-/// Defaults: depths of the data from a diverging source to their middle, and finite fringes across
-/// the image.
+/// Defaults: data depths from a diverging source to the data, and finite fringes in the image.
 constexpr double depthsToSource = 10;
 constexpr double fringesInImage = 10;
 

@@ -28,8 +28,7 @@ bool choosesK(const OpticsSettings& optics);
 double kOfOptics(const OpticsSettings& optics);
 double offsetOfOptics(const OpticsSettings& optics);
 
-/// Sets k and the cutoff's offset to those given or those of the optics, else leaves them to the
-/// tracer.
+/// Sets k and the cutoff's offset to those given or of the optics, or leaves them to the tracer.
 void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene);
 
 /// Returns the text of vtkSchlierenFilter::GetSensitivity for an image with this k, which may be
@@ -41,8 +40,7 @@ std::string kInWords(double k, bool isKept);
 
 schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schlieren::Frame& frame);
 
-/// Returns the spacing of finite fringes in data units: given, by the angle of the beams, or a
-/// tenth of the image.
+/// Returns the spacing of finite fringes, data units: given, by the beams, or a tenth of the image.
 double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame);
 
 } // namespace filters

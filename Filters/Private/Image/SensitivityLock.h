@@ -31,8 +31,7 @@ std::vector<double> settingsOfRays(const SchlierenSettings& settings);
 class SensitivityLock
 {
 public:
-  /// Returns the k for the next image; unset: it has to be found. Drops a k that is no longer
-  /// valid.
+  /// Drops a k that is not valid for the next image. Returns its k; unset: to be found.
   std::optional<double> For(int mode, const ImageCircumstances& now);
 
   /// Stores the k found for the last image requested.

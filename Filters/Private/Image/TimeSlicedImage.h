@@ -27,8 +27,7 @@ public:
     Difference ///< see PathDifference
   };
 
-  /// `seconds`: approximate limit for rays and light; 0: none. schlieren::Image::finished describes
-  /// an incomplete image.
+  /// `seconds`: approximate limit for rays and light, see schlieren::Image::finished; 0: none.
   schlieren::Image Begin(const schlieren::Field& field, const schlieren::Scene& scene, Paths paths,
     double seconds, const schlieren::Monitor& monitor);
   schlieren::Image Resume(double seconds, const schlieren::Monitor& monitor);
@@ -44,8 +43,7 @@ public:
   /// Returns a status in one line; see statusInWords().
   std::string GetStatus(const schlieren::Image& image) const;
 
-  /// Returns warnings about the rays, once for the same rays, and, once, that light is assumed to
-  /// leave a liquid.
+  /// Returns warnings, once for the same rays, and, once, that light is assumed to leave a liquid.
   std::vector<std::string> GetWarnings(const schlieren::Image& image);
 
 private:

@@ -113,8 +113,7 @@ void keepArrays(
   }
 }
 
-/// Removes the copies of other ranks' cells. vtkUnstructuredGrid::RemoveGhostCells would remove
-/// hidden ones, too.
+/// Removes copies of other ranks' cells, and keeps hidden ones, unlike RemoveGhostCells().
 vtkSmartPointer<vtkDataSet> withoutCopies(vtkUnstructuredGrid* mesh)
 {
   vtkUnsignedCharArray* ghosts = mesh->GetCellGhostArray();

@@ -85,8 +85,7 @@ struct Planes
 /// A point in front and the one behind it.
 using Pair = std::pair<vtkIdType, vtkIdType>;
 
-/// Returns the axis of structured data along which each pair of points changes sides; -1 if there
-/// is none.
+/// Returns the axis of structured data along which pairs of points change sides; -1: none.
 int axisAcross(const std::array<int, 3>& points, const Sides& sides)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -217,8 +216,7 @@ public:
     return this->Places[static_cast<std::size_t>(point)];
   }
 
-  /// Returns the corners of a cell's front face in order, valid until the next call; empty: it has
-  /// none.
+  /// Returns the ordered corners of a cell's front face, until the next call; empty: none.
   std::vector<vtkIdType>& front(vtkIdType cell)
   {
     this->Data->GetCellPoints(cell, this->Ids);

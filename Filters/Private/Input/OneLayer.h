@@ -12,16 +12,14 @@ namespace filters
 {
 
 /// Replaces a layer between two planes across a coordinate axis by flat data halfway between them,
-/// with the layer's depth unless one is given. Keeps other data, and layers whose point values
-/// differ between the planes. `like`: the source of other arrays of the same input, which decides;
-/// may be null.
+/// with its depth unless one is given. Keeps other data, and layers whose point values differ
+/// between the planes. `like`: the source of other arrays of the input, which decides; may be null.
 void flattenLayer(Source& source, const Source* like);
 
 /// A layer between two planes that meet in an axis.
 struct Wedge
 {
-  int axis,
-    across; // axes along the wedge, and nearest to the middle plane's normal
+  int axis, across; // along the wedge, and nearest to the normal of its middle plane
   double degrees;
 };
 

@@ -114,8 +114,7 @@ std::string nameOf(vtkDataArray* array, const Selection& selection)
     "instance with Cell Data to Point Data.");
 }
 
-/// Lists the datasets with all arrays, in the association of the first selection or else in the
-/// other.
+/// Lists the datasets with all arrays, in the association of the first selection or the other.
 std::vector<Leaf> leavesWith(
   const std::vector<Selection>& selections, const std::vector<vtkDataSet*>& dataSets)
 {

@@ -44,8 +44,7 @@ public:
   ExposureSteps(const ExposureSteps&) = delete;
   ExposureSteps& operator=(const ExposureSteps&) = delete;
 
-  /// Updates the inputs for the next step, with which the ranks begin again. Returns false without
-  /// one.
+  /// Updates the inputs for the next step; the ranks begin again. Returns false without one.
   bool Resume();
   /// Returns whether all ranks have the step.
   bool IsThere() const { return this->Problem.empty(); }

@@ -42,9 +42,8 @@ public:
   bool begin(vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted,
     const std::string& problem = "");
 
-  /// Sets, on all ranks after begin(), the inputs of this rank and the maker of a medium. `dataAt`:
-  /// returns this rank's data at an instant between time steps; may be empty, and may throw
-  /// std::runtime_error.
+  /// Sets, on all ranks after begin(), this rank's inputs and maker of a medium. `dataAt`: returns
+  /// its data at an instant between time steps, or throws std::runtime_error; may be empty.
   using DataAt = std::function<vtkSmartPointer<vtkDataObject>(int instant)>;
   void setOwn(MediumMaker& maker, vtkDataObject* data, vtkDataObject* bodies, DataAt dataAt = {});
   /// Clears what setOwn() has set, on all ranks before end().

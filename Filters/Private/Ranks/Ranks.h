@@ -25,8 +25,7 @@ bool isRank0();
 bool hasOtherRanks();
 
 /// Declares, in RequestData, outputs complete for their whole extents. Otherwise, ranks with empty
-/// outputs would run again, alone, at each update, and upstream filters that wait for other ranks
-/// would hang.
+/// outputs would update upstream filters alone, which would wait for other ranks forever.
 void setComplete(vtkInformationVector* outputs);
 
 /// Requests this rank's piece of all inputs, in RequestUpdateExtent.
@@ -63,8 +62,7 @@ private:
   vtkMultiProcessController* Controller; // null: no others
 };
 
-/// Converts the result or exception of `make` to bytes, and those of all ranks to results or an
-/// exception.
+/// Convert the result or exception of `make` to bytes, and those of all ranks back.
 Ranks::Bytes attempted(const std::function<Ranks::Bytes()>& make);
 std::vector<Ranks::Bytes> resultsOf(std::vector<Ranks::Bytes> attempts);
 
@@ -94,8 +92,7 @@ public:
     const std::vector<char>& message, const std::function<void()>& meanwhile) override;
   bool isAtWork() const { return this->IsAtWork; }
 
-  /// Answers requests on other ranks, including those for a RayWorker, until rank 0 ends. Returns
-  /// its outcome.
+  /// Answers requests on other ranks, also for a RayWorker, until rank 0 ends with an outcome.
   struct Outcome
   {
     bool hasMore, hasImage;

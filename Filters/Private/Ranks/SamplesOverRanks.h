@@ -39,8 +39,7 @@ public:
     CellTree::Content content{};
     std::vector<FieldRange> fields{};
   };
-  /// `number`: identifies the source on all ranks. `lattices`: known from earlier time steps; may
-  /// be null.
+  /// `number`: identifies the source on all ranks. `lattices`: of earlier time steps; may be null.
   SamplesOverRanks(const Ranks& ranks, std::uint64_t number, Facts facts,
     std::unique_ptr<const DataPiece> piece, std::shared_ptr<const GasBoundary> boundary,
     std::shared_ptr<LatticesOfMesh> lattices, int threads);

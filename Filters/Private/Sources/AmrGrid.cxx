@@ -28,7 +28,7 @@ std::optional<Amr> planAmr(
   amr.levels = std::move(found->levels);
   const Counts given = requireDimensions(samplingDimensions);
   const bool isGiven = std::find(given.begin(), given.end(), 0) == given.end();
-  // Not a finer level than fits, or than a grid that is given can show.
+  // Limits the level to those that fit into memory or that a given grid resolves.
   const auto cellsIn = [&](std::size_t level)
   {
     const AmrLevel& ofLevel = amr.levels[level];
@@ -85,7 +85,7 @@ std::optional<Amr> planAmr(
     bounds[2 * axis] = found->origin[axis];
     bounds[2 * axis + 1] = found->origin[axis] + all;
   }
-  box.within(bounds); // throws where there is nothing
+  box.within(bounds); // throws if empty
   return amr;
 }
 

@@ -17,11 +17,11 @@ namespace filters
 struct Amr
 {
   std::vector<AmrLevel> levels;
-  std::size_t used; // the level whose cells' centres become the grid
-  CellBox cells;    // of that level: what of it is wanted
+  std::size_t used; // level whose cell centres become the grid
+  CellBox cells;    // cells of that level in the grid
   std::array<int, 3> dimensions;
   std::array<double, 3> origin, spacing; // of the output
-  std::string note;                      // what the user should hear of the grid
+  std::string note;                      // about the grid, for the user
 };
 
 /// Nothing where the leaves are no such blocks: with point arrays, turned, or not on one lattice.

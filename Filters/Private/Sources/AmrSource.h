@@ -21,15 +21,15 @@ namespace filters
 class AmrSource : public schlieren::MediumSource
 {
 public:
-  /// `levels`: turned, where they are flat (see turnedAcrossZ). `bodies`: may be null.
+  /// `levels`: turned if flat (see turnedAcrossZ()). `bodies`: may be null.
   AmrSource(const AmrLevels& levels, const Source& source, vtkDataObject* bodies, Outside outside,
     Tally& tally, const WorkProgress& progress = WorkProgress());
 
-  /// One more field of the same blocks: `source` has its values in their cells, NaN where there is none.
+  /// Adds a field of the same blocks: `source` has its values in cells, NaN where there is none.
   void addField(const AmrLevels& levels, const Source& source);
 
   bool hasGas() const { return this->Refractivity.ownCells() > 0; }
-  /// Whether the bodies reach into the box of the gas.
+  /// Returns whether bodies meet the bounds of the gas.
   bool meetsBodies() const { return this->Boundary->hasBodiesIn(this->bounds()); }
 
   schlieren::Box bounds() const override { return this->Refractivity.bounds(); }

@@ -43,7 +43,7 @@ void DataPiece::Samples::Add(Samples other)
   }
 }
 
-// One bit for each point, and the values of those that are found alone: lattices reach far beyond the cells of a rank.
+// Writes a bit for each point and only values that were found: most lattice points are outside.
 void DataPiece::Samples::Put(std::vector<char>& message) const
 {
   const std::size_t size = this->found.size();

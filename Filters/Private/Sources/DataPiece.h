@@ -18,7 +18,7 @@ namespace filters
 
 class Reader;
 
-/// Whether two boxes have a point in common.
+/// Returns whether two boxes have a point in common.
 bool meet(const schlieren::Box& a, const schlieren::Box& b);
 
 /// What one rank has of data that are spread over several: the places that it answers for. Its functions may be called from
@@ -31,7 +31,7 @@ public:
   DataPiece& operator=(const DataPiece&) = delete;
   virtual ~DataPiece() = default;
 
-  /// Of all that it has.
+  /// Describes the whole piece.
   struct Summary
   {
     std::int64_t cells; ///< or points; 0: no gas
@@ -52,16 +52,16 @@ public:
     OfImage ///< see ImagePiece::putBoundary()
   };
   virtual void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const = 0;
-  /// Only the values there, where there is a meshKey().
+  /// Writes the values at the boundary alone, for pieces with a meshKey().
   virtual void putBoundaryValues(std::vector<char>&) const {}
 
-  /// Of what it has in a box; see CellTree::content().
+  /// Returns the content of a box; see CellTree::content().
   virtual CellTree::Content contentOf(const schlieren::Box& box) const = 0;
 
-  /// Whether there is gas of its own.
+  /// Returns whether the piece has gas of its own at a point.
   virtual bool holds(const Point& place) const = 0;
 
-  /// Further fields, and the range of one in a box; see MediumSource.
+  /// Return the number of further fields, and the range of one in a box; see MediumSource.
   virtual int fields() const { return 0; }
   virtual schlieren::MediumSource::FieldRange rangeOfField(
     int /*field*/, const schlieren::Box& /*box*/) const
@@ -77,11 +77,11 @@ public:
     std::vector<double> values;
     std::vector<double> fields{};
 
-    /// Of another piece: of points that both hold, these count.
+    /// Adds the samples of another piece; of points in both, these have priority.
     void Add(Samples other);
 
     void Put(std::vector<char>& message) const;
-    /// What Put() has written, of so many points and fields. Throws std::runtime_error where that is something else.
+    /// Reads what Put() has written for so many points and fields; else throws std::runtime_error.
     static Samples Get(Reader& message, std::size_t points, std::size_t fields);
   };
   virtual Samples sample(const schlieren::Lattice& lattice) const = 0;

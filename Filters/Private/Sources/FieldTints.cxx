@@ -45,10 +45,10 @@ void requireFields(const MediumSettings& medium)
       "ColorByField is on, but Fields is empty, so no field gives its colour. "
       "Name arrays in Fields, or switch ColorByField off.");
   }
-  fieldMeanFrom(medium); // whether its lists belong together
+  fieldMeanFrom(medium); // throws for lists of different lengths
 }
 
-/// Settings that find a single field, between 0 and 1, as if it were a refractivity. `ranges`: see forFieldImages().
+/// Returns settings of a field, 0 to 1, as a refractivity. `ranges`: see forFieldImages().
 MediumSettings settingsOfField(
   const MediumSettings& medium, std::size_t field, const std::vector<FieldMean::Range>& ranges)
 {
@@ -75,7 +75,7 @@ MediumSettings settingsOfField(
   return settings;
 }
 
-/// The source of a single field.
+/// Returns the source of a single field.
 Source sourceOfField(
   const MediumSettings& settings, vtkDataObject* input, const Source* like = nullptr)
 {
@@ -96,7 +96,7 @@ bool isSameGrid(const schlieren::Grid& a, const schlieren::Grid& b)
   return isSame;
 }
 
-/// The values and the mask of `image`, interpolated linearly where `grid` has its points.
+/// Interpolates values and mask of `image` linearly at the points of `grid`.
 void probe(vtkImageData* image, vtkImageData* grid)
 {
   vtkNew<vtkImageData> points;
@@ -121,7 +121,7 @@ void probe(vtkImageData* image, vtkImageData* grid)
   image->ShallowCopy(prober->GetOutput());
 }
 
-/// forFieldImages() of other data.
+/// Does forFieldImages() for data other than images.
 void forSampledFields(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
   int threads, const std::function<void(std::size_t, vtkImageData*)>& take)
 {
@@ -200,7 +200,7 @@ std::vector<FieldValues> fieldValues(const MediumSettings& medium, vtkDataObject
       {
         throw;
       }
-      field.source.model = modelFrom(settings); // another part has it
+      field.source.model = modelFrom(settings); // a block of another rank has it
     }
     if (!ranges.empty())
     {
@@ -284,7 +284,7 @@ std::vector<float> fieldGradients(
   const schlieren::Grid grid = gridFrom(refractivity);
   const std::size_t count = maker.settings.Fields.size();
   const auto points = static_cast<std::size_t>(refractivity->GetNumberOfPoints());
-  // And of one field at a time: numbers of an array, the field's own, and a mask; or of all of them.
+  // Counts, for a field at a time, an array's values, the field's and a mask; or all results.
   constexpr std::size_t bytesOfField = sizeof(double) + sizeof(float) + 1;
   requireMemory(static_cast<double>(points * (2 * count * sizeof(float) + bytesOfField)),
     "The fields that color the image, on a grid of " + std::to_string(points) + " points,",

@@ -26,21 +26,20 @@ class MediumMaker;
 /// makes of it, where the medium is made with these; else its place in its range. A user's mistake is thrown as
 /// std::runtime_error with a message for the user.
 
-/// One of the fields, as if it were a refractivity.
+/// A field in the form of a refractivity.
 struct FieldValues
 {
-  filters::Source
-    source; // with the leaves of the medium, in their order; NaN where a leaf does not have the field
-  std::vector<vtkSmartPointer<vtkDataArray>> made; // those of its arrays that are not the input's
+  filters::Source source; // leaves in the order of the medium's; NaN where a leaf lacks the field
+  std::vector<vtkSmartPointer<vtkDataArray>> made; // arrays that are not the input's
 };
 
-/// Of a field in a part of the data.
+/// The range of a field in the data of a rank.
 struct RangeOfField
 {
-  FieldMean::Range range; // low > high: it has no values
-  std::string lacks;      // what to say where no part has the field; empty: this one has
+  FieldMean::Range range; // low > high: no values
+  std::string lacks;      // message if no rank has the field; empty: this one has
 };
-/// Of the fields of `medium`.
+/// Finds the ranges of the fields of `medium`.
 std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataObject* input);
 
 /// The fields of `medium`, which takes `ofMedium` from `input`. `ranges`: of all parts of the data, of which this may not have
@@ -48,7 +47,7 @@ std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataOb
 std::vector<FieldValues> fieldValues(const MediumSettings& medium, vtkDataObject* input,
   const filters::Source& ofMedium, const std::vector<FieldMean::Range>& ranges = {});
 
-/// Makes values at points those of cells: their mean.
+/// Averages point values over cells.
 void bringToCells(FieldValues& field);
 
 /// Calls take(number, image) for each field with its values, as if they were a refractivity, on the grid of

@@ -26,19 +26,19 @@ namespace filters
 namespace
 {
 
-/// Layers of a lattice that are sampled at a time: the same ones whatever the number of threads, as a source may depend on them.
+/// Layers of a lattice sampled at once, a constant, because samples may depend on the lattice.
 constexpr int layersAtATime = 8;
 
-/// The points of a grid as a lattice of a source, and where in the grid each of its axes goes.
+/// Maps the points of a grid to a lattice of a source, axis by axis.
 struct LatticeOfGrid
 {
   schlieren::Lattice lattice;
   std::array<vtkIdType, 3>
-    strides{};         ///< in the grid, from a point of the lattice to the next one along each axis
-  vtkIdType first = 0; ///< in the grid, of the lattice's first point
-  int copies = 1;      ///< layers of the grid that one of the lattice stands for
+    strides{};         ///< of the grid, between neighbours of the lattice along each axis
+  vtkIdType first = 0; ///< grid index of the lattice's first point
+  int copies = 1;      ///< grid layers for each layer of the lattice
   vtkIdType copyStride = 0;
-  std::size_t slow = 2; ///< the axis across which it is worked off
+  std::size_t slow = 2; ///< axis across which it is divided into chunks
 
   LatticeOfGrid(const schlieren::MediumSource& source, vtkImageData* image)
   {
@@ -55,7 +55,7 @@ struct LatticeOfGrid
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      // The grid's axis in those of the source: along one of them, but for rounding.
+      // Finds the axis of the source along the grid's axis, within rounding.
       std::array<double, 3> along{};
       for (std::size_t own = 0; own < 3; ++own)
       {
@@ -92,7 +92,7 @@ struct LatticeOfGrid
     }
   }
 
-  /// Calls work(part of the lattice, function from its points to those of the grid) for all parts, from several threads.
+  /// Calls work(sublattice, map from its points to the grid's) for all chunks, in several threads.
   template <class Work>
   void forChunks(const WorkProgress& progress, const Work& work) const
   {
@@ -118,7 +118,7 @@ struct LatticeOfGrid
     }
   }
 
-  /// Calls set(point of the part, point of the grid) for all of them.
+  /// Calls set(point of the chunk, point of the grid) for all of them.
   template <class Set>
   void forPoints(const schlieren::Lattice& part, vtkIdType begin, const Set& set) const
   {
@@ -141,7 +141,7 @@ struct LatticeOfGrid
   }
 };
 
-/// Where the walls of a source are in a grid: in and on bodies, and within the reach of a voxel of walls that have no inside.
+/// Finds a grid's wall points: in and on bodies, and within a voxel's reach of open walls.
 class WallsOfGrid
 {
 public:
@@ -153,7 +153,7 @@ public:
   {
   }
 
-  /// `point`: of the grid; `distances` as the source has given them, of the same lattice.
+  /// Sets a grid point. `distances`: those of the source on the same lattice.
   void set(vtkIdType point, schlieren::Place place, const schlieren::Lattice& lattice,
     std::size_t ofLattice, const std::vector<float>& distances)
   {
@@ -185,12 +185,12 @@ private:
     Beside = 1,
     On = 2
   };
-  static constexpr float rounding = 1e-3f; // of surfaces that go through points of the grid
+  static constexpr float rounding = 1e-3f; // for surfaces through points of the grid
   /// From the middle of a voxel to its corner: no step to a neighbour, diagonal ones included, goes through a wall between
   /// points that are farther from it.
   static constexpr float reachOfVoxel = 0.8661f;
 
-  /// Whether it is not the end of the data that is near.
+  /// Returns whether the near boundary is not the end of the data.
   bool isWithin(const schlieren::Lattice& lattice, std::size_t point) const
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -208,7 +208,7 @@ private:
     return true;
   }
 
-  /// Whether there are walls and windows next to a point.
+  /// Returns whether there are walls and windows next to a point.
   std::array<bool, 2> neighboursOf(vtkIdType point) const
   {
     int n[3];
@@ -235,7 +235,7 @@ private:
   schlieren::Box Bounds;
   vtkImageData* Grid;
   std::vector<schlieren::Place> Places; // of each point
-  std::vector<unsigned char> Near;      // likewise, of gas near to where it ends
+  std::vector<unsigned char> Near;      // of each point: gas near its boundary
 };
 
 /// Samples a source at the points of a grid: calls set(point, refractivity, place) for all of them, from several threads.

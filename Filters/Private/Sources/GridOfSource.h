@@ -23,7 +23,7 @@ namespace filters
 void fillGrid(const schlieren::MediumSource& source, Numbers numbers, bool thinSurfaces,
   const WorkProgress& progress, vtkImageData* grid);
 
-/// The values of the source's fields at the grid's points, field after field; NaN where a field has none.
+/// Samples the source's fields at the grid's points, field after field; NaN: no value.
 std::vector<float> fieldsAtGrid(
   const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* grid);
 

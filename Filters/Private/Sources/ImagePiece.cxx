@@ -30,10 +30,10 @@ namespace
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The spline has more detail than voxels of the image's spacing show, as in AmrSource.
+/// Cell size in spacings: the spline has more detail than voxels of one spacing, as in AmrSource.
 constexpr double cellBySpacing = 0.5;
 
-/// Of an index: so that no place is missed that is half of the way between two ranks' points.
+/// Tolerance of indices, so that points halfway between two ranks are not missed.
 constexpr double rounding = 1e-6;
 
 schlieren::Place kindAt(const schlieren::Field& field, std::size_t point)
@@ -47,7 +47,7 @@ schlieren::Place kindAt(const schlieren::Field& field, std::size_t point)
                                                             : schlieren::Place::Wall;
 }
 
-/// A place in the axes that `direction` leads from.
+/// Transforms a point to the axes that `direction` leads from.
 Point turnedBack(const double* place, const std::array<double, 9>& direction)
 {
   Point result;
@@ -122,7 +122,7 @@ ImagePiece::ImagePiece(
   refractivity->GetExtent(extent);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    // From the image's origin, which all pieces have to the last bit.
+    // Computes from the image's origin, which is equal on all ranks to the last bit.
     this->Origin[axis] = origin[axis] + extents.whole[2 * axis] * this->Spacing[axis];
     this->Whole[axis] = extents.whole[2 * axis + 1] + 1 - extents.whole[2 * axis];
     this->First[axis] = extent[2 * axis] - extents.whole[2 * axis];
@@ -191,7 +191,7 @@ ImagePiece::ImagePiece(
     std::make_unique<const ImageSpline>(field, this->IsKnown, this->Points, this->First, threads));
 }
 
-/// Of each point, whether the field has a value there.
+/// Returns whether the field has a value at each point.
 std::vector<unsigned char> ImagePiece::knownOf(const schlieren::Field& field) const
 {
   std::vector<unsigned char> isKnown(volume(this->Points), 1);
@@ -219,7 +219,7 @@ schlieren::Box ImagePiece::bounds() const
   schlieren::Box box{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    // Of its own points, and half of the way to those of others.
+    // Extends to its own points and halfway to those of others.
     const int first = this->First[axis] + this->Own.begin[axis];
     const int last = this->First[axis] + this->Own.end[axis] - 1;
     const double low = first > 0 ? first - 0.5 : 0;
@@ -281,7 +281,7 @@ BoundaryFaces ImagePiece::faces() const
     Extent::Volume);
   if (!this->Kinds.empty())
   {
-    // Those that have all of their neighbours here.
+    // Selects the points whose neighbours are all in the piece.
     CellBox inner = this->Own;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -426,7 +426,7 @@ CellTree::Content ImagePiece::contentOf(const schlieren::Box& box) const
 
 bool ImagePiece::holds(const Point& place) const
 {
-  // Half of the way to others' points, where they are the nearest ones, both may have it.
+  // Accepts points halfway to other ranks' in both pieces.
   const Counts nearest = this->nearestPoint(place);
   bool isOwn = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -438,7 +438,7 @@ bool ImagePiece::holds(const Point& place) const
 
 DataPiece::Samples ImagePiece::sample(const schlieren::Lattice& lattice) const
 {
-  // The part of the lattice that is nearest to its own points.
+  // Selects the points of the lattice that are nearest to its own points.
   schlieren::Lattice part = lattice;
   Counts begin{};
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -38,22 +38,22 @@ class ImagePiece : public DataPiece
 public:
   static constexpr int layers = 12;
 
-  /// Where a piece is in a whole image; indices of VTK, both ends included.
+  /// The extents of a piece and of the whole image; inclusive, as VTK's.
   struct Extents
   {
     using Extent = std::array<int, 6>;
     Extent whole;
-    Extent own; // without others' points
+    Extent own; // without points of other ranks
   };
 
   /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: in the image's own axes, see
   /// turnedBack(); may be null. Throws std::runtime_error where they are no surfaces.
   ImagePiece(
     vtkImageData* refractivity, const Extents& extents, vtkDataObject* bodies, int threads);
-  /// All of an image.
+  /// Makes a piece of a whole image.
   ImagePiece(vtkImageData* refractivity, vtkDataObject* bodies, int threads);
 
-  /// One more field at the same points, as if it were a refractivity. It gets the next number, from 1 on.
+  /// Adds a field at the same points, with the next number, from 1 on.
   void addField(vtkImageData* values, int threads);
   int fields() const override { return static_cast<int>(this->Splines.size()) - 1; }
 
@@ -68,18 +68,18 @@ public:
     std::int64_t point; // in the whole image
     double value;
   };
-  /// N of the gas around the flow: the median over the faces, of each point once. NaN: there are none.
+  /// Returns the ambient N, the median over the faces with each point once. NaN: no points.
   static double ambientOf(std::vector<OuterValue> values);
-  /// The same of a piece that is all of an image; where nothing is known on its faces, of all points.
+  /// Returns the ambient N of a whole image: over all points if none on the faces is known.
   double ambient() const;
 
-  /// The faces around its own points without gas.
+  /// Returns the faces around its own points without gas.
   BoundaryFaces faces() const;
 
   bool isGasAt(const Point& place) const;
-  /// Of field 0, which is N, or another one.
+  /// Returns the range of field 0, which is N, or of another one.
   ImageSpline::Range rangeOf(std::size_t field, const schlieren::Box& box) const;
-  /// At all points of a lattice, those that this piece does not hold, too. `hasGas`: whether there is gas; may be null.
+  /// Samples all points of a lattice, also those of other pieces. `hasGas`: may be null.
   void sample(std::size_t field, const schlieren::Lattice& lattice, double* values,
     unsigned char* hasGas) const;
 
@@ -99,24 +99,24 @@ public:
 
 private:
   std::vector<unsigned char> knownOf(const schlieren::Field& field) const;
-  /// Of the places of the whole image the nearest one; from its first point on.
+  /// Returns the index of the nearest point of the whole image, from its first one.
   double indexAt(double place, std::size_t axis) const;
-  double indexWithin(double place, std::size_t axis) const; // of the points that it has
+  double indexWithin(double place, std::size_t axis) const; // clamped to the points that it has
   Counts nearestPoint(const Point& place) const;
   schlieren::Place kindOf(const Counts& point) const;
   CellBox all() const { return { { 0, 0, 0 }, this->Points }; }
 
-  Counts Points;                         // of the refractivity that it has
-  Counts First;                          // the first of these, in the whole image
-  Counts Whole;                          // points of the whole image
-  CellBox Own;                           // points of its own, of those that it has
+  Counts Points;                         // of the refractivity, with other ranks' points
+  Counts First;                          // of Points, in the whole image
+  Counts Whole;                          // of the whole image
+  CellBox Own;                           // its own among Points
   std::array<double, 3> Origin, Spacing; // of the whole image
   std::array<double, 9> Direction;
-  std::vector<schlieren::Place> Kinds; // of each point in the data; empty: all gas
-  std::vector<unsigned char> IsKnown;  // of each point: gas, and in no body
+  std::vector<schlieren::Place> Kinds; // of each point; empty: all gas
+  std::vector<unsigned char> IsKnown;  // of each point: gas outside of bodies
   std::int64_t KnownPoints = 0;        // of its own
   std::vector<OuterValue> Outer;
-  double Median; // of all known points, where there is no outer value
+  double Median; // of all known points, if there is no outer value
   std::vector<std::unique_ptr<const ImageSpline>> Splines;
 };
 

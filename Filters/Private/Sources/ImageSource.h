@@ -29,11 +29,11 @@ public:
   ImageSource(vtkImageData* refractivity, vtkDataObject* bodies, int threads,
     const WorkProgress& progress = WorkProgress());
 
-  /// One more field at the same points, as if it were a refractivity.
+  /// Adds a field at the same points, in the form of a refractivity.
   void addField(vtkImageData* values, int threads) { this->Piece.addField(values, threads); }
 
   bool hasGas() const { return this->Piece.hasGas(); }
-  /// Whether the bodies reach into the image.
+  /// Returns whether bodies meet the image.
   bool meetsBodies() const { return this->Boundary->hasBodiesIn(this->bounds()); }
 
   schlieren::Box bounds() const override { return this->Piece.bounds(); }
@@ -50,7 +50,7 @@ public:
     schlieren::Place* places, float* distances, double* values) const override;
 
 private:
-  vtkSmartPointer<vtkDataObject> Bodies; // in the image's axes; null once the rest is made
+  vtkSmartPointer<vtkDataObject> Bodies; // in the image's axes; null after the first use
   ImagePiece Piece;
   double Ambient;
   std::shared_ptr<const GasBoundary> Boundary;

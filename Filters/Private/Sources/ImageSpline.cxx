@@ -17,10 +17,10 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Points along each edge of blocks whose ranges are known.
+/// Points along each edge of the blocks whose ranges are stored.
 constexpr int blockEdge = 8;
 
-/// Of a quadratic B-spline (Unser, Aldroubi & Eden 1993): the first of three coefficients, and their weights.
+/// The weights of a quadratic B-spline (Unser, Aldroubi & Eden 1993), and its first coefficient.
 struct Taps
 {
   int first;
@@ -107,7 +107,7 @@ void ImageSpline::sample(const std::array<std::vector<double>, 3>& places, doubl
       taps[axis].emplace_back(place, static_cast<int>(this->Coefficients.dimensions[axis]));
     }
   }
-  // Row by row: along y and z first, so that the rest is along one line.
+  // Interpolates along y and z first, row by row, then along x.
   const int first = taps[0].front().first;
   std::vector<double> row(static_cast<std::size_t>(taps[0].back().first + 3 - first));
   for (const Taps& z : taps[2])
@@ -140,7 +140,7 @@ ImageSpline::Range ImageSpline::rangeIn(const Counts& begin, const Counts& last)
   Counts first = begin, end = last;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    // One more on each side has a part in the spline.
+    // Adds a point on each side, which affects the spline.
     first[axis] = std::max(0, begin[axis] - 1);
     end[axis] = std::min(static_cast<int>(this->Coefficients.dimensions[axis]) - 1, last[axis] + 1);
   }

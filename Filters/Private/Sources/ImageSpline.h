@@ -23,7 +23,7 @@ public:
   ImageSpline(const schlieren::Field& field, const std::vector<unsigned char>& isKnown,
     const Counts& points, const Counts& first, int threads);
 
-  /// At lattice points; `places`: their index coordinates along each axis, within the image.
+  /// Samples lattice points. `places`: their index coordinates along each axis, in the image.
   void sample(const std::array<std::vector<double>, 3>& places, double* values) const;
   /// Of the values around points from `begin` to `last`: at least of those that have a part in what is between them, at
   /// most of the blocks of points of the larger image, in which these are.
@@ -32,14 +32,14 @@ public:
 private:
   Counts blockOf(const Counts& point) const;
 
-  double Offset; // near all values, so that single precision is enough for what differs
+  double Offset; // near all values, so that single precision suffices for differences
   schlieren::PaddedVolume<float> Coefficients;
-  // Of blocks of values, aligned in the larger image.
+  // Blocks of values, aligned in the whole image.
   Counts First, Blocks;
   std::vector<Range> Ranges;
 };
 
-/// A value of a field.
+/// Returns the value of a field at a point.
 inline double valueAt(const schlieren::Field& field, std::size_t point)
 {
   return field.offset +

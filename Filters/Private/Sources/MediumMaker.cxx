@@ -45,7 +45,7 @@ namespace
 
 bool isZero(int count) { return count == 0; }
 
-/// Throws where the arrays of a grid do not fit into memory, with what making them takes for each of its points.
+/// Throws if memory does not suffice for a grid's arrays and their computation.
 void requireMemoryFor(
   vtkImageData* grid, bool isDouble, std::size_t bytesToMake, const std::string& remedy)
 {
@@ -62,14 +62,14 @@ const char* const fewerPoints =
   "Give smaller SamplingDimensions (zeros: chosen from the data), or SamplingBounds of a part of "
   "the data.";
 
-/// The coordinate axis across the plane of the data; -1: there is none.
+/// Returns the coordinate axis across the plane of the data; -1: there is none.
 int planeOf(const Source& source)
 {
   return source.image && !source.image->GetDirectionMatrix()->IsIdentity() ? -1
                                                                            : flatAxisOf(source);
 }
 
-/// What to say of 3-D data that are a wedge; else empty.
+/// Returns a note on 3-D data that are a wedge; else empty.
 std::string noteOnWedge(const Source& source)
 {
   const std::optional<Wedge> wedge = findWedge(source, source.choice.settings.symmetryOrigin());
@@ -353,17 +353,17 @@ std::string MediumMaker::convert(
 //------------------------------------------------------------------------------
 bool MediumMaker::canMakeSource(vtkDataObject* input, vtkDataObject* bodies, bool imagesToo)
 {
-  // Whether cells are one layer is of no effect here but in images, of which it is found at once, and with Symmetry.
+  // Flattens single layers only in images, where that is fast, and with Symmetry.
   static const Source asTheyAre;
   const bool matters =
     this->settings.isAxisymmetric() || vtkImageData::SafeDownCast(input) != nullptr;
   const Source source = this->choose(input, matters ? nullptr : &asTheyAre);
   if (this->settings.isAxisymmetric())
   {
-    revolutionOf(source); // throws where it is none
+    revolutionOf(source); // throws if there is none
     return !this->wantsGrid();
   }
-  const int flat = flatAxisOf(source); // throws where there is no volume and no plane
+  const int flat = flatAxisOf(source); // throws without volume and plane
   if (this->wantsGrid() || source.image)
   {
     return flat < 0 && (bodies || (imagesToo && !this->wantsGrid()));
@@ -377,7 +377,7 @@ bool MediumMaker::canUsePieces() const
   const int* given = this->settings.SamplingDimensions;
   return std::all_of(given, given + 3, isZero) &&
     !SamplingBox::isWanted(this->settings.SamplingBounds) &&
-    !this->settings.isAxisymmetric(); // a plane is small
+    !this->settings.isAxisymmetric(); // planes are small
 }
 
 //------------------------------------------------------------------------------

@@ -31,10 +31,10 @@ class MediumSource;
 namespace filters
 {
 
-/// What is kept of a mesh for the next one. Several makers can have one together.
+/// State of a mesh that is kept for the next one, and may be shared by several makers.
 struct KeptMesh
 {
-  std::optional<std::uint64_t> key; // unset: there is none
+  std::optional<std::uint64_t> key; // unset: none
   SourceMesh mesh;
   vtkTypeInt64 builds = 0;
 
@@ -50,17 +50,17 @@ struct KeptMesh
 class VTKSCHLIERENFILTERS_EXPORT MediumMaker
 {
 public:
-  /// `progress`: hears of all work.
+  /// `progress`: reports all work.
   explicit MediumMaker(Progress progress = {});
 
-  /// Of the next data.
+  /// Settings for the next data.
   MediumSettings settings;
-  /// 0: VTK_SMP_MAX_THREADS where that is set, else the cores that this process may use. Nothing depends on it.
+  /// 0: VTK_SMP_MAX_THREADS if set, else the process's cores. Results do not depend on it.
   int numberOfThreads = 0;
 
-  /// The arrays of the last data, of which those are chosen that are not given.
+  /// Returns the arrays of the last data, among which defaults are chosen.
   KnownArrays& known() const { return *this->Known; }
-  /// The settings with nothing left open: for the last data, or for others.
+  /// Returns the completed settings for the last data, or for others.
   MediumChoice choice() const;
   MediumChoice choiceFor(vtkDataObject* input);
   int threads() const;
@@ -68,11 +68,11 @@ public:
 
   /// Makes `structure` the grid (extent, origin, spacing, direction; no arrays) that convert() would fill.
   void computeGrid(vtkDataObject* input, vtkImageData* structure);
-  /// The same with two points along each axis, for data that canMakeSource(): their box.
+  /// Makes `structure` the bounds, two points along each axis, of data that canMakeSource().
   void computeBox(vtkDataObject* input, vtkImageData* structure);
-  /// The coordinate axis across the plane of the last data; -1: they are in no plane.
+  /// Returns the coordinate axis across the plane of the last data; -1: no plane.
   int flatAxis() const { return this->FlatAxis; }
-  /// Whether data are an image, whose grid is kept.
+  /// Returns whether data are an image, whose grid is kept.
   bool keepsGrid(vtkDataObject* input);
   /// Whether the values of an image belong to its cells: as the user chose, unless its data, where they are there already, say
   /// otherwise.
@@ -83,16 +83,16 @@ public:
   /// Returns what the user should be warned of, mostly nothing.
   std::string convert(
     vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies, Numbers numbers);
-  /// The grid of the last convert() in words, with how it was chosen; empty before the first and after others.
+  /// Returns a text about the grid of the last convert(); empty before the first and after others.
   const std::string& grid() const { return this->Grid; }
-  /// How often a grid was chosen for data, images apart: once for each and its settings.
+  /// Counts grids chosen for data other than images, once for each and its settings.
   vtkTypeInt64 gridPlans() const { return this->Plan.count; }
 
   /// Whether data are for makeSource(). What else there is becomes a grid by convert(): images without bodies (unless
   /// `imagesToo`), flat ones, and where SamplingDimensions or SamplingBounds are given.
   bool canMakeSource(vtkDataObject* input, vtkDataObject* bodies, bool imagesToo);
 
-  /// Whether the settings are for data that stay on several ranks: see InputsOfRanks.
+  /// Returns whether the settings allow data on several ranks: see InputsOfRanks.
   bool canUsePieces() const;
 
   /// The refractivity for the tracer, which queries it as finely as a view needs. `withFields`: it has Fields, too; see
@@ -103,13 +103,13 @@ public:
   /// and Reconstruction are the same; that is found from the data themselves, not from their times.
   std::shared_ptr<const schlieren::MediumSource> makeSource(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields = false);
-  /// The same of data whose grid is not kept, whatever grid is wanted.
+  /// Makes the source of data whose grid is not kept, whatever grid the settings have.
   std::shared_ptr<const schlieren::MediumSource> makeSourceOfCells(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields = false);
 
   std::shared_ptr<KeptMesh> mesh() const { return this->Mesh; }
   void setMesh(std::shared_ptr<KeptMesh> mesh) { this->Mesh = std::move(mesh); }
-  /// Forgets what is kept of the last data, for a medium that is made elsewhere.
+  /// Drops the state of the last data, for a medium that is made elsewhere.
   void forgetLast();
 
   /// What to warn of for a medium of `source` with these values; `bodiesMissed`: bodies are given, but none is in the data. Notes
@@ -117,13 +117,13 @@ public:
   std::string warningOf(const Source& source, const Tally& tally, bool bodiesMissed);
 
 private:
-  /// The grid of data that are not one image, chosen anew only where something has changed.
+  /// The grid for data that are not one image, chosen again after changes only.
   struct GridPlan
   {
-    std::vector<double> input; // empty: not chosen yet
+    std::vector<double> input; // empty: none yet
     MediumSettings settings;
     std::optional<Amr> amr;
-    Resampling resampling; // where it is no Amr
+    Resampling resampling; // unless it is Amr
     vtkTypeInt64 count = 0;
   };
   const GridPlan& planGrid(const Source& source, vtkDataObject* input);
@@ -157,10 +157,10 @@ private:
   std::string Grid;
   int FlatAxis = -1;
   std::string ToldOfGases,
-    ToldOfValues; // the last notes: they are not repeated for every time step
+    ToldOfValues; // the last notes, not repeated for every time step
 };
 
-/// Most builds of ParaView run VTK's threaded loops on one core by default, and else on all of the machine.
+/// Configures VTK's loops, which use one core or all of them in most builds of ParaView.
 vtkSMPTools::Config loopsWith(int threads);
 
 /// Appends a sentence.

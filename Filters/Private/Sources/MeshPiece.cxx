@@ -17,7 +17,7 @@ namespace filters
 namespace
 {
 
-/// That of another piece where it is the same.
+/// Reuses the mesh of another piece if it is equal.
 std::shared_ptr<PieceMesh> meshOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
   CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept)
 {
@@ -56,7 +56,7 @@ DataPiece::Summary MeshPiece::summary() const
     this->Cells.content(this->Cells.bounds()) };
 }
 
-/// Its contributions are kept.
+/// Finds the faces, and keeps their contributions.
 Faces MeshPiece::findFaces() const
 {
   Faces faces = facesOf(pointersTo(this->Leaves), WorkProgress(), Copies::Neighbours);

@@ -28,7 +28,7 @@ struct PieceMesh
 {
   std::uint64_t key; // see DataPiece::meshKey()
   std::shared_ptr<const CellTree::Mesh> cells;
-  // Of the values at the boundary's points, see Faces; empty: as yet nobody has wanted the boundary.
+  // Contributions to boundary values, see Faces; empty: not computed.
   std::vector<std::size_t> firstContributions;
   std::vector<Contribution> contributions;
 };
@@ -45,7 +45,7 @@ public:
     std::vector<std::uint32_t> datasets = {});
   std::shared_ptr<PieceMesh> mesh() const { return this->Mesh; }
 
-  /// One more field of its cells; see FieldsOfMesh.
+  /// Adds a field of its cells; see FieldsOfMesh.
   void addField(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
   {
     this->Fields.add(leaves, this->Cells.mesh());
@@ -53,7 +53,7 @@ public:
 
   Summary summary() const override;
   std::uint64_t meshKey() const override { return this->Mesh->key; }
-  /// Some cells' sizes, the faces of its own cells, and N at their points.
+  /// Writes some cells' sizes, the faces of its own cells, and N at their points.
   void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const override;
   void putBoundaryValues(std::vector<char>& message) const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;

@@ -17,7 +17,7 @@ namespace filters
 namespace
 {
 
-/// Whether a cell holds a place.
+/// Returns whether a cell contains a point.
 bool holds(const CellSampler& cells, const Point& place)
 {
   double value = 0;

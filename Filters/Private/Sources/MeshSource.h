@@ -30,16 +30,16 @@ struct SourceMesh
 {
   std::shared_ptr<const CellTree::Mesh> cells;
   std::shared_ptr<const GasBoundary> boundary;
-  std::shared_ptr<LatticesOfMesh> lattices; // null: as yet there has been one step only
+  std::shared_ptr<LatticesOfMesh> lattices; // null in the first time step
 };
 
 std::vector<vtkDataSet*> pointersTo(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
 
-/// Of visible cells; and, where not all are, of all points: hidden cells are bodies also where the mesh ends.
+/// Returns the bounds of visible cells; with hidden cells, which are bodies, those of all points.
 schlieren::Box boundsOf(
   const CellTree& cells, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
 
-/// The refractivity of meshes, box by box, for the tracer.
+/// The refractivity of meshes, for bricks of the tracer.
 class MeshSource : public schlieren::MediumSource
 {
 public:
@@ -49,25 +49,25 @@ public:
     Outside outside, CellTree::Reconstruction reconstruction, const WorkProgress& progress,
     int flatAxis = -1);
 
-  /// Of other values on the same mesh: see keyOf().
+  /// Makes the source of other values on the same mesh: see keyOf().
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, const SourceMesh& mesh,
     const WorkProgress& progress, int flatAxis = -1);
   SourceMesh mesh() const { return { this->Cells.mesh(), this->Boundary, this->Lattices }; }
 
-  /// Whether walls without thickness, which are known by values, are the same with the values of these leaves.
+  /// Returns whether sheets, which are found by values, are equal for the values of these leaves.
   static bool hasSameSheets(
     const SourceMesh& mesh, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
 
-  /// A hash of all that the mesh of a source depends on, but those sheets.
+  /// Hashes what the mesh of a source depends on, except sheets.
   static std::uint64_t keyOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     vtkDataObject* bodies, Outside outside, CellTree::Reconstruction reconstruction);
 
-  /// One more field: `leaves` as those of the constructor, with the field at their points; NaN where it has no value.
+  /// Adds a field: `leaves` as in the constructor, with the field at their points; NaN: no value.
   void addField(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     const WorkProgress& progress = WorkProgress());
 
   bool hasGas() const { return this->Cells.size() > 0; }
-  /// Whether the bodies reach into the box of the gas.
+  /// Returns whether bodies meet the bounds of the gas.
   bool meetsBodies() const;
 
   schlieren::Box bounds() const override;
@@ -82,7 +82,7 @@ public:
     this->sampleWithFields(lattice, refractivity, places, distances, nullptr);
   }
 
-  bool dependsOnLattice() const override { return true; } // by rounding
+  bool dependsOnLattice() const override { return true; } // within rounding
   int fields() const override { return this->Fields.count(); }
   FieldRange rangeOfField(int field, const schlieren::Box& box) const override
   {
@@ -98,7 +98,7 @@ private:
   std::shared_ptr<const GasBoundary> Boundary;
   std::shared_ptr<LatticesOfMesh> Lattices;
   int FlatAxis;
-  double Ambient; // NaN: there is no boundary
+  double Ambient; // NaN: no boundary
   schlieren::Box Bounds;
 
   FieldsOfMesh Fields;

@@ -33,7 +33,7 @@ vtkSmartPointer<vtkDataSet> withoutArrays(vtkDataSet* data)
   return copy;
 }
 
-/// A leaf that holds nothing but N at its points (NaN where invalid) or in its cells, its other cells hidden.
+/// Makes a leaf of N alone, at points (NaN: invalid) or in cells, with other cells hidden.
 vtkSmartPointer<vtkDataSet> withValues(
   const Leaf& leaf, int dimension, const Model& model, Tally& tally)
 {
@@ -52,7 +52,7 @@ vtkSmartPointer<vtkDataSet> withValues(
     });
 
   auto prepared = withoutArrays(data);
-  // What the shape of curved cells depends on.
+  // Copies the weights of curved cells.
   prepared->GetPointData()->SetRationalWeights(data->GetPointData()->GetRationalWeights());
   prepared->GetCellData()->SetHigherOrderDegrees(data->GetCellData()->GetHigherOrderDegrees());
   if (leaf.ofCells)
@@ -60,7 +60,7 @@ vtkSmartPointer<vtkDataSet> withValues(
     const auto ofCells = convert<vtkDoubleArray>(leaf.arrays, model, valid, 0, tally);
     ofCells->SetName(arrayName);
     prepared->GetCellData()->SetScalars(ofCells);
-    vtkNew<vtkDoubleArray> ofPoints; // as yet without values
+    vtkNew<vtkDoubleArray> ofPoints; // values follow
     ofPoints->SetName(arrayName);
     setTuples(ofPoints, data->GetNumberOfPoints());
     ofPoints->Fill(0);
@@ -125,7 +125,7 @@ std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, Ce
     for (std::size_t i = 0; i < others.size(); ++i)
     {
       kinds.resize(leaves.size());
-      // What stands for an array that is missing has no name.
+      // Recognizes replacements of missing arrays, which have no name.
       kinds.back().push_back(others[i]->leaves[number].arrays[0]->GetName() != nullptr);
     }
   }

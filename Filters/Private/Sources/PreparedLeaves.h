@@ -15,14 +15,14 @@ class vtkDataSet;
 namespace filters
 {
 
-/// What becomes of values of cells: means around each point, and no more, or also what these are means of.
+/// Treatment of cell values: averaged at points, with or without CellsAround.
 enum class CellValues
 {
   Averaged,
-  Known // see CellsAround
+  Known // with CellsAround
 };
 
-/// Whether any cell has so many dimensions.
+/// Returns whether any cell has so many dimensions.
 bool hasCells(vtkDataSet* data, int dimension);
 
 /// Meshes of those leaves that have cells of as many dimensions as the source has, with nothing but N at their points (NaN

@@ -33,7 +33,7 @@ namespace filters
 namespace
 {
 
-/// How far points may be from the axis that lie on it, in parts of the plane's size.
+/// Distance from the axis, relative to the plane's size, of points that count as on it.
 constexpr double axisTolerance = 1e-6;
 
 vtkBoundingBox boundsOf(const Source& source)
@@ -49,13 +49,13 @@ vtkBoundingBox boundsOf(const Source& source)
   return box;
 }
 
-/// How well the data fit one axis in their plane.
+/// Properties of the data with respect to a candidate for the axis.
 struct Candidate
 {
   int axis, radial;
-  double low, high; // distances from it; of data on its other side less than 0
+  double low, high; // distances from it; negative on its other side
   double slope =
-    0; // of the first array across the axis, near it, by what it is anywhere: 0 where the axis is right
+    0; // of the first array across the axis, relative to that anywhere: 0 for the right axis
   double change = 0; // of the array along the radius
 
   double radius() const { return std::max(std::abs(this->low), std::abs(this->high)); }
@@ -65,7 +65,7 @@ struct Candidate
   }
 };
 
-/// Finds the slopes of the first array at the axis: from cells within the nearest few, in the first layers about it.
+/// Finds the slopes of the first array at the axis, by the nearest layers of cells.
 void measure(const Source& source, const std::array<double, 3>& origin, Candidate& candidate)
 {
   const auto radial = static_cast<std::size_t>(candidate.radial);
@@ -132,7 +132,7 @@ void measure(const Source& source, const std::array<double, 3>& origin, Candidat
   candidate.change = change;
 }
 
-/// Values of cells have slopes between neighbours only: those of points are their means.
+/// Averages cell values at points, because slopes need neighbours.
 Source withValuesAtPoints(const Source& source)
 {
   Source result = source;
@@ -172,7 +172,7 @@ Source withValuesAtPoints(const Source& source)
   return result;
 }
 
-/// Axes that the data do not lie on one side of, or are not centred about, are none.
+/// Lists the axes that the data are on one side of, or are centred about.
 std::vector<Candidate> candidatesFor(
   const vtkBoundingBox& box, int flat, const std::array<double, 3>& origin, double tolerance)
 {
@@ -216,7 +216,7 @@ Candidate bestOf(std::vector<Candidate> candidates, const Source& source,
   {
     measure(atPoints, origin, candidate);
   }
-  // Nobody revolves a flow that does not change along the radius.
+  // Rejects axes along whose radius the flow does not change.
   constexpr double little = 0.05;
   for (const std::size_t one : { 0, 1 })
   {
@@ -225,12 +225,12 @@ Candidate bestOf(std::vector<Candidate> candidates, const Source& source,
       return candidates[1 - one];
     }
   }
-  constexpr double smooth = 0.5; // slopes at the axis that are as good as none
+  constexpr double smooth = 0.5; // slopes at the axis that count as none
   return candidates[0].slope < smooth || candidates[0].slope <= candidates[1].slope ? candidates[0]
                                                                                     : candidates[1];
 }
 
-/// The image on the other side of the axis.
+/// Mirrors an image at the axis.
 vtkSmartPointer<vtkImageData> turnedOver(
   vtkImageData* image, const Revolution& revolution, Remade& made)
 {
@@ -276,7 +276,7 @@ vtkSmartPointer<vtkImageData> turnedOver(
 std::vector<std::array<vtkIdType, 2>> rowAtAxis(
   vtkDataSet* data, const Revolution& revolution, double tolerance)
 {
-  constexpr double widest = 0.75; // of a cell
+  constexpr double widest = 0.75; // cells
   const std::array<int, 3> points = structureOf(data);
   const auto radial = static_cast<std::size_t>(revolution.radial);
   const double from = revolution.origin[radial];
@@ -317,7 +317,7 @@ std::vector<std::array<vtkIdType, 2>> rowAtAxis(
   return row;
 }
 
-/// Twice the area of a polygon in the plane; negative where its corners are in the other order.
+/// Returns twice the area of a polygon in the plane; negative for the other orientation.
 double areaOf(
   vtkPoints* places, const std::vector<vtkIdType>& corners, const Revolution& revolution)
 {
@@ -334,7 +334,7 @@ double areaOf(
   return area;
 }
 
-/// A mesh of both sides of the axis, with points on it once.
+/// Makes a mesh of both sides of the axis, with points on it once.
 void addBothSides(const Leaf& leaf, const Revolution& revolution, double tolerance, Remade& made)
 {
   vtkDataSet* data = leaf.data;
@@ -413,7 +413,7 @@ void addBothSides(const Leaf& leaf, const Revolution& revolution, double toleran
       made.cells->InsertNextId(cell);
     }
   }
-  if (!leaf.ofCells) // what cells there hold is known no nearer to the axis
+  if (!leaf.ofCells) // cells have no values nearer to the axis
   {
     for (const std::array<vtkIdType, 2>& side : rowAtAxis(data, revolution, tolerance))
     {
@@ -447,7 +447,7 @@ schlieren::Box Revolution::box() const
 Revolution revolutionOf(const Source& source)
 {
   const MediumSettings& settings = source.choice.settings;
-  const int given = settings.SymmetryAxis - 1; // -1: none
+  const int given = settings.SymmetryAxis - 1; // -1: not given
   const std::array<double, 3> origin = settings.symmetryOrigin();
   if (!std::all_of(origin.begin(), origin.end(), [](double x) { return std::isfinite(x); }))
   {
@@ -568,7 +568,7 @@ void gridOf(const Revolution& revolution, const Source& source, const int sampli
 Source mirrored(const Source& source, const Revolution& revolution)
 {
   Source result = source;
-  result.image = nullptr; // a leaf like others
+  result.image = nullptr; // an ordinary leaf
   if (!revolution.isMirrored)
   {
     return result;

@@ -10,24 +10,24 @@
 #include <array>
 #include <string>
 
-/// Planes that are sections of a flow with an axis of symmetry.
+/// Plane sections of axisymmetric flows.
 namespace filters
 {
 
-/// How a plane lies about its axis of symmetry. Coordinate axes by their numbers.
+/// The position of a plane relative to its axis of symmetry, with coordinate axes by number.
 struct Revolution
 {
-  int axis, radial, flat;       // along it, away from it in the plane, across the plane
-  std::array<double, 3> origin; // a point of it
-  double low, high;             // of the data, along it
-  double radius;                // the largest distance of data from it
-  bool isMirrored;              // the data are on one side of it
+  int axis, radial, flat;       // along the axis, along the radius, across the plane
+  std::array<double, 3> origin; // a point of the axis
+  double low, high;             // of the data, along the axis
+  double radius;                // maximum of the data
+  bool isMirrored;              // whether the data are on one side of the axis
   std::string note;             // for the user
 
   schlieren::Box box() const;
 };
 
-/// What was chosen, or what suits the data. Throws where they are not flat, or lie on no side of an axis.
+/// Returns the chosen or best axis. Throws for data that are not flat or have no such axis.
 Revolution revolutionOf(const Source& source);
 
 /// Two points along each axis of its box; or so many as the cells of the plane suggest, unless they are given: see
@@ -36,7 +36,7 @@ void boxOf(const Revolution& revolution, vtkImageData* structure);
 void gridOf(const Revolution& revolution, const Source& source, const int samplingDimensions[3],
   const SamplingBox& box, vtkImageData* structure);
 
-/// With what is on the other side of the axis, where data are on one side only.
+/// Adds the other side of the axis to data on one side.
 Source mirrored(const Source& source, const Revolution& revolution);
 
 } // namespace filters

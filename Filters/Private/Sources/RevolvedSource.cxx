@@ -13,20 +13,20 @@ namespace filters
 namespace
 {
 
-/// Rows of N for each voxel: between these a cubic polynomial errs by less than the spline of a brick does.
+/// Rows of N per voxel: cubic interpolation between them errs less than a brick's spline.
 constexpr double rowsPerVoxel = 2;
 
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
 
-/// A lattice of the section, whose rows are at r = (first + k) spacing, so that neighbours have the same ones.
+/// A lattice of the section with rows at r = (first + k) spacing, common to neighbouring lattices.
 struct RevolvedSource::Rows
 {
   double spacing;
   std::int64_t first;
   std::size_t columns, rows;
-  bool areRows; // the section's own x is along the axis: places along it are side by side
+  bool areRows; // whether the section's x is along the axis, so that rows are contiguous
   std::vector<double> values; // N, then each field
   std::vector<schlieren::Place> places;
   std::vector<float> distances;
@@ -35,7 +35,7 @@ struct RevolvedSource::Rows
   {
     return this->areRows ? row * this->columns + column : column * this->rows + row;
   }
-  /// The row before a distance from the axis, and how far behind it that is, in rows.
+  /// Returns the row before a radius, and the distance from it in rows.
   std::pair<std::size_t, double> before(double r) const
   {
     const double row = r / this->spacing - static_cast<double>(this->first);
@@ -63,7 +63,7 @@ struct RevolvedSource::Rows
             (2 * four[0] - 5 * four[1] + 4 * four[2] - four[3] +
               t * (3 * (four[1] - four[2]) + four[3] - four[0])));
     }
-    // Beside a wall: between those that there are, or as the nearest one.
+    // Interpolates from the rows on its side of a wall, or copies the nearest one.
     if (std::isfinite(four[1]) && std::isfinite(four[2]))
     {
       return (1 - t) * four[1] + t * four[2];
@@ -100,7 +100,7 @@ RevolvedSource::RevolvedSource(
   , Of(revolution)
   , Along(revolution.axis < revolution.radial
         ? 0
-        : 1) // see directionAcross(): the others stay in order
+        : 1) // see directionAcross(): the others keep their order
   , Away(1 - this->Along)
   , BoundsOfSection(this->Section->bounds())
 {
@@ -115,12 +115,12 @@ std::array<double, 3> RevolvedSource::voxelShape() const
   return shape;
 }
 
-/// All that a box meets, when it is turned into the half plane.
+/// Returns the bounds of a box turned into the half plane.
 schlieren::Box RevolvedSource::sectionOf(const schlieren::Box& box) const
 {
   schlieren::Box section = this->BoundsOfSection;
   const auto axis = static_cast<std::size_t>(this->Of.axis);
-  double nearest = 0, farthest = 0; // squared
+  double nearest = 0, farthest = 0; // squares of radii
   for (std::size_t i = 0; i < 3; ++i)
   {
     if (i == axis)
@@ -147,7 +147,7 @@ schlieren::MediumSource::Content RevolvedSource::contentOf(const schlieren::Box&
   const std::array<double, 3> ofSection = content.cellSize;
   content.cellSize.fill(ofSection[this->Away]);
   content.cellSize[static_cast<std::size_t>(this->Of.axis)] = ofSection[this->Along];
-  content.areWallsFlat = false; // they are round
+  content.areWallsFlat = false; // they are curved
   return content;
 }
 
@@ -178,7 +178,7 @@ RevolvedSource::Rows RevolvedSource::rowsFor(const schlieren::Lattice& lattice, 
   rows.values.resize(size * (hasValues ? 1 + static_cast<std::size_t>(this->fields()) : 1));
   if (hasValues)
   {
-    // Which points have gas is known without distances.
+    // Skips distances, which gas points do not need.
     this->Section->sampleWithFields(ofSection, rows.values.data(), rows.places.data(), nullptr,
       this->fields() > 0 ? rows.values.data() + size : nullptr);
   }
@@ -212,7 +212,7 @@ void RevolvedSource::sampleWithFields(const schlieren::Lattice& lattice, double*
   }
   const double spacing = std::min(lattice.spacing[b], lattice.spacing[c]);
   const Rows ofValues = this->rowsFor(lattice, spacing / rowsPerVoxel, nearest, farthest, true);
-  // Distances count in spacings of the lattice.
+  // Scales distances to spacings of the lattice.
   const Rows ofPlaces = this->rowsFor(lattice, spacing, nearest, farthest, false);
   const std::array<std::size_t, 3> strides{ 1, static_cast<std::size_t>(lattice.points[0]),
     static_cast<std::size_t>(lattice.points[0]) * static_cast<std::size_t>(lattice.points[1]) };

@@ -31,7 +31,7 @@ public:
   {
     this->sampleWithFields(lattice, refractivity, places, distances, nullptr);
   }
-  bool dependsOnLattice() const override { return true; } // rows are as far apart as its points
+  bool dependsOnLattice() const override { return true; } // distances of rows depend on it
   int fields() const override { return this->Section->fields(); }
   FieldRange rangeOfField(int field, const schlieren::Box& box) const override
   {
@@ -49,7 +49,7 @@ private:
 
   std::shared_ptr<const schlieren::MediumSource> Section;
   Revolution Of;
-  std::size_t Along, Away; // the section's own axes along the axis of revolution, and across it
+  std::size_t Along, Away; // axes of the section along the axis of revolution, and across it
   schlieren::Box BoundsOfSection;
 };
 

@@ -25,12 +25,12 @@ namespace
 // Grids that are chosen from the input (see SamplingDimensions) are as fine along each axis as the cells
 // that a fraction of all is smaller than: the smallest such fraction, from this one on, whose grid fits.
 constexpr double fractionOfSmallerCells = 0.1;
-constexpr double maxVoxelsPerPoint = 32;       // so that a few tiny cells do not make a huge grid
-constexpr double fewestVoxels = 64. * 64 * 64; // of flat data: 64 * 64
+constexpr double maxVoxelsPerPoint = 32;       // limits grids for a few tiny cells
+constexpr double fewestVoxels = 64. * 64 * 64; // flat data: 64 * 64
 constexpr vtkIdType maxCellsMeasured = 100000; // of a leaf, evenly spread
 constexpr double maxPointsRequested = 2048. * 2048 * 2048;
 
-/// Into how many parts a cell's points divide its edges: 1 but for cells of higher order.
+/// Returns the number of segments of a cell's edges: 1, or more for cells of higher order.
 int orderOf(vtkDataSet* data, vtkIdType cell)
 {
   if (vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(data->GetCellType(cell))))
@@ -43,7 +43,7 @@ int orderOf(vtkDataSet* data, vtkIdType cell)
     : 1;
 }
 
-/// The sizes of the cells in a box along each axis, sorted; empty along an axis along which no cell has any.
+/// Returns the sorted sizes of cells in a box along each axis; empty along an axis without sizes.
 std::array<std::vector<double>, 3> sizesOfCells(
   const std::vector<vtkDataSet*>& leaves, int dimension, const SamplingBox& box)
 {
@@ -51,7 +51,7 @@ std::array<std::vector<double>, 3> sizesOfCells(
   for (vtkDataSet* leaf : leaves)
   {
     const vtkIdType cells = leaf->GetNumberOfCells();
-    // Of a box, too, that few of all cells are in.
+    // Measures all cells of a given box, which may contain few of them.
     const vtkIdType each = box.isGiven() ? 1 : 1 + cells / maxCellsMeasured;
     for (vtkIdType i = 0; i < cells; i += each)
     {
@@ -82,7 +82,7 @@ std::array<std::vector<double>, 3> sizesOfCells(
   return sizes;
 }
 
-/// Points along each axis for voxels of h cells, where no number is given.
+/// Returns the points along each axis for voxels of h cells, unless given.
 std::array<int, 3> dimensionsFor(
   double h, const std::array<double, 3>& cells, const std::array<int, 3>& given)
 {
@@ -102,11 +102,11 @@ double product(const std::array<int, 3>& dimensions)
   return static_cast<double>(dimensions[0]) * dimensions[1] * dimensions[2];
 }
 
-/// A grid: how many cells in a row are as long as the data, and the edge of a voxel in cells.
+/// The fineness of a grid: cells along the data, and the edge of a voxel in cells.
 struct Fineness
 {
   std::array<double, 3> cells{};
-  double edge = 1; // within the limits; else what they make of it, or the axes that are given
+  double edge = 1; // clamped to the limits; else a result of these, or of given axes
 };
 
 Fineness chooseFineness(const std::array<double, 3>& lengths,
@@ -148,7 +148,7 @@ Fineness chooseFineness(const std::array<double, 3>& lengths,
   const double target = std::clamp(voxels(choice.edge), least, most);
   if (voxels(choice.edge) != target)
   {
-    // The smallest edge that gives no more voxels than the target: their number falls with the edge.
+    // Bisects for the smallest edge with at most the target number of voxels.
     double low = 1e-6, high = *std::max_element(choice.cells.begin(), choice.cells.end());
     for (int i = 0; i < 60; ++i)
     {
@@ -160,7 +160,7 @@ Fineness chooseFineness(const std::array<double, 3>& lengths,
   return choice;
 }
 
-/// What to say where more cells are smaller than a voxel than there should be, of the axis with the most.
+/// Returns a warning that too many cells are smaller than voxels, for the worst axis.
 std::string fractionOfFinerCells(const std::array<int, 3>& dimensions,
   const std::array<double, 3>& lengths, const std::array<std::vector<double>, 3>& sizes)
 {

@@ -8,34 +8,34 @@
 #include <array>
 #include <string>
 
-/// The grid that everything which is not one image is brought to, where a grid is wanted.
+/// Chooses the grid for data other than one image.
 namespace filters
 {
 
-/// The grid that covers the 3-D cells (of flat data: the 2-D cells).
+/// A grid that covers the 3-D cells (of flat data: the 2-D cells).
 struct Resampling
 {
   std::array<int, 3> dimensions; // 1 along the flat axis
   double bounds[6];
   int flatAxis;     // -1: none
-  double depth;     // along it
-  std::string note; // what the user may want to know of the grid
+  double depth;     // along the flat axis
+  std::string note; // about the grid, for the user
 };
 
-/// Most points of a grid that is chosen, not given.
+/// Maximum number of points of a grid that is chosen, not given.
 constexpr double maxVoxels = 256. * 256 * 256;
 
-/// SamplingDimensions, each 0 or at least 2. Throws where they are not.
+/// Returns SamplingDimensions. Throws unless each is 0 or at least 2.
 std::array<int, 3> requireDimensions(const int samplingDimensions[3]);
 
-/// Throws where a grid has more points than fit into memory.
+/// Throws if a grid has more points than fit into memory.
 void requireFits(const std::array<int, 3>& dimensions);
 
-/// `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.
+/// Chooses a grid. `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.
 Resampling planResampling(
   const Source& source, const int samplingDimensions[3], const SamplingBox& box);
 
-/// The grid of two points along each axis.
+/// Returns the grid of two points along each axis.
 Resampling boxOf(const Source& source);
 
 /// Makes `structure` the grid of the plan.

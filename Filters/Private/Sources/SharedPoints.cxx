@@ -41,11 +41,11 @@ constexpr double fewOfAll = 0.25;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The smallest edge that there is, or about that.
+/// Returns the smallest edge, approximately for cells of unknown shape.
 double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
 {
   constexpr double roundedAway = 1e-14;
-  constexpr std::size_t most = 64; // of points without a known order
+  constexpr std::size_t most = 64; // limit for points without a known order
   const CellShape shape = skeletonOf(mesh.type(cell));
   const bool isKnown = shape != CellShape::Other;
   const std::size_t corners = isKnown ? static_cast<std::size_t>(cornersOf(shape)) : most;
@@ -91,7 +91,7 @@ double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
   return std::sqrt(smallest) / (isCurved ? std::cbrt(static_cast<double>(points)) : 1);
 }
 
-/// Points that may be others', too.
+/// Points that may coincide with those of other leaves.
 struct Candidates
 {
   std::vector<std::uint32_t> leaves;
@@ -244,7 +244,7 @@ bool hasCurvedCells(const MeshArrays& mesh)
     [](int type) { return !vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type)); });
 }
 
-/// Values at points where the dataset has them in cells: what smooth fields would have there, as known from one side.
+/// Sets point values from cells as seen from one side, exact for smooth fields.
 void setValuesForSheets(vtkDataSet* leaf)
 {
   if (!leaf->GetCellData()->GetScalars())
@@ -264,7 +264,7 @@ void setValuesForSheets(vtkDataSet* leaf)
   leaf->GetPointData()->RemoveArray(cellsAroundName);
 }
 
-/// Makes those candidates one that are, given which coincide.
+/// Merges candidates that coincide, where that is allowed.
 class Joiner
 {
 public:
@@ -290,7 +290,7 @@ public:
   Classes& numbers() { return this->Numbers; }
 
 private:
-  /// What coincides, kind by kind.
+  /// Separates coincident points by kind.
   void divideBy(const std::vector<std::vector<bool>>& kinds)
   {
     if (kinds.empty())
@@ -310,7 +310,7 @@ private:
     return !this->IsApart.empty() && this->IsApart[this->Coincident[i]] != 0;
   }
 
-  /// Of the candidates; those of a leaf stand together, in the points' order.
+  /// Returns the index of a candidate; those of a leaf are contiguous, in the points' order.
   std::size_t candidateOf(std::size_t leaf, vtkIdType point) const
   {
     const auto first = std::lower_bound(this->All.leaves.begin(), this->All.leaves.end(), leaf);
@@ -323,10 +323,11 @@ private:
 
   void findPointsApart(const Leaves& leaves, const std::vector<MeshArrays>& meshes, int dimension)
   {
-    // Leaves that have two points at one place, between cells that may have a wall between them.
+    // Marks points of leaves that have two of them at one position, between cells with possible
+    // sheets.
     std::vector<std::vector<unsigned char>> may(leaves.size());
     std::vector<unsigned char> isDouble(this->All.size(), 0);
-    std::vector<std::size_t> last(this->All.size(), this->All.size()); // of each place
+    std::vector<std::size_t> last(this->All.size(), this->All.size()); // of each position
     std::vector<std::size_t> doubles;
     for (std::size_t i = 0; i < this->All.size(); ++i)
     {
@@ -351,7 +352,7 @@ private:
       return;
     }
     this->IsApart.assign(this->All.size(), 0);
-    // Of curved and of flat cells it is not known where walls are.
+    // Skips leaves of curved and flat cells, whose sheets are unknown.
     bool areFacesKnown = false;
     for (const std::size_t i : doubles)
     {
@@ -416,8 +417,8 @@ private:
   }
 
   const Candidates& All;
-  std::vector<std::size_t> Coincident; // the first candidate at the same place
-  std::vector<unsigned char> IsApart;  // of these; empty: none
+  std::vector<std::size_t> Coincident; // first candidate at the same position
+  std::vector<unsigned char> IsApart;  // of the candidates; empty: none
   Classes Numbers;
 };
 
@@ -443,7 +444,7 @@ SharedPoints::SharedPoints(
   }
   if (candidates.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
   {
-    return; // there is no room for numbers
+    return; // too many to be numbered
   }
   Joiner joiner(leaves, meshes, dimension, candidates, kinds);
   Classes groups(leaves.size());

@@ -48,7 +48,7 @@ private:
     std::vector<std::vector<std::int32_t>> numbers;    // of each leaf's points, in the mesh
     std::vector<std::vector<unsigned char>> isLeftOut; // of each leaf's cells; empty: none
     vtkIdType points = 0, cells = 0;
-    bool areAllApart = false;                  // each cell has its points for itself
+    bool areAllApart = false;                  // whether each cell has its own points
     vtkSmartPointer<vtkUnstructuredGrid> mesh; // without values
   };
 

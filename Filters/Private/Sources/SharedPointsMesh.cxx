@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The meshes that datasets become whose points are one, and the values of these.
+// Makes the meshes of datasets whose points are merged, and their values.
 #include "Sources/SharedPoints.h"
 
 #include "Cells/CellMeans.h"
@@ -36,7 +36,7 @@ using Leaves = std::vector<vtkSmartPointer<vtkDataSet>>;
 /// means at the points: squares, summed up over the mesh, of those of the differences within cells.
 constexpr double largeJumps = 0.05;
 
-/// A hash of what a cell's points are, in whichever order.
+/// Hashes the set of a cell's points, regardless of their order.
 std::uint64_t hashOfPoints(
   const MeshArrays& mesh, vtkIdType cell, const std::vector<std::int32_t>& numbers)
 {
@@ -52,7 +52,7 @@ std::uint64_t hashOfPoints(
   return sum;
 }
 
-/// What the shape of curved cells depends on, where the first dataset has it: of others that have it, too.
+/// Copies the weights of curved cells, if the first dataset and others have them.
 void copyShapes(const std::vector<std::size_t>& group,
   const std::vector<std::vector<std::int32_t>>& numbers,
   const std::vector<std::vector<unsigned char>>& isLeftOut, const Leaves& leaves,
@@ -106,7 +106,7 @@ void copyShapes(const std::vector<std::size_t>& group,
 
 } // namespace
 
-/// Makes the mesh.
+/// Makes the mesh of a group.
 void SharedPoints::addGroup(const Leaves& leaves, Group group)
 {
   std::vector<MeshArrays> meshes;
@@ -115,8 +115,9 @@ void SharedPoints::addGroup(const Leaves& leaves, Group group)
   {
     meshes.emplace_back(leaves[leaf]);
   }
-  // Cells that are there twice, copies of each other.
-  std::vector<unsigned char> points(static_cast<std::size_t>(group.points), 0); // how many are one
+  // Finds duplicate cells.
+  std::vector<unsigned char> points(
+    static_cast<std::size_t>(group.points), 0); // merged points of each
   for (const std::vector<std::int32_t>& numbers : group.numbers)
   {
     for (const std::int32_t number : numbers)
@@ -214,8 +215,7 @@ void SharedPoints::addGroup(const Leaves& leaves, Group group)
         });
       if (mesh.type(cell) == VTK_POLYHEDRON)
       {
-        polyhedra->GetFaceStream(
-          cell, ids); // faces, and for each its points' number and the points
+        polyhedra->GetFaceStream(cell, ids); // for each face the number of points, and the points
         vtkIdType next = 1;
         for (vtkIdType face = 0; face < ids->GetId(0); ++face)
         {
@@ -255,7 +255,7 @@ vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Lea
   ghosts->SetNumberOfValues(group.cells);
   vtkNew<vtkDoubleArray> ofCells, ofPoints;
   ofCells->SetNumberOfValues(group.cells);
-  double within = 0; // squares of the differences within cells
+  double within = 0; // squared differences within cells
   vtkIdType next = 0;
   for (std::size_t i = 0; i < group.leaves.size(); ++i)
   {
@@ -327,7 +327,7 @@ vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Lea
   {
     ofPoints->SetValue(static_cast<vtkIdType>(i), counts[i] > 0 ? sums[i] / counts[i] : others[i]);
   }
-  double between = 0; // of the differences from cell to cell
+  double between = 0; // squared differences between cells
   for (std::size_t i = 0; i < group.leaves.size() && group.areAllApart && !areAllOfCells; ++i)
   {
     const MeshArrays from(leaves[group.leaves[i]]);

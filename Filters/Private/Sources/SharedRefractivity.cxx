@@ -25,7 +25,7 @@ struct Entries
   std::vector<Entry> All;
 };
 
-/// Never deleted: when the program exits, filters may be deleted after static objects.
+/// Never deleted, because filters may outlive static objects at exit.
 Entries& entries()
 {
   static auto& all = *new Entries;

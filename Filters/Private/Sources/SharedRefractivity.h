@@ -25,29 +25,29 @@ namespace filters
 struct KeptMesh;
 }
 
-/// What vtkSchlierenFilter makes of its data before there is a view. Once made, it does not change.
+/// The refractivity of a filter's data, independent of views. Immutable once made.
 struct MadeRefractivity
 {
   MadeRefractivity();
   ~MadeRefractivity();
 
   vtkNew<vtkImageData> Image;
-  std::shared_ptr<const schlieren::MediumSource> Source; ///< instead of Image, of meshes
+  std::shared_ptr<const schlieren::MediumSource> Source; ///< for meshes, instead of Image
   vtkMTimeType SourceTime = 0;
   std::shared_ptr<filters::KeptMesh> Mesh; ///< of Source
-  std::string Grid;                        ///< of Image, in words
+  std::string Grid;                        ///< about Image, as text
   int FlatAxis = -1;                       ///< see MediumMaker::flatAxis()
-  std::string Warning;                     ///< for whoever uses it
+  std::string Warning;                     ///< for each filter that uses it
 };
 
-/// What it is made from: equal keys mean equal refractivity.
+/// The inputs of a refractivity: equal keys mean equal refractivity.
 struct RefractivityKey
 {
   const vtkDataObject* Data = nullptr;
   const vtkDataObject* Bodies = nullptr;
-  std::vector<double> Inputs; ///< see describeInput
-  MediumSettings Settings;    ///< with nothing left open: see MediumChoice
-  bool HasFields = false;     ///< Source has them
+  std::vector<double> Inputs; ///< see describeInput()
+  MediumSettings Settings;    ///< complete: see MediumChoice
+  bool HasFields = false;     ///< whether Source has them
 
   bool operator==(const RefractivityKey& other) const
   {
@@ -62,5 +62,5 @@ struct RefractivityKey
 std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& key);
 void shareRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made);
 
-/// The media that are made of them.
+/// Returns the media made of these refractivities.
 std::shared_ptr<schlieren::SharedMedia> mediaOfProcess();

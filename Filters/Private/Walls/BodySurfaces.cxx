@@ -23,7 +23,7 @@ namespace filters
 namespace
 {
 
-/// Triangles whose points are there once.
+/// Merges equal points of the triangles.
 Triangles surfaceOf(vtkDataObject* bodies)
 {
   Triangles surface;
@@ -70,8 +70,7 @@ Triangles surfaceOf(vtkDataObject* bodies)
   }
   const std::vector<std::int32_t> merged =
     coincidentPoints(surface.points, mergingTolerances(surface.points, edges, rounding));
-  std::vector<std::pair<Triangles::Corners, Triangles::Corners>>
-    sorted; // to find those there twice
+  std::vector<std::pair<Triangles::Corners, Triangles::Corners>> sorted; // to find duplicates
   for (Triangles::Corners corners : surface.corners)
   {
     for (std::int32_t& corner : corners)
@@ -98,7 +97,7 @@ Triangles surfaceOf(vtkDataObject* bodies)
   return surface;
 }
 
-/// The part that each triangle belongs to: those with the same points. -1: of parts that are open.
+/// Numbers the closed parts, of triangles connected by points, for each triangle. -1: open parts.
 std::vector<std::int32_t> closedParts(const Triangles& surface, std::int32_t& numberOfParts)
 {
   Classes ofPoints(surface.points.size());
@@ -253,7 +252,7 @@ void BodySurfaces::findInside(
           if (isPassed(a, b, j, k) ^ isPassed(b, c, j, k) ^ isPassed(c, a, j, k))
           {
             const double x = a[0] - (normal[1] * (j - a[1]) + normal[2] * (k - a[2])) / normal[0];
-            const double safe = std::isfinite(x) ? x : a[0]; // seen from its edge
+            const double safe = std::isfinite(x) ? x : a[0]; // parallel to x
             const double within =
               std::clamp(safe, std::min({ a[0], b[0], c[0] }), std::max({ a[0], b[0], c[0] }));
             const double i = std::ceil(std::max(within, 0.));

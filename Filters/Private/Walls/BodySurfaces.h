@@ -12,11 +12,11 @@ class vtkDataObject;
 namespace filters
 {
 
-/// Bodies in the gas that are given by their surfaces (vtkPolyData, or a composite of them).
+/// Bodies in the gas, given by surfaces (vtkPolyData, or a composite of them).
 class BodySurfaces
 {
 public:
-  /// Throws std::runtime_error where they are no surfaces.
+  /// Throws std::runtime_error for data other than surfaces.
   explicit BodySurfaces(vtkDataObject* bodies);
   BodySurfaces(const BodySurfaces&) = delete;
   BodySurfaces& operator=(const BodySurfaces&) = delete;
@@ -36,8 +36,8 @@ public:
 
 private:
   Triangles Surface;
-  std::int32_t NumberOfParts = 0;  // that are closed
-  std::vector<std::int32_t> Parts; // of each triangle; -1: of an open one
+  std::int32_t NumberOfParts = 0;  // closed ones
+  std::vector<std::int32_t> Parts; // of each triangle; -1: open
   TriangleTree Tree;
 };
 

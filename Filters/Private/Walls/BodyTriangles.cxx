@@ -23,7 +23,7 @@ namespace filters
 namespace
 {
 
-/// The surfaces with points.
+/// Lists the surfaces that have points.
 std::vector<vtkPolyData*> surfacesOf(vtkDataObject* bodies)
 {
   std::vector<vtkPolyData*> surfaces;

@@ -10,15 +10,15 @@ class vtkDataObject;
 class vtkImageData;
 class vtkPolyData;
 
-/// Bodies in the gas, given as surfaces.
+/// Converts bodies in the gas, given as surfaces.
 namespace filters
 {
 
-/// What to warn of where they are outside of the data.
+/// Warning about bodies outside of the data.
 constexpr const char* bodiesAreOutside =
   "The Bodies lie outside the data, so they stop no light. Do both have the same unit "
   "of length and the same origin?";
-/// The mistake where they leave nothing.
+/// Error if bodies cover all data.
 constexpr const char* bodiesCoverAll =
   "The Bodies cover all of the gas, so there is none for light to "
   "cross. Leave out what encloses the flow. Do both have the same unit of length?";

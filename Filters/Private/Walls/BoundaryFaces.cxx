@@ -29,10 +29,10 @@ namespace filters
 namespace
 {
 
-constexpr double lookingPart = 0.05; // of a cell's height or a face's edge: how far behind to look
-constexpr double cellTolerance = 4e-3; // of a cell's height: no cell holds what is further from it
+constexpr double lookingPart = 0.05;   // depth of tests behind a face, in cell heights or edges
+constexpr double cellTolerance = 4e-3; // maximum distance of points in a cell, in cell heights
 
-/// Leaves out the sides of a layer across z, of which all corners have one z.
+/// Removes the sides of a layer across z, whose corners all have the same z.
 Faces withoutSidesAcrossZ(const Faces& all)
 {
   Faces faces;
@@ -59,8 +59,8 @@ struct Sides
 {
   Point middle;
   Point outward; // unit length, or 0
-  double height; // of the cell above the face, about
-  double width;  // the smallest edge that there is
+  double height; // approximate height of the cell above the face
+  double width;  // smallest edge
 };
 
 Sides sidesOf(const Faces& faces, std::size_t face, double rounding)
@@ -92,7 +92,7 @@ Sides sidesOf(const Faces& faces, std::size_t face, double rounding)
   return sides;
 }
 
-/// Gives points that are one the same number. Returns the numbers of the corners before.
+/// Merges points that coincide. Returns the corners' numbers from before.
 std::vector<std::int32_t> mergePoints(Faces& faces, double rounding)
 {
   std::vector<double> sizes(faces.points.size(), std::numeric_limits<double>::infinity());
@@ -120,7 +120,7 @@ std::vector<std::int32_t> mergePoints(Faces& faces, double rounding)
   return before;
 }
 
-/// The corners of a face without those that have fallen on their neighbours; empty if it has no area.
+/// Returns a face's corners without those that coincide with neighbours; empty if it has no area.
 std::vector<std::int32_t> distinctCorners(const Faces& faces, std::size_t face)
 {
   std::vector<std::int32_t> corners(
@@ -137,16 +137,16 @@ std::vector<std::int32_t> distinctCorners(const Faces& faces, std::size_t face)
   return corners.size() < 3 || isFolded ? std::vector<std::int32_t>{} : corners;
 }
 
-/// A face that visible cells have on one side only.
+/// A face with visible cells on one side only.
 struct Kept
 {
   std::vector<std::int32_t> corners; // seen from the gas, counter-clockwise
   Sides sides;
   bool hidesBehind;
-  bool isPart; // of a larger face: one place decides whether it is covered
+  bool isPart; // whether it belongs to a larger face, so that one test point suffices
 };
 
-/// A face, seen from its cell.
+/// Describes a face, seen from its cell.
 Kept keptOf(const Faces& faces, std::size_t face, double rounding, bool hidesBehind)
 {
   const Sides sides = sidesOf(faces, face, rounding);
@@ -165,15 +165,15 @@ Kept keptOf(const Faces& faces, std::size_t face, double rounding, bool hidesBeh
   return { std::move(corners), sides, hidesBehind, faces.areParts[face] != 0 };
 }
 
-/// Two visible cells have it, one on each side.
+/// A face of two visible cells, one on each side.
 using Pair = std::array<std::size_t, 2>;
 
-/// Takes away what belongs to two visible cells.
+/// Removes faces between two visible cells.
 std::vector<Kept> withoutPairs(const Faces& faces, double rounding, std::vector<Pair>& pairs)
 {
   struct Key
   {
-    std::array<std::int32_t, 5> lowest; // its number of corners, and the four lowest of them
+    std::array<std::int32_t, 5> lowest; // number of corners, and the four lowest ones
     std::size_t face;
   };
   std::vector<Key> keys;
@@ -235,7 +235,7 @@ enum class Cuts
   BetweenThemToo
 };
 
-/// Of pairs of faces, those that do not have the same points, only such at the same places.
+/// Selects pairs of faces at the same position whose points differ.
 CutFaces cutsOf(
   const Faces& faces, const std::vector<std::int32_t>& before, std::vector<Pair>& pairs, Cuts which)
 {
@@ -303,7 +303,7 @@ CutFaces cutsOf(
   return cuts;
 }
 
-/// Takes away what has cells on both sides.
+/// Removes faces with cells on both sides.
 void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<Kept>& kept)
 {
   std::vector<Point> middles;
@@ -344,7 +344,7 @@ void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<
   kept.resize(left);
 }
 
-/// Places that are not finite are in no cell.
+/// Treats positions that are not finite as outside of cells.
 CellsTest testInParallel(const CellTest& isInCell, const WorkProgress& progress)
 {
   return [isInCell, progress](const std::vector<Point>& places)

@@ -19,9 +19,9 @@ class vtkDataSet;
 namespace filters
 {
 
-/// Whether a visible cell of any leaf holds a place. Called from several threads.
+/// Returns whether a visible cell of any leaf contains a point. Called from several threads.
 using CellTest = std::function<bool(const Point& place)>;
-/// The same of many places.
+/// Tests several points.
 using CellsTest = std::function<std::vector<unsigned char>(const std::vector<Point>& places)>;
 
 /// What cells are: all that there is, or a layer of what does not depend on z. Nothing ends at the sides of a layer
@@ -32,24 +32,23 @@ enum class Extent
   Layer
 };
 
-/// Walls without thickness within a dataset.
+/// Treatment of walls without thickness within a dataset.
 enum class Sheets
 {
   Found,
   Ignored
 };
 
-/// Where the gas ends: the faces that belong to one visible cell only.
+/// The boundary of the gas: faces of one visible cell only.
 struct BoundaryFaces
 {
-  Triangles surface;                    ///< normals point into the gas
-  std::vector<std::size_t> starts{ 0 }; ///< of each of its points, in `contributions`, and the end
-  std::vector<Contribution> contributions; ///< of the value there
-  std::vector<unsigned char>
-    hidesBehind; ///< of each triangle: whether there is a hidden cell on the other side
+  Triangles surface;                       ///< normals point into the gas
+  std::vector<std::size_t> starts{ 0 };    ///< of each point in `contributions`, and the end
+  std::vector<Contribution> contributions; ///< to the value at the point
+  std::vector<unsigned char> hidesBehind;  ///< of each triangle: whether a hidden cell is behind it
   Extent extent = Extent::Volume;
-  CutFaces cuts; ///< within datasets, those of `surface` that are sheets included
-  std::vector<unsigned char> areSheets; ///< of these
+  CutFaces cuts;                        ///< within datasets, including sheets in `surface`
+  std::vector<unsigned char> areSheets; ///< of `cuts`
 };
 
 /// The boundary of all leaves together: datasets with a double scalar at each point, NaN where there is no gas.
@@ -73,16 +72,16 @@ BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest&
 /// contributions says.
 CutFaces cutFacesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress);
 
-/// The values of what CutFaces::contributions says.
+/// Returns the values of CutFaces::contributions.
 using ValuesOfCuts = std::function<std::vector<double>(const CutFaces& cuts)>;
 
-/// The same of the faces of leaves that were found elsewhere. `valuesOf`: may be empty; then there are no sheets.
+/// Finds the boundary of given faces. `valuesOf`: may be empty, for no sheets.
 BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesOfCuts& valuesOf,
   const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume);
 
-/// The scalars at the points of the surface, of these leaves or of others on the same mesh.
+/// Returns the scalars at the surface's points, of these leaves or others on the same mesh.
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves);
-/// What contributions of the scalars sum up to: those of value i are starts[i] to starts[i + 1].
+/// Sums contributions of the scalars: those of value i are starts[i] to starts[i + 1].
 std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
   const std::vector<Contribution>& contributions, const std::vector<vtkDataSet*>& leaves);
 

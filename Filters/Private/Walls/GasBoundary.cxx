@@ -63,7 +63,8 @@ void GasBoundary::findWindows()
 
 bool GasBoundary::isBeyondAll(const Point& place) const
 {
-  // From within, all windows of a sphere around it are about as far away: the search for the nearest looks at each.
+  // Skips the search from points that all windows surround at similar distances, which would be
+  // slow.
   if (!this->TreeOfWindows || !this->TreeOfWindows->isBehindAny(place))
   {
     return false;
@@ -91,7 +92,7 @@ double GasBoundary::ambient(const std::vector<double>& values) const
         std::array<double, 3> ofCorners;
         std::transform(surface.corners[t].begin(), surface.corners[t].end(), ofCorners.begin(),
           [&](std::int32_t corner) { return values[static_cast<std::size_t>(corner)]; });
-        std::sort(ofCorners.begin(), ofCorners.end()); // the same sum, whatever their order
+        std::sort(ofCorners.begin(), ofCorners.end()); // independent of their order
         parts.push_back(
           { (ofCorners[0] + ofCorners[1] + ofCorners[2]) / 3, norm(surface.normal(t)) });
       }
@@ -126,10 +127,10 @@ GasBoundary::Kinds GasBoundary::facesIn(const schlieren::Box& box) const
   return kinds;
 }
 
-/// Sheets are not: the voxels that they become depend on how large voxels are.
+/// Returns false for sheets, whose voxels depend on the voxel size.
 bool GasBoundary::areWallsFlatNear(const schlieren::Box& box) const
 {
-  constexpr double around = 1. / 8; // of the box: as far as distances in it depend on
+  constexpr double around = 1. / 8; // of the box: reach of distances in it
   constexpr double tilt = 1e-6, offset = 1e-5;
   schlieren::Box near = box;
   Point middle;
@@ -185,7 +186,7 @@ void GasBoundary::findPlaces(const schlieren::Box& box, const CellTest& isInCell
     content.areWallsFlat = faces.wall && !faces.window && this->areWallsFlatNear(box);
     return;
   }
-  // No gas ends in it: all of it is gas, or none. What is outside may be beside walls here, and beside windows there.
+  // Tests points of a box without a boundary, which is all gas or not; outside may be mixed.
   for (const Point& place : testedPlaces(box))
   {
     const Place found = this->kindAt(place, isInCell(place));

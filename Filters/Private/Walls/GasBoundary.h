@@ -17,12 +17,12 @@ class vtkDataSet;
 namespace filters
 {
 
-/// What stops light where the gas ends.
+/// Treatment of boundaries of the gas.
 enum class Outside
 {
-  Auto,   ///< bodies do, sheets without thickness, too; outer boundaries do not: see findOuter()
-  Blocks, ///< all that is outside of the cells
-  Passes  ///< nothing but hidden cells and Bodies
+  Auto,   ///< bodies and sheets are walls, outer boundaries are not: see findOuter()
+  Blocks, ///< all boundaries are walls
+  Passes  ///< only hidden cells and Bodies are walls
 };
 
 /**
@@ -39,13 +39,13 @@ public:
   GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies, Outside outside,
     const CellTest& isInCell, const WorkProgress& progress = WorkProgress(),
     Extent extent = Extent::Volume);
-  /// Of faces that were found otherwise.
+  /// Makes the boundary of given faces.
   GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,
     const WorkProgress& progress = WorkProgress());
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
 
-  /// Whether walls without thickness are where they are with other values on the same mesh.
+  /// Returns whether sheets are equal for other values on the same mesh.
   bool hasSheetsOf(const ValuesOfCuts& valuesOf) const
   {
     return findSheets(this->Faces.cuts, valuesOf(this->Faces.cuts)) == this->Faces.areSheets;
@@ -54,21 +54,21 @@ public:
   /// N of the gas around the flow: the median over the area of the outer boundary, or of all of the boundary where
   /// there is none. NaN: there is no boundary. `leaves`: these or others on the same mesh.
   double ambient(const std::vector<vtkDataSet*>& leaves) const;
-  /// Of N at the points of surface().
+  /// Returns the ambient of N at the points of surface().
   double ambient(const std::vector<double>& values) const;
 
-  /// Which faces there are in a box.
+  /// Kinds of faces in a box.
   struct Kinds
   {
     bool wall, window;
   };
   Kinds facesIn(const schlieren::Box& box) const;
-  /// Sets which places a box has (`hasWall`, `hasGas`, `hasWindow`, `areWallsFlat`), given where visible cells are.
+  /// Sets `hasWall`, `hasGas`, `hasWindow` and `areWallsFlat` of a box, given visible cells.
   void findPlaces(const schlieren::Box& box, const CellTest& isInCell,
     schlieren::MediumSource::Content& content) const;
-  /// All that findPlaces() may test: the middle and the corners of a box.
+  /// Returns the points that findPlaces() may test: the middle and the corners of a box.
   static std::array<Point, 9> testedPlaces(const schlieren::Box& box);
-  /// Whether any of the Bodies reach into a box.
+  /// Returns whether any of the Bodies meets a box.
   bool hasBodiesIn(const schlieren::Box& box) const;
 
   /// What there is at a place, given whether a visible cell holds it. Of a place outside, the nearest face counts
@@ -87,7 +87,7 @@ public:
   void sample(const schlieren::Lattice& lattice, const unsigned char* isInCell, Place* places,
     float* distances) const;
 
-  /// For tests and messages.
+  /// Returns the surface, for tests and messages.
   const Triangles& surface() const { return this->Faces.surface; }
   bool isWall(std::size_t triangle) const { return this->Walls[triangle] != 0; }
 
@@ -99,10 +99,10 @@ private:
   BoundaryFaces Faces;
   TriangleTree Tree;
   std::vector<unsigned char> IsOuter; // of each triangle
-  std::vector<unsigned char> Walls;   // likewise
-  Triangles Windows;                  // the other triangles, with Outside::Auto
+  std::vector<unsigned char> Walls;   // of each triangle
+  Triangles Windows;                  // other triangles, with Outside::Auto
   std::unique_ptr<TriangleTree> TreeOfWindows;
-  Place Far; // where there are no faces at all
+  Place Far; // without any faces
   std::unique_ptr<BodySurfaces> Bodies;
 };
 

@@ -40,7 +40,7 @@ namespace
 constexpr const char* ownersName = "OwnerOfFace";
 constexpr const char* originsName = "PointOfLeaf";
 
-/// What a cell with such a point is.
+/// Returns the state of cells with each point.
 std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress)
 {
   std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfPoints()), State::Visible);
@@ -54,7 +54,7 @@ std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress
         data->GetPoint(i, x.data());
         if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
         {
-          states[static_cast<std::size_t>(i)] = State::None; // it is nowhere
+          states[static_cast<std::size_t>(i)] = State::None; // its position is not finite
         }
         else if (scalars && !std::isfinite(scalars->GetComponent(i, 0)))
         {
@@ -65,7 +65,7 @@ std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress
   return states;
 }
 
-/// Whether all cells are boxes of a 3-D grid.
+/// Returns whether all cells are those of a 3-D grid.
 bool isStructured(vtkDataSet* data)
 {
   const std::array<int, 3> points = structureOf(data);
@@ -74,7 +74,7 @@ bool isStructured(vtkDataSet* data)
 
 std::vector<State> statesOf(vtkDataSet* data, const WorkProgress& progress)
 {
-  const bool is3d = isStructured(data); // VTK says that hidden cells of such have no dimension
+  const bool is3d = isStructured(data); // VTK says that hidden cells of a grid have no dimension
   const std::vector<State> ofPoints = statesOfPoints(data, progress.part(0, 0.3));
   std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfCells()));
   vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
@@ -101,7 +101,7 @@ std::vector<State> statesOf(vtkDataSet* data, const WorkProgress& progress)
   return states;
 }
 
-/// The mean of its points.
+/// Returns the mean of the cell's points.
 Point middleOf(vtkDataSet* data, vtkIdType cell)
 {
   vtkNew<vtkIdList> ids;
@@ -125,7 +125,7 @@ vtkSmartPointer<vtkIdTypeArray> numbersOf(vtkIdType count, const char* name)
   return numbers;
 }
 
-/// The surface of these cells, which are not curved, with the numbers of its cells and points in the dataset.
+/// Extracts the surface of linear cells, with their cells' and points' numbers in the dataset.
 vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataSet* data, const std::vector<vtkIdType>& chosen)
 {
   auto cells = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
@@ -158,11 +158,11 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataSet* data, const std::vector<vtkId
   return surface->GetOutput();
 }
 
-/// Faces by their cells and points. VTK finds them with several threads, in another order each time.
+/// Orders faces by cells and points, because VTK's order depends on threads.
 std::vector<vtkIdType> orderOf(
   vtkPolyData* polygons, vtkIdTypeArray* owners, vtkIdTypeArray* origins)
 {
-  using Key = std::array<vtkIdType, 4>; // cell, and the three lowest of the face's points
+  using Key = std::array<vtkIdType, 4>; // cell, and the face's three lowest points
   std::vector<std::pair<Key, vtkIdType>> keys;
   vtkNew<vtkIdList> ids;
   for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
@@ -223,17 +223,17 @@ void addPlainCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkId
 
 constexpr int divisions = 4; // of an edge of a curved cell
 
-/// Of a face; its corners and more, in any order.
+/// A face's corners and further points, in any order.
 using Key = std::array<vtkIdType, 5>;
 
 struct CurvedFace
 {
   vtkIdType cell;
   int number;  // in the cell
-  Key corners; // points of the leaf; -1: no further ones
+  Key corners; // points of the leaf; -1: none
 };
 
-/// The faces of curved cells, and places on them.
+/// Evaluates the faces of curved cells.
 class CellFaces
 {
 public:
@@ -275,7 +275,7 @@ public:
     }
     return place;
   }
-  /// Of the points of the face at the last place.
+  /// Returns the weights of the face's points at the last position.
   const std::vector<double>& weights() const { return this->Weights; }
 
 private:
@@ -294,7 +294,7 @@ private:
   std::vector<double> Weights;
 };
 
-/// Takes away the faces that two cells have: those with the same key.
+/// Removes faces of two cells, those with equal keys.
 void removePairs(const std::vector<Key>& keysOfFaces, std::vector<CurvedFace>& faces)
 {
   std::vector<std::pair<Key, std::size_t>> keys;
@@ -318,11 +318,11 @@ void removePairs(const std::vector<Key>& keysOfFaces, std::vector<CurvedFace>& f
   faces = std::move(left);
 }
 
-/// Which places the corners and the middle of each face are: the same where points are there twice.
+/// Numbers corners and middles of faces by position, equal for duplicate points.
 std::vector<Key> placesOf(vtkDataSet* data, CellFaces& cells, const std::vector<CurvedFace>& faces)
 {
   std::vector<Point> points;
-  std::vector<double> edges; // the smallest at each
+  std::vector<double> edges; // smallest at each position
   const auto add = [&](const Point& place)
   {
     points.push_back(place);
@@ -371,7 +371,7 @@ std::vector<Key> placesOf(vtkDataSet* data, CellFaces& cells, const std::vector<
   return keys;
 }
 
-/// The faces that only one of these cells has, which are curved, divided into parts.
+/// Adds the curved faces of one cell only, divided into smaller ones.
 template <class IsLeftOut>
 void addCurvedCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkIdType>& chosen,
   State state, const IsLeftOut& isLeftOut, Faces& faces)
@@ -397,7 +397,7 @@ void addCurvedCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkI
     const Point owner = middleOf(data, one.cell);
     vtkCell* face = cells.face(one);
     const bool isTriangle = one.corners[3] < 0;
-    // Row by row; those of triangles become shorter.
+    // Divides row by row; rows of triangles become shorter.
     std::array<std::array<std::int32_t, divisions + 1>, divisions + 1> numbers;
     for (std::size_t j = 0; j <= divisions; ++j)
     {
@@ -439,7 +439,7 @@ void addCurvedCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkI
     }
   }
 }
-/// The surface of the cells of one state.
+/// Adds the surface of the cells of one state.
 void addCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states, State state,
   Copies copies, Faces& faces)
 {

@@ -27,7 +27,7 @@ struct Contribution
   double weight;
 };
 
-/// Of a cell.
+/// The state of a cell.
 enum class State : unsigned char
 {
   None,
@@ -35,27 +35,27 @@ enum class State : unsigned char
   Visible
 };
 
-/// Polygons that bound visible cells, or hidden ones.
+/// Polygons that bound visible or hidden cells.
 struct Faces
 {
   std::vector<Point> points;
   std::vector<std::size_t> firstContributions{ 0 }; // of each point's value, and the end
   std::vector<Contribution> contributions;
-  std::vector<std::int32_t> corners;    // of all faces, one after the other
-  std::vector<std::size_t> starts{ 0 }; // and the end
-  std::vector<Point> owners;            // the middle of the cell
+  std::vector<std::int32_t> corners;    // of all faces
+  std::vector<std::size_t> starts{ 0 }; // of each face, and the end
+  std::vector<Point> owners;            // middle of the cell
   std::vector<State> states;            // of the cell
-  std::vector<unsigned char> areParts;  // of the face of a curved cell
+  std::vector<unsigned char> areParts;  // whether it belongs to the face of a curved cell
 
   std::size_t size() const { return this->owners.size(); }
-  /// Its contributions have been added.
+  /// Adds a point, after its contributions.
   std::int32_t addPoint(const Point& x)
   {
     this->points.push_back(x);
     this->firstContributions.push_back(this->contributions.size());
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
-  /// The face whose corners have been added.
+  /// Adds a face, after its corners.
   void finish(const Point& owner, State state, bool isPart = false)
   {
     this->starts.push_back(this->corners.size());

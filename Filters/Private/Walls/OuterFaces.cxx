@@ -14,12 +14,12 @@ namespace filters
 namespace
 {
 
-constexpr double bulge = 0.1;           // how far the hull may reach out, in heights of a triangle
+constexpr double bulge = 0.1;           // tolerance of the hull, in heights of a triangle
 constexpr double cosineOfSmooth = 0.82; // 35 degrees
 constexpr double sineOfFlat = 5e-3;     // 0.3 degrees
-constexpr int fewestOfFlat = 5;         // triangles; fewer are a facet of something curved
+constexpr int fewestOfFlat = 5;         // triangles; fewer are facets of a curved surface
 constexpr double cosineOfFacing = 0.5;  // 60 degrees
-constexpr double touchingPart = 1e-4;   // of a triangle's height
+constexpr double touchingPart = 1e-4;   // relative to a triangle's height
 
 class Finder
 {
@@ -84,7 +84,8 @@ private:
 
   void findHull()
   {
-    // Sides of the domain are flat: what lies in the plane of a triangle on the hull is on it, too.
+    // Extends the hull by triangles in the planes of its triangles, because sides of domains are
+    // flat.
     std::vector<std::vector<std::int32_t>> neighbours(this->Surface.size());
     forNeighbours(
       [&](std::size_t one, std::size_t other)
@@ -92,7 +93,7 @@ private:
         neighbours[one].push_back(static_cast<std::int32_t>(other));
         neighbours[other].push_back(static_cast<std::int32_t>(one));
       });
-    // The larger a triangle is, the less rounding turns its plane: they come first.
+    // Begins with large triangles, whose planes are least affected by rounding.
     std::vector<std::size_t> sorted(this->Surface.size());
     std::iota(sorted.begin(), sorted.end(), std::size_t{ 0 });
     std::stable_sort(sorted.begin(), sorted.end(),
@@ -236,7 +237,8 @@ private:
         }
       }
     }
-    // The sides of the box (bits 0 to 5: -x, x, -y ...) that the hull faces at each point.
+    // Collects, at each point, the sides of the box that the hull faces (bits 0 to 5: -x, x, -y
+    // ...).
     std::vector<unsigned char> faced(this->Surface.points.size(), 0);
     for (std::size_t t = 0; t < this->Surface.size(); ++t)
     {

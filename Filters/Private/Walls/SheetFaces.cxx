@@ -15,10 +15,9 @@ namespace filters
 namespace
 {
 
-constexpr double smallestJump = 1e-3; // of the range of the values
+constexpr double smallestJump = 1e-3; // relative to the range of values
 constexpr double usualJump = 0.02;
-constexpr double smallestRange =
-  1e-6; // of the values: below that they are the same, rounding apart
+constexpr double smallestRange = 1e-6; // relative to values: rounding
 
 /// How much the values of a face's sides differ, by the range of all: the mean of those corners where each side has a
 /// point of its own; 0 where one of them has about the same values.
@@ -100,7 +99,7 @@ std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<do
   {
     if (!parts[face].empty() && weightedMedian(std::move(parts[face])) > usualJump)
     {
-      areSheets[face] = 1; // as yet of roots
+      areSheets[face] = 1; // of roots
     }
   }
   for (std::size_t face = cuts.size(); face-- > 0;)

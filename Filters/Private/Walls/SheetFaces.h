@@ -17,10 +17,9 @@ struct CutFaces
 {
   std::vector<std::size_t> firstContributions{
     0
-  }; // of each value, and the end; two for each corner, one of each side
+  }; // of each value, and the end; two for each corner, one for each side
   std::vector<Contribution> contributions;
-  std::vector<std::int32_t>
-    places; // of the corners of all faces: where they are the same they are equal
+  std::vector<std::int32_t> places;     // of all faces' corners; equal for equal positions
   std::vector<std::size_t> starts{ 0 }; // of each face's corners, and the end
   std::vector<double> areas;            // of each face
 
