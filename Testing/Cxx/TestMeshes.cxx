@@ -276,8 +276,8 @@ INSTANTIATE_TEST_SUITE_P(Inputs, Meshes,
     Mesh{ "QuadraticHexahedra", [] { return meshOf(96, 2, quadraticHexahedron); } },
     Mesh{ "QuadraticTetrahedra", [] { return meshOf(64, 2, quadraticTetrahedra); } },
     Mesh{ "CubicHexahedra", [] { return meshOf(60, 3, cubicHexahedron); } },
-    Mesh{ "Structured", [] { return structured(); } },
-    Mesh{ "Rectilinear", rectilinear }, Mesh{ "Collection", collection }),
+    Mesh{ "Structured", [] { return structured(); } }, Mesh{ "Rectilinear", rectilinear },
+    Mesh{ "Collection", collection }),
   [](const auto& tested) { return tested.param.name; });
 
 // Spacings of 1:1000, chosen from the cells: a domain a thousandth as deep as it is wide.
