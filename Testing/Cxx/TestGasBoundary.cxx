@@ -1116,7 +1116,7 @@ TEST(GasBoundary, NothingLeaksThroughThinHolesAndFolds)
   const double h = 0.1;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-1, 1);
-  for (const double thickness : { 0.02, 0.12 })
+  for (const double thickness : { 0.02, 0.05, 0.12 })
   {
     // Cells of any thickness; those in the middle are left out but at the rim.
     const auto z = [&](double k)
@@ -1142,7 +1142,7 @@ TEST(GasBoundary, NothingLeaksThroughThinHolesAndFolds)
       EXPECT_FALSE(samples.lets(from, to, 0.45 * h)) << thickness;
     }
   }
-  for (const double angle : { 20., 90. })
+  for (const double angle : { 20., 60., 90., 150. })
   {
     const double s = std::sin(angle * pi / 360), c = std::cos(angle * pi / 360);
     for (int i = 0; i < 5; ++i)

@@ -176,7 +176,7 @@ TEST(Images, BluntFinFromTheSide)
   filter->SetViewUp(0, 0, 1);
   filter->SetFocalPoint(-1.5, 0, 2);
   filter->SetParallelScale(2.2);
-  filter->SetImageSize(256, 220);
+  filter->SetImageSize(128, 110);
   filter->Update();
   const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
