@@ -197,3 +197,5 @@ BENCHMARK(filterRefines)
   ->Unit(benchmark::kMillisecond);
 
 } // namespace
+
+BENCHMARK_MAIN();
