@@ -21,8 +21,7 @@ class vtkDataSet;
 namespace filters
 {
 
-/// What of a piece depends on its mesh alone, and not on the values: it is kept from one time step
-/// to the next.
+/// What of a piece depends on its mesh alone, and not on the values: it is kept from one time step to the next.
 struct PieceMesh
 {
   std::uint64_t key; // see DataPiece::meshKey()
@@ -32,14 +31,13 @@ struct PieceMesh
   std::vector<Contribution> contributions;
 };
 
-/// A rank's piece of meshes: its own cells. Copies of other ranks' cells around them (see
-/// PartsOfRanks) make values and trends of points between them equal to those of the whole mesh.
+/// What one rank has of meshes that are spread over several: its own cells. Copies of other ranks' cells around them (see
+/// PartsOfRanks) give the points between them the values and trends that they would have in one mesh.
 class MeshPiece : public DataPiece
 {
 public:
-  /// `leaves`: with N at their points, see preparedLeaves(); may be empty. `kept`: of another
-  /// piece, perhaps of the same mesh; may be null. `datasets`: a number of each leaf, common to all
-  /// ranks that have cells of it; empty: none do.
+  /// `leaves`: with N at their points, see preparedLeaves(). May be none. `kept`: of another piece, which may be of the same
+  /// mesh; may be null. `datasets`: of each leaf a number that its parts on other ranks have, too; none: these have no parts.
   MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept = nullptr,
     std::vector<std::uint32_t> datasets = {});

@@ -223,8 +223,7 @@ private:
   std::vector<std::size_t> Roots;
 };
 
-/// Of the points of a mesh: whether they belong to so many cells that hang together that walls may
-/// be between them.
+/// Of the points of a mesh: whether they belong to so many cells that hang together that walls may be between them.
 std::vector<unsigned char> maySheetsMeet(const MeshArrays& mesh)
 {
   const auto points = static_cast<std::size_t>(mesh.points());
