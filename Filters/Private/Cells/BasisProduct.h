@@ -15,10 +15,10 @@ namespace filters
 {
 
 /**
- * What is interpolated in curved cells of any order: products of polynomials of Lagrange (nodes at equal distances) or of
- * Bernstein (Bezier cells, also rational ones). Hexahedra are products of three lines, wedges of a triangle and a line,
- * tetrahedra are no products. VTK's functions for some of these make objects whenever they are called, which takes 1000
- * times as long.
+ * Interpolates in curved cells of any order by products of polynomials of Lagrange (equidistant
+ * nodes) or of Bernstein (Bezier cells, also rational ones). Hexahedra are products of three lines,
+ * wedges of a triangle and a line; tetrahedra are no products. VTK's functions for some of these
+ * allocate objects at each call and take 1000 times as long.
  */
 class BasisProduct
 {

@@ -46,8 +46,8 @@ struct Sums
     }
   }
 
-  /// A tetrahedron with a corner in the origin: the mean of x x is a twentieth of that of all corners summed up, and
-  /// of their sum's.
+  /// Adds a tetrahedron with a corner in the origin: the mean of x x is a twentieth of the sum of
+  /// the corners' and of their sum's.
   void addTetrahedron(const Vector& a, const Vector& b, const Vector& c)
   {
     const double part = std::abs(dot(a, cross(b, c))) / 120;

@@ -33,13 +33,13 @@ CellMoments momentsOf(const MeshArrays& mesh, vtkIdType cell);
 /// Returns the moments of a polyhedron.
 CellMoments momentsOfPolyhedron(vtkUnstructuredGrid* mesh, vtkIdType cell);
 
-/// The mean over the cells around each point, NaN where there are none, of those that are `valid`. As the array that
-/// `mesh` has its values from, which is filled here; fills `around`, where that is not null, for all points.
+/// Sets the array of `mesh`'s values to the means over the `valid` cells around each point, NaN
+/// without any. Fills `around` for all points, if not null.
 void setMeansAroundPoints(const MeshArrays& mesh, vtkDoubleArray* ofCells,
   vtkUnsignedCharArray* valid, vtkDoubleArray* ofPoints, std::vector<CellsAround>* around);
 
-/// The same of a dataset with double scalars in its cells, those that are not hidden, and at its points. `areKept`: the
-/// cells' values, and `around` as an array of the points; else the dataset has the means only.
+/// Averages the scalars (double) of a dataset's visible cells at its points. `areKept`: keeps the
+/// cells' values, and adds `around` as an array of the points.
 void bringToPoints(vtkDataSet* data, bool areKept);
 
 /// Name of the array of CellsAround, which MeshArrays reads.

@@ -295,8 +295,9 @@ bool Brick::addNormal(const CellTree::Cell& cell)
   normal.isSmooth = cell.block->trends() != nullptr;
   if (normal.isSmooth)
   {
-    // The mean of the corners' linear polynomials with half of the gradients there, as the cell weighs them, is
-    // exact for quadratic fields. Apart from what is the same everywhere in them, they are slopes.
+    // Averages the corners' linear polynomials with half of their gradients, weighted as by the
+    // cell, which is exact for quadratic fields. The differences from their common terms are the
+    // slopes.
     double slopes[3][8], limits[2][8];
     for (int i = 0; i < count; ++i)
     {
@@ -449,8 +450,8 @@ void Brick::flush(const NormalCell& cell)
   this->Count = 0;
 }
 
-/// Places in the cell are MeshCell's business. What saves it most points that are not there: where a cell with
-/// the same corners has its edges, curved ones do not reach far out of the box of their points.
+/// Locates points by MeshCell. Skips most points outside by a linear cell with the same corners,
+/// out of which curved ones do not reach far.
 void Brick::addOther(const CellTree::Cell& cell)
 {
   const double infinity = std::numeric_limits<double>::infinity();

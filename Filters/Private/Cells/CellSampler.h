@@ -13,7 +13,7 @@
 namespace filters
 {
 
-/// What the search for a lattice's points has found: the cells that hold some, and which. Four bytes a cell, and two
+/// The cells that contain points of a lattice, and these points: four bytes for each cell, and two
 /// more for each of them and for each point.
 struct CellsOfLattice
 {
@@ -31,11 +31,11 @@ struct CellsOfLattice
 };
 
 /**
- * What meshes hold at their points, interpolated in their cells to the points of lattices.
+ * Interpolates in the cells of meshes to the points of lattices.
  *
- * Cells look for the points that they hold. Of several cells that hold a point the one that holds it best
- * counts (see MeshCell::find), of these the first. So what a point gets does not depend on the lattice,
- * rounding apart. May be used from many threads at once.
+ * Cells search for the points that they contain. Of several cells the best one for a point (see
+ * MeshCell::find), and of these the first, decides. So values do not depend on the lattice, apart
+ * from rounding. Thread-safe.
  */
 class CellSampler
 {
@@ -43,13 +43,13 @@ public:
   /// Keeps a reference to the tree.
   explicit CellSampler(const CellTree& tree);
 
-  /// Sets `values` and `found`, 1 or 0, at all points of a lattice; values are 0 where no cell is. Fills `cells` where
-  /// that is not null; the lattice then has no more than CellsOfLattice::maxPoints.
+  /// Sets `values` and `found`, 1 or 0, at all points of a lattice; values are 0 outside of cells.
+  /// Fills `cells`, if not null; the lattice then has at most CellsOfLattice::maxPoints.
   void sample(const schlieren::Lattice& lattice, double* values, unsigned char* found,
     CellsOfLattice* cells = nullptr) const;
 
-  /// The same values from what was found on the same mesh: to the last bit but in curved cells, where an iteration may
-  /// begin elsewhere. Whether all points have been found again.
+  /// Interpolates in known cells of the same mesh: the same values, exactly so but in curved cells,
+  /// whose iteration may start elsewhere. Returns whether all points were found again.
   bool sample(const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const;
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cells in which what is interpolated is a polynomial of the parametric coordinates, of degree 1 in each of them:
-// tetrahedra, hexahedra, voxels, wedges, and pyramids, whose tops are hexahedra's faces collapsed to points.
+// Describes cells whose interpolation is a polynomial of degree 1 in each parametric coordinate:
+// tetrahedra, hexahedra, voxels, wedges, and pyramids, hexahedra with a collapsed face.
 #pragma once
 
 #include "Common/Vectors.h"

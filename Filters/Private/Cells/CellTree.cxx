@@ -25,12 +25,12 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Tetrahedra can be much flatter than what they resolve: their heights count down to this part of
-/// their shortest edge.
+/// Limits the heights of tetrahedra to this fraction of their shortest edge, because they can be
+/// much flatter than what they resolve.
 constexpr double flattestTetrahedron = 0.5;
 
-/// What higher-order cells overshoot the values at their points by, in parts of their range: from
-/// the norm of the interpolation (Lebesgue constants of equal distances), cubed.
+/// Returns the overshoot of interpolation in higher-order cells, relative to the range of their
+/// points' values: the norm of the interpolation (Lebesgue constants of equal distances), cubed.
 double overshootOf(int order)
 {
   constexpr double norms[] = { 1, 1, 1.25, 1.64, 2.21, 3.11, 4.55, 6.93, 10.95 };

@@ -23,14 +23,15 @@ namespace filters
 {
 
 /**
- * The 3-D cells of several datasets, sorted by place, in boxes of boxes.
+ * The 3-D cells of several datasets, sorted by position, in a hierarchy of bounding boxes.
  *
- * Cells follow each other along a Hilbert curve. Eight in a row make a group, eight groups a larger one, and
- * so on: no pointers, some 40 bytes for each cell. VTK's locators know no values.
+ * Cells are in the order of a Hilbert curve. Eight cells in a row form a group, eight groups a
+ * larger one, and so on: without pointers, about 40 bytes for each cell. VTK's locators do not know
+ * values.
  *
- * Cells that are hidden, that have points nowhere or points whose value is NaN are not there. Everything
- * depends on the datasets alone, not on the number of threads; and everything but the constructor, which
- * works in parallel (vtkSMPTools), may be called from many threads at once.
+ * Hidden cells, and cells with points or values that are not finite, are omitted. Results depend on
+ * the datasets alone, not on the number of threads. All functions but the constructor, which works
+ * in parallel (vtkSMPTools), are thread-safe.
  */
 class CellTree
 {
@@ -44,8 +45,8 @@ public:
 
   struct Mesh;
 
-  /// Each dataset has one double scalar at each point. They must outlive the tree. Throws where there are
-  /// too many cells or points.
+  /// Builds the tree of datasets with a double scalar at each point, which must outlive it. Throws
+  /// for too many cells or points.
   explicit CellTree(const std::vector<vtkDataSet*>& blocks,
     Reconstruction reconstruction = Reconstruction::Linear,
     const WorkProgress& progress = WorkProgress(), Copies copies = Copies::Used);
@@ -67,8 +68,9 @@ public:
   /// Returns the number of the cell at a place, its index in the tree's order.
   Number number(std::size_t place) const { return this->Sorted->numbers[place]; }
 
-  /// Cells that follow each other in the tree's order are anywhere in a dataset, and the processor waits for memory. To be
-  /// called before the i-th of `count` cells is read, whose places are placeOf(i): fetches what is read of later ones.
+  /// Prefetches data of later cells: neighbours in the tree's order are far apart in a dataset, so
+  /// the processor would wait for memory. Call it before reading the i-th of `count` cells, whose
+  /// places are placeOf(i).
   template <class PlaceOf>
   void fetchAhead(std::size_t i, std::size_t count, const PlaceOf& placeOf) const
   {
@@ -109,9 +111,9 @@ public:
   /// Returns the proportions of voxels: typical cell sizes along each axis, the largest being 1.
   const Vector& voxelShape() const { return this->Sorted->voxelShape; }
 
-  /// Of some cells, and what follows from them. They are those with the lowest `order`, a number that depends on a cell alone:
-  /// so those of a mesh are the same, whichever parts it is divided into. This has those that are needed of a mesh of so
-  /// many cells.
+  /// A sample of cells for voxelShapeOf(): those with the lowest `order`, which depends on the cell
+  /// alone, so that the sample does not depend on pieces. Its size suits a mesh of `cellsOfAll`
+  /// cells.
   struct MeasuredCell
   {
     std::uint64_t order;
@@ -120,12 +122,12 @@ public:
   std::vector<MeasuredCell> measuredCells(std::int64_t cellsOfAll) const;
   static Vector voxelShapeOf(std::vector<MeasuredCell> cells);
 
-  /// Along each axis the largest voxel that such a cell needs: a step of one voxel changes none of its parametric
-  /// coordinates by more than 1. Infinite where it has no volume.
+  /// Returns the largest voxel for a cell along each axis: one step changes no parametric
+  /// coordinate by more than 1. Infinite for cells without volume.
   Vector sizeOf(const Cell& cell) const;
 
-  // For those who walk through the tree: boxes in steps of a lattice that is fine enough for all of them.
-  // They lie within; rounding widens them.
+  // Boxes for walk(), in steps of a lattice that is fine enough for all cells. Cells are inside;
+  // rounding enlarges the boxes.
   struct Steps
   {
     std::int32_t low[3], high[3];
@@ -136,8 +138,8 @@ public:
     float cellSize[3];
   };
 
-  /// What depends on the mesh alone: points, cells, which of them are hidden, and which points have no value. It needs
-  /// no dataset.
+  /// The state that depends on the mesh alone: points, cells, hidden cells, and points without
+  /// values. It needs no dataset.
   struct Mesh
   {
     std::vector<Number> firstNumbers; // of each block, and the end
@@ -154,8 +156,8 @@ public:
   const Vector& origin() const { return this->Sorted->origin; }
   const Vector& step() const { return this->Sorted->step; }
 
-  /// Calls enter(box), whether to continue, for groups and cells, and visit(place of a cell), in an order that
-  /// depends on the tree only.
+  /// Calls enter(box), which returns whether to continue, for groups and cells, and visit(place of
+  /// a cell), in an order that depends on the tree only.
   template <class Enter, class Visit>
   void walk(const Enter& enter, const Visit& visit) const
   {

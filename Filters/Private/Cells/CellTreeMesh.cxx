@@ -32,8 +32,8 @@ constexpr double steps = 1 << 30;
 /// Bits of each coordinate of a point on the Hilbert curve.
 constexpr int curveBits = 21;
 
-// Voxels: the size that a fraction of cells is smaller than. Proportions nearer than that to cubes are
-// cubes'; those of cells are not followed any further than to 1:32.
+// Voxels have the size that this fraction of cells is below. Proportions near to cubes' become
+// cubes'; the maximum is 1:32.
 constexpr double fractionOfSmallerCells = 0.1;
 constexpr double nearlyEqual = 1.5;
 constexpr double flattest = 1. / 32;
@@ -44,8 +44,8 @@ int dimensionOfType(int type)
   return vtkCellTypeUtilities::GetDimension(static_cast<unsigned char>(type));
 }
 
-/// Where a place lies on the Hilbert curve (J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707,
-/// 2004, pp. 381-387).
+/// Returns the index of a point on the Hilbert curve (J. Skilling, Programming the Hilbert curve,
+/// AIP Conf. Proc. 707, 2004, pp. 381-387).
 std::uint64_t placeOnCurve(const std::int32_t middle[3])
 {
   std::uint32_t x[3];

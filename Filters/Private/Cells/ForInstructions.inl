@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Compiles SCHLIEREN_CODE_FOR_PACKS, a file of functions for packs of `lanes` numbers, for packs of two, and for four and
-// eight with the instructions of AVX2 and AVX-512, each in a namespace of its own. Which of them a processor has, the
-// caller checks where SCHLIEREN_HAS_AVX is defined.
+// Compiles SCHLIEREN_CODE_FOR_PACKS, functions for packs of `lanes` numbers, for two lanes, for
+// four with AVX2 and for eight with AVX-512, in a namespace each. If SCHLIEREN_HAS_AVX is defined,
+// callers check what the processor has.
 
 // For functions with packs as arguments.
 #define SCHLIEREN_INLINE inline __attribute__((always_inline))

@@ -10,8 +10,8 @@ namespace filters
 namespace
 {
 
-/// offset + dot(slope, place), where the slope's length is 1: a distance from a plane. The offset is found in
-/// double precision, for triangles much larger than the lattice.
+/// offset + dot(slope, x) with a slope of length 1: the distance from a plane. The offset is
+/// computed in double precision, for triangles much larger than the lattice.
 struct Plane
 {
   float slope[3];

@@ -30,8 +30,8 @@ private:
 schlieren::Box boxAround(const schlieren::Lattice& lattice, double reach);
 
 /**
- * Unsigned distances from the points of a lattice to triangles, in spacings, and which triangle is nearest.
- * Triangles look for the points within reach of them, eight at a time in a row along x.
+ * Unsigned distances from a lattice's points to triangles, in spacings, and the nearest triangles.
+ * Triangles search for the points within reach of them, eight at a time in a row along x.
  */
 class LatticeDistances
 {
@@ -41,8 +41,8 @@ public:
   /// `number`: what nearest() returns for this triangle.
   void add(const std::array<Point, 3>& corners, std::int32_t number);
 
-  /// Of a row of points along x: the squares of the distances, at most that of the reach, and the nearest
-  /// triangles; -1: none is within reach.
+  /// Returns, for a row of points along x, squared distances, at most that of the reach, and the
+  /// nearest triangles; -1: none within reach.
   const float* squaredInRow(int j, int k) const { return this->Squared.data() + this->row(j, k); }
   const std::int32_t* nearestInRow(int j, int k) const
   {

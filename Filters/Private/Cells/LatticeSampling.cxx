@@ -123,8 +123,8 @@ void LatticeSampling::forNeighbours(const Index& at, const Visit& visit) const
   }
 }
 
-/// Of a wall and a window that are equally near, at a common edge, the one whose plane is farther away faces the
-/// point more.
+/// Decides between a wall and a window at equal distances, at a common edge: the one whose plane is
+/// farther away faces the point more.
 bool LatticeSampling::isWallNearer(const Index& at, std::int32_t wall, std::int32_t window) const
 {
   const auto heightOver = [&](std::int32_t number)
@@ -303,8 +303,7 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
     });
 }
 
-/// On which side of the nearest solid each point is. What is farther away from it than from its neighbours does
-/// not need to know.
+/// Finds the side of the nearest solid for each point that is nearer to it than to its neighbours.
 void LatticeSampling::findSides()
 {
   this->IsBeside.assign(this->States.size(), 0);
@@ -371,8 +370,8 @@ void LatticeSampling::findSolidsOfRows()
     { forRowsOf(number, [&](std::size_t row) { this->SolidsOfRows[next[row]++] = number; }); });
 }
 
-/// Of a voxel whose corners `low` and low + (1, 1, 1) are: marks points so that a wall no longer separates
-/// corners with gas.
+/// Marks points, so that no wall separates corners with gas of the voxel from `low` to low + (1, 1,
+/// 1).
 void LatticeSampling::separate(const Index& low)
 {
   std::array<std::size_t, 8> numbers; // of the corners with gas

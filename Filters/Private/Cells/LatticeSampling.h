@@ -38,8 +38,8 @@ public:
   /// Adds surfaces in the gas. Returns whether any is within reach.
   bool addBodies(const Triangles& surface, const TriangleTree& tree);
 
-  /// `isInBody`: empty where no point is. `kindAt` returns what is at a place outside from the faces beyond
-  /// reach.
+  /// Classifies all points. `isInBody`: empty if no point is. `kindAt` returns the kind of a point
+  /// outside, by faces beyond reach.
   void run(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody,
     const std::function<Place(const Point&)>& kindAt, Place* places, float* distances);
 

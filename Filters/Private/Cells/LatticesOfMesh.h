@@ -33,9 +33,9 @@ KnownLattice knownLattice(
   CellsOfLattice cells, const schlieren::Place* places, const float* distances, std::size_t points);
 
 /**
- * What is known of lattices on a mesh, for the next time steps, which need the same ones as long as neither the view
- * nor what it sees changes much. Up to `maxBytes`; those that neither of two steps needs go after them. May be used
- * from many threads at once.
+ * Caches results on lattices of a mesh for later time steps, which use the same lattices as long as
+ * the view and its content change little. Limited to `maxBytes`. Drops those that two steps have
+ * not used. Thread-safe.
  */
 class LatticesOfMesh
 {

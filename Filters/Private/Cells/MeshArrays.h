@@ -29,8 +29,8 @@ struct PointTrend
   float lowest = 0, highest = 0;
 };
 
-/// What the value at a point is a mean of, where values belong to cells: of those around it, each by itself. Moments are
-/// counted from the point, values from the mean.
+/// Range and moments of the cells around a point, over which its value is a mean if values belong
+/// to cells. Moments are relative to the point, values to the mean.
 struct CellsAround
 {
   float first[3] = {};
@@ -39,11 +39,11 @@ struct CellsAround
 };
 
 /**
- * The points and cells of a dataset as plain arrays, for many threads at once.
+ * The points and cells of a dataset as plain arrays, for several threads.
  *
- * VTK's virtual functions for one cell or point take longer than what is done with their results. Arrays are
- * the dataset's own where it has them (structured and unstructured grids), else copies. The dataset has one
- * double scalar at each point, and must outlive this.
+ * VTK's virtual functions for a cell or point take longer than the work on their results. Uses the
+ * dataset's own arrays (structured and unstructured grids) or copies. The dataset has one double
+ * scalar at each point, and must outlive this.
  */
 class MeshArrays
 {
@@ -154,8 +154,8 @@ public:
     }
   }
 
-  /// Fetch what is read of a cell that comes soon into the cache: first the cell's type and where its points stand; then,
-  /// when that is there, the points. Nothing else changes.
+  /// Prefetch a cell that will be read soon: first its type and the position of its points, then,
+  /// when these have arrived, the points.
   void fetchCell(vtkIdType cell) const
   {
     fetch(this->Types, cell);

@@ -18,8 +18,8 @@ namespace filters
 namespace
 {
 
-// How far out of their range parametric coordinates may be. Cells whose faces are plane meet without gaps;
-// others get as much as VTK gives hexahedra.
+// Tolerances of parametric coordinates. Cells with plane faces meet without gaps; others get the
+// tolerance of VTK's hexahedra.
 constexpr double toleranceOfPlaneFaces = 1e-6;
 constexpr double toleranceOfCurvedFaces = 1e-3;
 

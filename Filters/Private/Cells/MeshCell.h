@@ -26,8 +26,8 @@ public:
 
   void set(vtkDataSet* data, vtkIdType cell);
 
-  /// Whether the cell holds `x`, with tolerance; then its parametric coordinates, and by how much the largest
-  /// of them is out of their range.
+  /// Returns whether the cell contains `x`, with tolerance; then sets its parametric coordinates,
+  /// and how far the worst one is outside of its range.
   bool find(const double x[3], double coordinates[3], double& outside);
 
   /// Interpolates at a point that find() has found.

@@ -10,9 +10,9 @@ namespace filters
 {
 
 /**
- * A cell whose coordinates are a polynomial of its parametric ones (see CellShape.h). All of them are counted
- * from its middle, and coordinates in its edges there (`normal` ones): what makes them polynomials is what is
- * left apart from the parametric ones themselves.
+ * A cell whose coordinates are polynomials of its parametric ones (see CellShape.h), both relative
+ * to its middle. In units of the cell's edges there (`normal`), coordinates are the parametric ones
+ * plus the bends.
  */
 struct NormalCell
 {

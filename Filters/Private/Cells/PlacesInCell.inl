@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// LocateInCell for packs of `lanes` points. PlacesInCell.cxx includes this once for each set of instructions.
+// Defines LocateInCell for packs of `lanes` points. PlacesInCell.cxx includes it once for each set
+// of instructions.
 
 typedef double Real __attribute__((vector_size(sizeof(double) * lanes)));
 typedef std::int64_t Mask __attribute__((vector_size(sizeof(double) * lanes)));

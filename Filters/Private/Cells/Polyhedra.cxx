@@ -26,8 +26,8 @@ namespace filters
 namespace
 {
 
-/// Adds the mean of the cell's corners and of their values, or the cell's own value where that is known. Returns its
-/// number.
+/// Adds the mean of a cell's corners and of their values, or the cell's own value if known. Returns
+/// its number.
 vtkIdType addMiddle(vtkUnstructuredGrid* mesh, vtkIdType cell, vtkPoints* points,
   vtkDoubleArray* values, vtkFloatArray* around)
 {

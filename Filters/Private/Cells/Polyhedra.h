@@ -9,15 +9,15 @@ class vtkDataSet;
 namespace filters
 {
 
-/// The mesh with its polyhedra (vtkPolyhedron) cut into tetrahedra and its prisms with five or six sides into wedges, or
-/// the mesh itself where it has none.
-/// Point scalars (double) and the ghost array of the cells are kept, nothing else.
+/// Cuts polyhedra (vtkPolyhedron) into tetrahedra and prisms with five or six sides into wedges, or
+/// returns the mesh itself if it has none. Keeps point scalars (double) and the cells' ghost array.
 ///
-/// A tetrahedron joins a triangle of a face with the mean of the cell's corners, which gets the mean of
-/// their values: what is linear stays so. A face is cut from its point with the lowest number, so both its
-/// cells cut it alike. VTK finds out with random numbers that all threads share whether a point is inside
-/// a polyhedron, which with several threads ends the program; and it takes places beside those prisms for places in
-/// them, up to a third of their volume, with values that are not linear where the data are.
+/// A tetrahedron joins a triangle of a face with the mean of the cell's corners, which gets the
+/// mean of their values: linear fields stay linear. A face is cut from its point with the lowest
+/// number, so both of its cells cut it alike. VTK decides by random numbers, common to all threads,
+/// whether a point is inside a polyhedron, which crashes with several threads; and it locates
+/// points beside those prisms inside them, up to a third of their volume, with values that are not
+/// linear for linear data.
 vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* mesh);
 
 } // namespace filters

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-/// The grid that blocks of images are brought to whose cells hold the values, in one or more levels of refinement:
-/// vtkOverlappingAMR, vtkNonOverlappingAMR, or blocks of images in any other composite.
+/// Chooses the grid for blocks of images with values in cells, in one or more levels:
+/// vtkOverlappingAMR, vtkNonOverlappingAMR, or blocks in any other composite.
 namespace filters
 {
 
@@ -24,7 +24,7 @@ struct Amr
   std::string note;                      // about the grid, for the user
 };
 
-/// Nothing where the leaves are no such blocks: with point arrays, turned, or not on one lattice.
+/// Returns nothing for other leaves: with point arrays, turned, or not on one lattice.
 /// `samplingDimensions`: see vtkRefractiveIndex::SetSamplingDimensions.
 std::optional<Amr> planAmr(
   const Source& source, const int samplingDimensions[3], const SamplingBox& box);

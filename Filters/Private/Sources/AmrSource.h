@@ -16,8 +16,8 @@ class vtkDataObject;
 namespace filters
 {
 
-/// The refractivity of adaptive meshes whose cells hold the values, for the tracer. Solid cells are walls, as they stand:
-/// with the edges of cells.
+/// The refractivity of adaptive meshes with values in cells, for the tracer. Solid cells are walls
+/// with the cells' edges.
 class AmrSource : public schlieren::MediumSource
 {
 public:

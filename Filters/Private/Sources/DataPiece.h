@@ -21,8 +21,7 @@ class Reader;
 /// Returns whether two boxes have a point in common.
 bool meet(const schlieren::Box& a, const schlieren::Box& b);
 
-/// What one rank has of data that are spread over several: the places that it answers for. Its functions may be called from
-/// several threads.
+/// A rank's piece of data, and the points that it answers for. Thread-safe.
 class DataPiece
 {
 public:
@@ -40,12 +39,12 @@ public:
   };
   virtual Summary summary() const = 0;
 
-  /// A number that two pieces have in common only if their boundaries are the same, but for the values there; 0: of this one it
-  /// is not known.
+  /// Returns a number that is equal for two pieces only if their boundaries are equal, apart from
+  /// values; 0: unknown.
   virtual std::uint64_t meshKey() const { return 0; }
 
-  /// Adds to a message where its gas ends, for a source of all ranks: what kind of boundary, and that.
-  /// `cellsOfAll`: how many cells there are in all pieces.
+  /// Writes the boundary of its gas for a source of all ranks, preceded by its kind. `cellsOfAll`:
+  /// number of cells of all pieces.
   enum class BoundaryKind : std::uint32_t
   {
     OfMesh, ///< see MeshPiece::putBoundary()
@@ -69,8 +68,8 @@ public:
     return { 1, 0 };
   }
 
-  /// N at the points of a lattice that it holds, and the fields there: field after field, NaN where one has no value. `found` is
-  /// empty where no point is.
+  /// N at the lattice points that the piece contains, and fields, field after field, NaN where one
+  /// has no value. `found`: empty if it contains no point.
   struct Samples
   {
     std::vector<unsigned char> found;

@@ -22,8 +22,8 @@ namespace filters
 
 class MediumMaker;
 
-/// What vtkSchlierenFilter needs to tint an image by the Fields of its medium. A field is what its transfer function
-/// makes of it, where the medium is made with these; else its place in its range. A user's mistake is thrown as
+/// Computes the Fields of a medium that tint images. A field is its transfer function's value, if
+/// the medium is made with these; else it is relative to its range. User errors are thrown as
 /// std::runtime_error with a message for the user.
 
 /// A field in the form of a refractivity.
@@ -42,28 +42,29 @@ struct RangeOfField
 /// Finds the ranges of the fields of `medium`.
 std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataObject* input);
 
-/// The fields of `medium`, which takes `ofMedium` from `input`. `ranges`: of all parts of the data, of which this may not have
-/// all fields; empty: these are all.
+/// Returns the fields of `medium`, which is made by `ofMedium` from `input`. `ranges`: those of all
+/// ranks, as a piece may lack fields; empty: there is one rank.
 std::vector<FieldValues> fieldValues(const MediumSettings& medium, vtkDataObject* input,
   const filters::Source& ofMedium, const std::vector<FieldMean::Range>& ranges = {});
 
 /// Averages point values over cells.
 void bringToCells(FieldValues& field);
 
-/// Calls take(number, image) for each field with its values, as if they were a refractivity, on the grid of
-/// `refractivity`, which `maker` has made from `input`. `ranges`: of all parts of the data; empty: this is all.
+/// Calls take(number, image) for each field in the form of a refractivity, on the grid of
+/// `refractivity`, which `maker` has made from `input`. `ranges`: those of all ranks; empty: there
+/// is one.
 void forFieldImages(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
   int threads, const std::function<void(std::size_t, vtkImageData*)>& take,
   const std::vector<FieldMean::Range>& ranges = {});
 
-/// The gradients of the fields on the grid of `refractivity`, which `maker` has made from `input`: what
-/// schlieren::FieldGradients::values needs.
+/// Returns the gradients of the fields on the grid of `refractivity`, which `maker` has made from
+/// `input`, for schlieren::FieldGradients::values.
 std::vector<float> fieldGradients(
   MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity);
 
-/// Three `values` for each field; or, where there are none, hues of the golden section (their numbers
-/// times 0.618 of the circle, from red), of which any number is well apart and none changes when a field
-/// is added.
+/// Returns three `values` for each field or, without any, hues of the golden section (numbers times
+/// 0.618 of the circle, from red), which are distinct for any number of fields, and stay when
+/// fields are added.
 std::vector<std::array<float, 3>> fieldColors(
   const std::vector<double>& values, std::size_t fields);
 

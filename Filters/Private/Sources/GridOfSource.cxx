@@ -166,8 +166,8 @@ public:
     }
   }
 
-  /// Whether light is to be stopped at a point, also where it has gas but is on the surface of a body, or near to a wall without
-  /// an inside. All points have to be set before.
+  /// Returns whether a point stops light, also with gas: on a body's surface, or near a wall
+  /// without an inside. All points must be set before.
   bool isWall(vtkIdType point) const
   {
     const auto at = static_cast<std::size_t>(point);
@@ -186,8 +186,8 @@ private:
     On = 2
   };
   static constexpr float rounding = 1e-3f; // for surfaces through points of the grid
-  /// From the middle of a voxel to its corner: no step to a neighbour, diagonal ones included, goes through a wall between
-  /// points that are farther from it.
+  /// Half of a voxel's diagonal: no step to a neighbour, even a diagonal one, crosses a wall
+  /// between points that are farther from it.
   static constexpr float reachOfVoxel = 0.8661f;
 
   /// Returns whether the near boundary is not the end of the data.
@@ -238,8 +238,8 @@ private:
   std::vector<unsigned char> Near;      // of each point: gas near its boundary
 };
 
-/// Samples a source at the points of a grid: calls set(point, refractivity, place) for all of them, from several threads.
-/// `walls`: may be null.
+/// Calls set(point, refractivity, place) for all points of a grid, sampled from a source, in
+/// several threads. `walls`: may be null.
 template <class Set>
 void sampleAt(const LatticeOfGrid& points, const schlieren::MediumSource& source,
   const WorkProgress& progress, WallsOfGrid* walls, const Set& set)

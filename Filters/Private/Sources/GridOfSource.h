@@ -17,9 +17,10 @@ class MediumSource;
 namespace filters
 {
 
-/// Sets Refractivity and the masks of `grid`, whose axes are along axes of the source, in any order and to either side. Of a
-/// flat source the layers along its z are all the same. `thinSurfaces`: bodies may be thin; points on their surfaces, and within
-/// 0.87 voxels of those that have no inside, are masked. Several threads; throws Stopped and std::bad_alloc.
+/// Sets Refractivity and the masks of `grid`, whose axes are along those of the source, in any
+/// order and direction. Layers along z of a flat source are equal. `thinSurfaces`: masks points on
+/// surfaces of bodies, and within 0.87 voxels of those without inside. Uses several threads; throws
+/// Stopped and std::bad_alloc.
 void fillGrid(const schlieren::MediumSource& source, Numbers numbers, bool thinSurfaces,
   const WorkProgress& progress, vtkImageData* grid);
 
@@ -27,8 +28,8 @@ void fillGrid(const schlieren::MediumSource& source, Numbers numbers, bool thinS
 std::vector<float> fieldsAtGrid(
   const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* grid);
 
-/// Masks the points of an image, which has its arrays already, at which a source of the same axes has a wall. Returns whether
-/// there are any.
+/// Masks the points of an image with arrays at which a source with the same axes has a wall.
+/// Returns whether there are any.
 bool maskWalls(
   const schlieren::MediumSource& source, const WorkProgress& progress, vtkImageData* image);
 

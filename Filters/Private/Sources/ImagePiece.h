@@ -23,15 +23,15 @@ namespace filters
 {
 
 /**
- * The points of an image, or those that one rank has of it, and what is between them: a spline. All places are in the image's
- * own axes.
+ * A spline through the points of an image, or of a rank's piece of it. Positions are in the image's
+ * axes.
  *
- * Points that are no gas in the data are walls, or windows where the data's masks say so, as they stand: the cube around
- * each, as in the grid of an image. Points inside closed bodies have no value of their own.
+ * Points without gas are walls, or windows where the data's masks say so: the cube around each, as
+ * in the grid of an image. Points inside closed bodies have no value.
  *
- * Of an image that several ranks have, each needs `layers` of points of the others around its own. Then the splines of two
- * ranks differ by less than single precision where they meet (what is changed k points away changes a coefficient by
- * (3 - sqrt(8))^k; Unser, Aldroubi & Eden 1993).
+ * A piece needs `layers` of other ranks' points around its own. Then the splines of two ranks
+ * differ by less than single precision where they meet (a change k points away changes a
+ * coefficient by (3 - sqrt(8))^k; Unser, Aldroubi & Eden 1993).
  */
 class ImagePiece : public DataPiece
 {
@@ -46,8 +46,9 @@ public:
     Extent own; // without points of other ranks
   };
 
-  /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: in the image's own axes, see
-  /// turnedBack(); may be null. Throws std::runtime_error where they are no surfaces.
+  /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: in the
+  /// image's axes, see turnedBack(); may be null. Throws std::runtime_error if they are no
+  /// surfaces.
   ImagePiece(
     vtkImageData* refractivity, const Extents& extents, vtkDataObject* bodies, int threads);
   /// Makes a piece of a whole image.
@@ -84,8 +85,8 @@ public:
     unsigned char* hasGas) const;
 
   Summary summary() const override;
-  /// Its axes, the triangles of faces(), which of them hide something, and N on the faces of the whole image: at each
-  /// point, or of more than a million at each nth.
+  /// Writes its axes, the triangles of faces(), which of them hide something, and N on the faces of
+  /// the whole image: at each point, or of more than a million at each nth.
   void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;

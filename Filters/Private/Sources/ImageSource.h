@@ -18,14 +18,14 @@ class vtkImageData;
 namespace filters
 {
 
-/// The refractivity of an image with Bodies in it, box by box, for the tracer. The silhouettes of bodies are where their
-/// surfaces are: as the grid that an image is without them, the medium would be blocked voxel by voxel. Between the image's
-/// points it is the same as in the grid: the quadratic spline (see ImagePiece).
+/// The refractivity of an image with Bodies, for bricks of the tracer. Silhouettes are at the
+/// bodies' surfaces, where a grid would block whole voxels. Interpolates the image by the same
+/// quadratic spline as a grid (see ImagePiece).
 class ImageSource : public schlieren::MediumSource
 {
 public:
-  /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: not null. Throws
-  /// std::runtime_error where they are no surfaces.
+  /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: not null.
+  /// Throws std::runtime_error if they are no surfaces.
   ImageSource(vtkImageData* refractivity, vtkDataObject* bodies, int threads,
     const WorkProgress& progress = WorkProgress());
 

@@ -11,22 +11,21 @@
 namespace filters
 {
 
-/// Values at an image's points and, between them, the quadratic spline through them (Unser, Aldroubi & Eden 1993). Values
-/// that are not known are continued linearly from those around them.
+/// A quadratic spline through an image's values (Unser, Aldroubi & Eden 1993). Extrapolates unknown
+/// values linearly from those around them.
 class ImageSpline
 {
 public:
   using Range = schlieren::MediumSource::FieldRange;
 
-  /// Of an image's field; `isKnown`: of each point; `first`: which point of a larger image the first one is, where it
-  /// is a part of one.
+  /// `isKnown`: of each point. `first`: index in the whole image of the field's first point.
   ImageSpline(const schlieren::Field& field, const std::vector<unsigned char>& isKnown,
     const Counts& points, const Counts& first, int threads);
 
   /// Samples lattice points. `places`: their index coordinates along each axis, in the image.
   void sample(const std::array<std::vector<double>, 3>& places, double* values) const;
-  /// Of the values around points from `begin` to `last`: at least of those that have a part in what is between them, at
-  /// most of the blocks of points of the larger image, in which these are.
+  /// Returns a range of values that includes those that affect the points from `begin` to `last`,
+  /// and at most their blocks in the whole image.
   Range rangeIn(const Counts& begin, const Counts& last) const;
 
 private:

@@ -45,8 +45,8 @@ struct KeptMesh
   }
 };
 
-/// Makes the medium of data: a source for the tracer, or a grid. Functions throw std::runtime_error with a message for the user,
-/// std::bad_alloc, and Stopped where the work is cancelled.
+/// Makes the medium of data: a source for the tracer, or a grid. Functions throw std::runtime_error
+/// with a message for the user, std::bad_alloc, or Stopped if cancelled.
 class VTKSCHLIERENFILTERS_EXPORT MediumMaker
 {
 public:
@@ -66,7 +66,8 @@ public:
   int threads() const;
   const Progress& progress() const { return this->Report; }
 
-  /// Makes `structure` the grid (extent, origin, spacing, direction; no arrays) that convert() would fill.
+  /// Makes `structure` the grid (extent, origin, spacing, direction; no arrays) that convert()
+  /// would fill.
   void computeGrid(vtkDataObject* input, vtkImageData* structure);
   /// Makes `structure` the bounds, two points along each axis, of data that canMakeSource().
   void computeBox(vtkDataObject* input, vtkImageData* structure);
@@ -74,13 +75,13 @@ public:
   int flatAxis() const { return this->FlatAxis; }
   /// Returns whether data are an image, whose grid is kept.
   bool keepsGrid(vtkDataObject* input);
-  /// Whether the values of an image belong to its cells: as the user chose, unless its data, where they are there already, say
-  /// otherwise.
+  /// Returns whether the values of an image belong to its cells: the user's choice, or else that of
+  /// its data, if they are known already.
   bool willReadCells(vtkDataObject* image);
 
-  /// Fills `output`, which has Refractivity and the masks, from `input` and, where not null, `bodies`. Differences: Refractivity
-  /// is N less RefractivityOffset of the field data, a value near that of the surroundings, so that weak flows keep their digits.
-  /// Returns what the user should be warned of, mostly nothing.
+  /// Fills `output` with Refractivity and masks from `input` and `bodies`, if not null. With
+  /// Differences, Refractivity is N less RefractivityOffset of the field data, about the ambient,
+  /// so that weak flows keep their digits. Returns a warning, mostly empty.
   std::string convert(
     vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies, Numbers numbers);
   /// Returns a text about the grid of the last convert(); empty before the first and after others.
@@ -88,19 +89,19 @@ public:
   /// Counts grids chosen for data other than images, once for each and its settings.
   vtkTypeInt64 gridPlans() const { return this->Plan.count; }
 
-  /// Whether data are for makeSource(). What else there is becomes a grid by convert(): images without bodies (unless
-  /// `imagesToo`), flat ones, and where SamplingDimensions or SamplingBounds are given.
+  /// Returns whether makeSource() accepts the data. convert() makes grids of all else: images
+  /// without bodies (unless `imagesToo`), flat ones, and with SamplingDimensions or SamplingBounds.
   bool canMakeSource(vtkDataObject* input, vtkDataObject* bodies, bool imagesToo);
 
   /// Returns whether the settings allow data on several ranks: see InputsOfRanks.
   bool canUsePieces() const;
 
-  /// The refractivity for the tracer, which queries it as finely as a view needs. `withFields`: it has Fields, too; see
-  /// FieldTints.h. `warning`: what the user should be warned of.
+  /// Makes the refractivity for the tracer, which samples it as finely as a view needs.
+  /// `withFields`: with Fields; see FieldTints.h. `warning`: for the user.
   ///
-  /// Keeps what depends on the mesh alone until the next data: the order of its cells, the points around each point, where the
-  /// gas ends. Data have the same mesh if their points, their cells, what hides them, which values are valid, the bodies, Outside
-  /// and Reconstruction are the same; that is found from the data themselves, not from their times.
+  /// Keeps what depends on the mesh alone until the next data: the order of cells, neighbours of
+  /// points, the boundary. Meshes are compared by their content, not by times: points, cells, what
+  /// hides them, valid values, bodies, Outside and Reconstruction.
   std::shared_ptr<const schlieren::MediumSource> makeSource(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields = false);
   /// Makes the source of data whose grid is not kept, whatever grid the settings have.
@@ -112,8 +113,8 @@ public:
   /// Drops the state of the last data, for a medium that is made elsewhere.
   void forgetLast();
 
-  /// What to warn of for a medium of `source` with these values; `bodiesMissed`: bodies are given, but none is in the data. Notes
-  /// that were the last ones are not repeated.
+  /// Returns a warning about a medium of `source` with these values; `bodiesMissed`: no body is in
+  /// the data. Does not repeat the last notes.
   std::string warningOf(const Source& source, const Tally& tally, bool bodiesMissed);
 
 private:

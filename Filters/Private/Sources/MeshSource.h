@@ -24,8 +24,8 @@ class vtkDataSet;
 namespace filters
 {
 
-/// What of a MeshSource depends on the mesh alone, and not on its values: it is kept from one time step to the next.
-/// It needs no dataset.
+/// State of a MeshSource that depends on the mesh alone, kept between time steps. It needs no
+/// dataset.
 struct SourceMesh
 {
   std::shared_ptr<const CellTree::Mesh> cells;
@@ -43,8 +43,8 @@ schlieren::Box boundsOf(
 class MeshSource : public schlieren::MediumSource
 {
 public:
-  /// `leaves`: with N at their points, see preparedLeaves(). `bodies`: may be null. `flatAxis`: -1, or that across which
-  /// both were flat (see extruded()).
+  /// `leaves`: with N at their points, see preparedLeaves(). `bodies`: may be null. `flatAxis`: the
+  /// axis across which both were flat (see extruded()), or -1.
   MeshSource(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, vtkDataObject* bodies,
     Outside outside, CellTree::Reconstruction reconstruction, const WorkProgress& progress,
     int flatAxis = -1);

@@ -25,10 +25,10 @@ enum class CellValues
 /// Returns whether any cell has so many dimensions.
 bool hasCells(vtkDataSet* data, int dimension);
 
-/// Meshes of those leaves that have cells of as many dimensions as the source has, with nothing but N at their points (NaN
-/// where invalid), and other cells hidden. Leaves that share points have become one. `shared`: which points these are; it
-/// is found where it is null, and to be used for other values of the same leaves. `others`: which will come; where a leaf
-/// lacks some of them, it shares no points with those that have them.
+/// Makes meshes of the leaves that have cells of the source's dimension, with N alone at their
+/// points (NaN if invalid), and other cells hidden. Leaves with common points are joined. `shared`:
+/// the common points, found if null, for other values of the same leaves. `others`: later sources;
+/// leaves that lack some of them are not joined with those that have them.
 std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, CellValues cellValues,
   Tally& tally, std::shared_ptr<const SharedPoints>& shared,
   const std::vector<const Source*>& others = {});

@@ -271,8 +271,8 @@ vtkSmartPointer<vtkImageData> turnedOver(
   return other;
 }
 
-/// Rows of points that are half a cell, or about that, from the axis: structured data without points on it. Of each point its
-/// neighbour in the row's cells, in order; empty: there are none.
+/// Finds rows of points about half a cell from the axis: structured data without points on it.
+/// Returns each point and its neighbour in the row's cells, in order; empty: there are none.
 std::vector<std::array<vtkIdType, 2>> rowAtAxis(
   vtkDataSet* data, const Revolution& revolution, double tolerance)
 {

@@ -30,8 +30,8 @@ struct Revolution
 /// Returns the chosen or best axis. Throws for data that are not flat or have no such axis.
 Revolution revolutionOf(const Source& source);
 
-/// Two points along each axis of its box; or so many as the cells of the plane suggest, unless they are given: see
-/// vtkRefractiveIndex::SetSamplingDimensions.
+/// Makes the bounds with two points along each axis, or with as many as the plane's cells suggest
+/// or as are given: see vtkRefractiveIndex::SetSamplingDimensions.
 void boxOf(const Revolution& revolution, vtkImageData* structure);
 void gridOf(const Revolution& revolution, const Source& source, const int samplingDimensions[3],
   const SamplingBox& box, vtkImageData* structure);

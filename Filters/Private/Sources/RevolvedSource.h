@@ -14,8 +14,8 @@
 namespace filters
 {
 
-/// The refractivity of a body of revolution, of which another source knows a section: the plane of its axis and both sides of
-/// it. At places (x, y, z) it is what the section has at (x, r), interpolated between rows of equal r.
+/// The refractivity of a body of revolution from the source of a section, the plane of its axis on
+/// both sides: that at (x, r) for points (x, y, z), interpolated between rows of equal r.
 class RevolvedSource : public schlieren::MediumSource
 {
 public:

@@ -22,8 +22,8 @@ namespace filters
 namespace
 {
 
-// Grids that are chosen from the input (see SamplingDimensions) are as fine along each axis as the cells
-// that a fraction of all is smaller than: the smallest such fraction, from this one on, whose grid fits.
+// Grids that are chosen (see SamplingDimensions) are as fine along each axis as the size that a
+// fraction of cells is below: the smallest fraction, from this one on, whose grid fits.
 constexpr double fractionOfSmallerCells = 0.1;
 constexpr double maxVoxelsPerPoint = 32;       // limits grids for a few tiny cells
 constexpr double fewestVoxels = 64. * 64 * 64; // flat data: 64 * 64

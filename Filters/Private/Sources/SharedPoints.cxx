@@ -34,8 +34,8 @@ namespace
 
 using Leaves = std::vector<vtkSmartPointer<vtkDataSet>>;
 
-/// Cells that hang together by points that they share are too few for walls without thickness between them and others where
-/// they are fewer than both of these. So many cells has no element of a discontinuous method.
+/// Minimum number of connected cells for sheets between them and others, which elements of
+/// discontinuous methods do not reach.
 constexpr std::size_t fewCells = 1000;
 constexpr double fewOfAll = 0.25;
 
@@ -102,8 +102,8 @@ struct Candidates
   std::size_t size() const { return this->points.size(); }
 };
 
-/// Whether the boxes have a volume in common with this leaf's, or a ghost array hides cells: then points within grids may be
-/// others', too.
+/// Returns whether other boxes intersect this leaf's, or a ghost array hides cells: then points
+/// within grids may coincide with others.
 bool mayOverlap(const Leaves& leaves, std::size_t number)
 {
   const double* a = leaves[number]->GetBounds();

@@ -16,27 +16,27 @@ namespace filters
 {
 
 /**
- * Which points of the datasets of an input are one. Blocks have points of their own where they meet, appended meshes
- * where these do, and in discontinuous finite elements each cell has. Where they coincide (see CoincidentPoints.h), cells
- * are neighbours: what is known of one is used for the other.
+ * Merges points of datasets of an input that coincide (see CoincidentPoints.h): those of blocks, of
+ * appended meshes, and of the cells of discontinuous finite elements, so that cells become
+ * neighbours.
  *
- * Walls without thickness within a dataset stay: points on both sides of faces that are sheets (see SheetFaces.h) are
- * apart. They are looked for between cells that much of the dataset connects by points that they share. In discontinuous
- * elements values jump from cell to cell wherever the field is steep, which is no wall. A grid alone (the seam of an O-grid)
- * stays as it is, as do its parts on several ranks.
+ * Walls without thickness within a dataset stay: points on both sides of sheets (see SheetFaces.h)
+ * are kept apart. Sheets are searched for between large sets of cells that are connected by points,
+ * because in discontinuous elements values jump between cells wherever the field is steep. A grid
+ * alone (the seam of an O-grid) stays unchanged, and so do its pieces.
  */
 class SharedPoints
 {
 public:
-  /// Of datasets with values in the cells' scalars, or else in those of the points, cells without gas being hidden.
-  /// `dimension`: of the cells that count. `kinds`: of the datasets, of which those of different kinds share no points;
-  /// empty: all may.
+  /// Takes datasets with values in the cells' scalars or else in the points', with cells without
+  /// gas hidden. `dimension`: of the cells in use. `kinds`: of the datasets; different kinds share
+  /// no points; empty: all may.
   SharedPoints(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, int dimension,
     const std::vector<std::vector<bool>>& kinds = {});
 
-  /// Those datasets as they are that share no points; of others one mesh for all that hang together. Points that are one
-  /// have the mean of their values. Where each cell has its points for itself and the values jump, they become the cells'
-  /// means. `leaves`: those of the constructor, or the same with other values.
+  /// Returns unchanged those datasets that share no points, and a mesh for each connected group of
+  /// others. Merged points have the mean of their values, or the cells' means if each cell has its
+  /// own points and values jump. `leaves`: as in the constructor, perhaps with other values.
   std::vector<vtkSmartPointer<vtkDataSet>> joined(
     const std::vector<vtkSmartPointer<vtkDataSet>>& leaves) const;
 

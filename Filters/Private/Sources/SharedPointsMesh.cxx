@@ -32,8 +32,8 @@ namespace
 
 using Leaves = std::vector<vtkSmartPointer<vtkDataSet>>;
 
-/// How much values may jump between cells that have their points for themselves before the cells' means say more than the
-/// means at the points: squares, summed up over the mesh, of those of the differences within cells.
+/// Ratio of squared jumps between cells with their own points to squared differences within cells,
+/// summed over the mesh, above which cells' means are better than means at points.
 constexpr double largeJumps = 0.05;
 
 /// Hashes the set of a cell's points, regardless of their order.

@@ -57,8 +57,8 @@ struct RefractivityKey
   }
 };
 
-/// The refractivities of this process that a filter uses.
-/// Another filter of the same data, in whatever view, takes the one that is there; null: there is none.
+/// Returns the refractivity in this process that a filter with the same data uses; null if there is
+/// none.
 std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& key);
 void shareRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made);
 

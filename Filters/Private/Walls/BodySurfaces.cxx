@@ -135,7 +135,8 @@ std::vector<std::int32_t> closedParts(const Triangles& surface, std::int32_t& nu
   return parts;
 }
 
-/// Turns the triangles of closed parts whose normals point inward. Parts without a volume become open ones.
+/// Turns the triangles of closed parts whose normals point inward. Parts without a volume become
+/// open ones.
 void turnOutward(Triangles& surface, std::vector<std::int32_t>& parts, std::int32_t numberOfParts)
 {
   constexpr double rounding = 1e-12;
@@ -175,8 +176,8 @@ void turnOutward(Triangles& surface, std::vector<std::int32_t>& parts, std::int3
   }
 }
 
-/// Whether the edge ab, projected along x, lies at z and on the far side of y. The same for both triangles that share it,
-/// to the last bit, so that no line slips through between them.
+/// Returns whether a line along x at (y, z) crosses the edge ab; exactly the same for both
+/// triangles of an edge, so that no line slips through between them.
 bool isPassed(Point a, Point b, double y, double z)
 {
   if ((a[2] > z) == (b[2] > z))

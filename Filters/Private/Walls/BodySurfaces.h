@@ -21,7 +21,8 @@ public:
   BodySurfaces(const BodySurfaces&) = delete;
   BodySurfaces& operator=(const BodySurfaces&) = delete;
 
-  /// Normals of closed parts point outward, if their triangles are all turned alike. Parts that enclose nothing are not closed.
+  /// Normals of closed parts point outward, if their triangles are all turned alike. Parts that
+  /// enclose nothing are not closed.
   const Triangles& surface() const { return this->Surface; }
   const TriangleTree& tree() const { return this->Tree; }
   bool isOfClosed(std::int32_t triangle) const
@@ -29,8 +30,9 @@ public:
     return this->Parts[static_cast<std::size_t>(triangle)] >= 0;
   }
 
-  /// Sets isInside[...] of those points of a lattice that a closed part holds: those with an odd number of
-  /// crossings before them along x (Nooruddin & Turk 2003). Parts may overlap or enclose each other.
+  /// Sets isInside[...] for the lattice points inside a closed part: those with an odd number of
+  /// crossings before them along x (Nooruddin & Turk 2003). Parts may overlap or enclose each
+  /// other.
   void findInside(const schlieren::Lattice& lattice, std::vector<unsigned char>& isInside) const;
   bool isInside(const Point& place) const;
 

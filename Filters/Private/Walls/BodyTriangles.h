@@ -23,8 +23,8 @@ constexpr const char* bodiesCoverAll =
   "The Bodies cover all of the gas, so there is none for light to "
   "cross. Leave out what encloses the flow. Do both have the same unit of length?";
 
-/// The polygons of `bodies` as triangles, whose points are finite. Throws std::runtime_error where they are no surfaces (vtkPolyData, or a
-/// composite of it) or have points that are not finite.
+/// Returns the polygons of `bodies` as triangles. Throws std::runtime_error if they are no surfaces
+/// (vtkPolyData, or a composite of it) or have points that are not finite.
 vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies);
 
 } // namespace filters

@@ -24,8 +24,8 @@ using CellTest = std::function<bool(const Point& place)>;
 /// Tests several points.
 using CellsTest = std::function<std::vector<unsigned char>(const std::vector<Point>& places)>;
 
-/// What cells are: all that there is, or a layer of what does not depend on z. Nothing ends at the sides of a layer
-/// across z.
+/// Extent of cells: the whole data, or a layer of data that do not depend on z, at whose sides
+/// across z nothing ends.
 enum class Extent
 {
   Volume,
@@ -51,25 +51,26 @@ struct BoundaryFaces
   std::vector<unsigned char> areSheets; ///< of `cuts`
 };
 
-/// The boundary of all leaves together: datasets with a double scalar at each point, NaN where there is no gas.
-/// Cells are visible if they are 3-D and not hidden by a ghost array (hiddenCellBits). Those with a point without gas
-/// count as hidden; those with a point that is nowhere (NaN) are not there.
+/// Finds the boundary of all leaves together: datasets with a double scalar at each point, NaN
+/// without gas. Cells are visible if they are 3-D and not hidden by a ghost array (hiddenCellBits).
+/// Cells with a point without gas are hidden; cells with a point that is not finite are omitted.
 ///
-/// Faces with the same points count as one, also where the points are there twice (blocks; the seam of an O-grid;
-/// the wake cut of a C-grid): points are one if they lie within 1e-3 of the smallest edge or cell beside them, or
-/// within the rounding of the coordinates. Faces without area, at a pole or an axis, are left out. With a
-/// `isInCell`, so are faces that have cells on both sides without the same points: blocks that overlap, hanging
-/// nodes, curved sides of blocks with a gap of up to 0.05 of the cell's height or the face's smallest edge.
+/// Merges faces with the same points, also where points are duplicated (blocks; the seam of an
+/// O-grid; the wake cut of a C-grid): points coincide within 1e-3 of the smallest edge or cell
+/// beside them, or within rounding. Omits faces without area, at a pole or an axis, and, with
+/// `isInCell`, faces with cells on both sides whose points differ: overlapping blocks, hanging
+/// nodes, curved sides of blocks with a gap of up to 0.05 of the cell's height or the face's
+/// smallest edge.
 ///
-/// Sheets without thickness within a dataset, whose cells meet at the same places but have points of their own on
-/// both sides, are known by their values (see findSheets()) and are there twice, once from each side. Others are not
-/// known to be there: give them as Bodies.
+/// Sheets without thickness within a dataset, whose cells meet with points of their own on both
+/// sides, are found by their values (see findSheets()), and are included once from each side.
+/// Others are not recognized: give them as Bodies.
 BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
   const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume,
   Sheets sheets = Sheets::Found);
 
-/// Faces that visible cells have on both sides, each side with points of its own: of one leaf, or of two, which `leaf` of the
-/// contributions says.
+/// Finds faces with visible cells on both sides, each with points of its own: of one leaf, or of
+/// two, according to `leaf` of the contributions.
 CutFaces cutFacesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress);
 
 /// Returns the values of CutFaces::contributions.

@@ -26,16 +26,16 @@ enum class Outside
 };
 
 /**
- * Where the gas of meshes ends, and which of that is walls. What is towards hidden cells is a wall, and so are
- * Bodies, whatever `Outside` says. All functions may be called from several threads.
+ * The boundary of the gas of meshes, and its walls. Faces to hidden cells, and Bodies, are walls
+ * with any `Outside`. Thread-safe.
  */
 class GasBoundary
 {
 public:
   using Place = schlieren::Place;
 
-  /// `leaves`, `isInCell` (may be empty): see boundaryOf(). `bodies`: may be null; see BodySurfaces. All of it is kept
-  /// as it is: neither need outlive this.
+  /// `leaves`, `isInCell` (may be empty): see boundaryOf(). `bodies`: may be null; see
+  /// BodySurfaces. Keeps copies of all data.
   GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies, Outside outside,
     const CellTest& isInCell, const WorkProgress& progress = WorkProgress(),
     Extent extent = Extent::Volume);
@@ -51,8 +51,8 @@ public:
     return findSheets(this->Faces.cuts, valuesOf(this->Faces.cuts)) == this->Faces.areSheets;
   }
 
-  /// N of the gas around the flow: the median over the area of the outer boundary, or of all of the boundary where
-  /// there is none. NaN: there is no boundary. `leaves`: these or others on the same mesh.
+  /// Returns the ambient N: the median over the area of the outer boundary, or of all of the
+  /// boundary without one. NaN: no boundary. `leaves`: these or others on the same mesh.
   double ambient(const std::vector<vtkDataSet*>& leaves) const;
   /// Returns the ambient of N at the points of surface().
   double ambient(const std::vector<double>& values) const;
@@ -71,19 +71,19 @@ public:
   /// Returns whether any of the Bodies meets a box.
   bool hasBodiesIn(const schlieren::Box& box) const;
 
-  /// What there is at a place, given whether a visible cell holds it. Of a place outside, the nearest face counts
-  /// (or one that is farther away by no more than a twentieth); but what is beyond the nearest window is one, though
-  /// the wall of a hole that opens there be nearer.
+  /// Returns the kind of a point, given whether a visible cell contains it. Outside, the nearest
+  /// face decides (or one at most a twentieth farther away); but points beyond the nearest window
+  /// are windows, even if the wall of a hole that opens there is nearer.
   Place kindAt(const Point& place, bool isInCell) const;
 
-  /// Fills `places` and `distances` (may be null), see MediumSource::sample(), given which points visible cells
-  /// hold. Distances are never 0: points in cells have at least 1/4096, others at most -1/4096. Points outside and
-  /// beyond reach of faces are what those beside them are. Points outside without a face between them and gas beside
-  /// them, in gaps between cells, are windows.
+  /// Fills `places` and `distances` (may be null), see MediumSource::sample(), given the points in
+  /// visible cells. Distances are at least 1/4096 in cells and at most -1/4096 outside. Points
+  /// outside and beyond reach of faces have the kind of their neighbours. Points outside that no
+  /// face separates from gas beside them, in gaps between cells, are windows.
   ///
-  /// Where a wall is thinner than a voxel, so that there are points with gas on both sides, the nearer one becomes
-  /// a wall, half a voxel deep. So the points with gas that are corners of the same voxel are all on one side of
-  /// it: nothing leaks through where distances are interpolated trilinearly.
+  /// If a wall is thinner than a voxel, with gas on both sides, the nearer point becomes a wall,
+  /// half a voxel deep. So the corners with gas of a voxel are all on one side of it, and trilinear
+  /// interpolation of distances has no leaks.
   void sample(const schlieren::Lattice& lattice, const unsigned char* isInCell, Place* places,
     float* distances) const;
 

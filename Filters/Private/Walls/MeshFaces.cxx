@@ -144,8 +144,8 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataSet* data, const std::vector<vtkId
   }
   else
   {
-    // Of data with hidden cells, vtkGeometryFilter (9.2) lacks the faces towards these, and overruns arrays where they are
-    // structured.
+    // Adds numbers of points and cells, because vtkGeometryFilter (9.2) omits faces to hidden
+    // cells, and overruns arrays of structured data.
     cells->GetPointData()->AddArray(numbersOf(data->GetNumberOfPoints(), originsName));
     cells->GetCellData()->AddArray(numbersOf(data->GetNumberOfCells(), ownersName));
     vtkNew<vtkExtractCells> extract;

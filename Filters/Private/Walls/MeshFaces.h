@@ -17,8 +17,8 @@ class vtkDataSet;
 namespace filters
 {
 
-/// What a value is made of: those at points of a leaf, with weights. One with the weight 1, but for points that are
-/// not the leaf's own, on the faces of curved cells.
+/// A weighted value at a point of a leaf, of which a boundary value is made: one with the weight 1,
+/// but several for points on faces of curved cells that are not the leaf's own.
 struct Contribution
 {
   static constexpr std::uint32_t ofSeveral = 0xffffffff; // see BoundaryOfMeshes
@@ -65,9 +65,10 @@ struct Faces
   }
 };
 
-/// The surface of the visible cells of each leaf, and of the hidden ones. See boundaryOf(). With Copies::Neighbours, that
-/// part of it which belongs to cells that are no copies. Faces of curved cells come in parts; they are one if their
-/// corners and middles are the same places, also where the points are there twice, as those of discontinuous solutions are.
+/// Finds the surface of each leaf's visible cells, and of hidden ones; see boundaryOf(). With
+/// Copies::Neighbours, only faces of cells that are no copies. Faces of curved cells are divided,
+/// and equal if their corners and middles coincide, also for duplicate points of discontinuous
+/// solutions.
 Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress,
   Copies copies = Copies::Used);
 

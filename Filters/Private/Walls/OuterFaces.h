@@ -10,18 +10,19 @@ namespace filters
 {
 
 /**
- * Which triangles of the boundary of a domain are outer ones (far field, symmetry planes, inlets, outlets, walls
- * of pipes and tunnels); the others are of bodies.
+ * Finds the outer triangles of a domain's boundary (far field, symmetry planes, inlets, outlets,
+ * walls of pipes and tunnels); the others are of bodies.
  *
- * A triangle on the convex hull of the domain, with all points on one side of its plane, is outer. So are far
- * fields, pipes and boxes, whichever way they are turned; bodies are not: spheres in their mesh, half models on
- * their symmetry plane, fins, steps and holes, also where they reach to the side of the domain.
+ * A triangle on the convex hull of the domain, with all points on one side of its plane, is outer.
+ * So are far fields, pipes and boxes in any orientation; bodies are not: spheres in their mesh,
+ * half models on their symmetry plane, fins, steps and holes, also where they reach to the side of
+ * the domain.
  *
- * The others hang together at their edges (of two of them). Such a part is outer as a whole
- * - if it continues smoothly (by less than 35 degrees) from curved triangles of the hull: the inner side of an
- *   elbow. What continues from flat sides of the domain is a body: a ramp, a bump in the floor;
- * - or if it touches the domain's bounding box where the hull does not face that side of the box: the wall of a
- *   nozzle, whose inlet is at its widest place.
+ * A set of other triangles, connected at edges of two, is outer as a whole
+ * - if it continues smoothly (by less than 35 degrees) from curved triangles of the hull: the inner
+ *   side of an elbow. Continuations of flat sides are bodies: a ramp, a bump in the floor;
+ * - or if it touches the domain's bounding box where the hull does not face that side of the box:
+ *   the wall of a nozzle, whose inlet is at its widest cross-section.
  *
  * `rounding`: see relativeRounding(). `axes`: along which there is an outside; 2: not along z.
  */

@@ -19,8 +19,8 @@ constexpr double smallestJump = 1e-3; // relative to the range of values
 constexpr double usualJump = 0.02;
 constexpr double smallestRange = 1e-6; // relative to values: rounding
 
-/// How much the values of a face's sides differ, by the range of all: the mean of those corners where each side has a
-/// point of its own; 0 where one of them has about the same values.
+/// Returns the difference of values between a face's sides, relative to the whole range: the mean
+/// over corners with two points; 0 if the values at one of them are about equal.
 double jumpOf(
   const CutFaces& cuts, std::size_t face, const std::vector<double>& values, double range)
 {

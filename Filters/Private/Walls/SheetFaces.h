@@ -11,8 +11,8 @@
 namespace filters
 {
 
-/// Faces that cells of one dataset have on both sides, each side with points of its own: the seam of an O-grid or the
-/// wake cut of a C-grid, across which values are the same; or a wall without thickness, where they are not.
+/// Faces with cells of one dataset on both sides, each with points of its own: the seam of an
+/// O-grid or the wake cut of a C-grid, with equal values, or a wall without thickness.
 struct CutFaces
 {
   std::vector<std::size_t> firstContributions{
@@ -27,10 +27,11 @@ struct CutFaces
 };
 
 /**
- * Which of these faces are walls (1), by the values of both sides: parts that hang together at their corners, with values
- * that differ by more than a thousandth of the values' range at all points that both sides have of their own, and by more than a
- * fiftieth on half of the area. So a wing ends where the cut does, or where its sides' values are the same, and values that
- * rounding or interpolation have made differ a little are no wall. `values`: of all contributions, see valuesOf().
+ * Returns which faces are walls (1), by the values of both sides: parts connected at corners whose
+ * values differ by more than a thousandth of the whole range at all points with two values, and by
+ * more than a fiftieth on half of the area. So a wing ends where the cut does, or where its sides'
+ * values are equal, and small differences by rounding or interpolation make no wall. `values`: of
+ * all contributions, see valuesOf().
  */
 std::vector<unsigned char> findSheets(const CutFaces& cuts, const std::vector<double>& values);
 
