@@ -426,33 +426,55 @@ TEST(Reconstruction, TakesStretchedCells)
   }
 }
 
+// All instructions that this processor has; each point by itself, whatever the others are.
 TEST(Reconstruction, FitsOfPointsAreQuadratic)
 {
+  using filters::PointFit;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> one(-1, 1);
-  for (const double stretch : { 1., 1e-3 })
+  for (const filters::FitPoints fitPoints : filters::functionsToFit())
   {
-    filters::PointFit fit;
-    for (const int count : { 2, 12, 16, 24, 40 })
+    for (const double stretch : { 1., 1e-3 })
     {
-      const Vec gradient = { one(random), one(random) / stretch, one(random) };
-      const Vec second = { one(random), one(random), one(random) };
-      fit.neighbours.clear();
-      for (int i = 0; i < count; ++i)
+      PointFit fit, alone;
+      fit.clear(40);
+      alone.clear(40);
+      std::array<Vec, PointFit::points> gradients;
+      for (std::size_t point = 0; point < PointFit::points; ++point)
       {
-        const Vec x = { one(random), stretch * one(random), one(random) };
-        fit.neighbours.push_back({ x,
-          dot(gradient, x) + second[0] * x[0] * x[0] + second[1] * x[0] * x[2] +
-            second[2] * x[2] * x[2] });
+        gradients[point] = { one(random), one(random) / stretch, one(random) };
+        const Vec second = { one(random), one(random), one(random) };
+        const int count = point == 5 ? 2 : 12 + 4 * static_cast<int>(point);
+        for (int i = 0; i < count; ++i)
+        {
+          const Vec x = { one(random), stretch * one(random), one(random) };
+          const double value = dot(gradients[point], x) + second[0] * x[0] * x[0] +
+            second[1] * x[0] * x[2] + second[2] * x[2] * x[2];
+          fit.add(point, x.data(), value);
+          if (point == 3)
+          {
+            alone.add(point, x.data(), value);
+          }
+        }
       }
-      fit.find();
+      fitPoints(fit);
+      fitPoints(alone);
+      for (std::size_t point = 0; point < PointFit::points; ++point)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const double expected = point == 5 ? 0 : gradients[point][axis]; // two say nothing
+          const double unit = axis == 1 ? 1 / stretch : 1;
+          EXPECT_NEAR(fit.gradient[axis][point], expected, 1e-3 * unit) << point << " " << axis;
+        }
+        EXPECT_LT(fit.unfit[point], point == 5 ? HUGE_VAL : 1e-4);
+      }
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        const double expected = count == 2 ? 0 : gradient[axis]; // two say nothing
-        const double unit = axis == 1 ? 1 / stretch : 1;
-        EXPECT_NEAR(fit.gradient[axis], expected, 1e-3 * unit) << count << " " << axis;
+        EXPECT_EQ(alone.gradient[axis][3], fit.gradient[axis][3]);
+        EXPECT_EQ(alone.gradient[axis][4], 0);
       }
-      EXPECT_LT(fit.unfit, 1e-4);
+      EXPECT_EQ(alone.unfit[3], fit.unfit[3]);
     }
   }
 }

@@ -162,27 +162,36 @@ void findNeighbours(
   }
 }
 
-PointTrend trendOf(const PointFit& fit)
+const FitPoints fitPoints = functionsToFit().back();
+
+/// What is known of one of the points.
+PointTrend trendOf(const PointFit& fit, std::size_t point)
 {
-  const double more = overshoot * (fit.highest - fit.lowest);
-  const double lowest = fit.lowest - more, highest = fit.highest + more;
+  const double more = overshoot * (fit.highest[point] - fit.lowest[point]);
+  const double lowest = fit.lowest[point] - more, highest = fit.highest[point] + more;
   double least = 1;
-  if (fit.unfit > goodFit)
+  if (fit.unfit[point] > goodFit)
   {
-    for (const PointFit::Neighbour& neighbour : fit.neighbours)
+    for (std::size_t i = 0; i < fit.counts[point]; ++i)
     {
-      const double reached = dot(fit.gradient, neighbour.x) / 2;
+      const double* neighbour = fit.numbers.data() + 4 * PointFit::points * i + point;
+      double reached = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        reached += fit.gradient[axis][point] * neighbour[axis * PointFit::points] / 2;
+      }
       if (reached > highest || reached < lowest)
       {
         least = std::min(least, (reached > 0 ? highest : lowest) / reached);
       }
     }
   }
-  const double limited = std::clamp((fit.unfit - goodFit) / (poorFit - goodFit), 0., 1.);
+  const double limited = std::clamp((fit.unfit[point] - goodFit) / (poorFit - goodFit), 0., 1.);
   PointTrend trend;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis)
   {
-    trend.gradient[axis] = static_cast<float>(fit.gradient[axis] * (1 + limited * (least - 1)));
+    trend.gradient[axis] =
+      static_cast<float>(fit.gradient[axis][point] * (1 + limited * (least - 1)));
   }
   trend.lowest = static_cast<float>(lowest);
   trend.highest = static_cast<float>(highest);
@@ -215,46 +224,105 @@ double partAtBoundary(const CellsAround& cells)
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Fits the polynomial of a point to the values of these others.
-void findFit(const MeshArrays& mesh, vtkIdType point, const std::uint32_t* first,
-  const std::uint32_t* last, PointFit& fit)
+/// Fits polynomials of points that come one by one, several at once. Calls take(fit, its number there, point).
+template <class Take>
+class FitOfPoints
 {
-  const bool ofMeans = fit.values == PointFit::Values::Means;
-  const CellsAround none;
-  const CellsAround& here = ofMeans ? mesh.cellsAround()[point] : none;
-  Vector x;
-  mesh.coordinates(point, x.data());
-  fit.neighbours.clear();
-  for (const std::uint32_t* other = first; other != last; ++other)
+public:
+  FitOfPoints(PointFit::Values values, Take take)
+    : Kind(values)
+    , Taken(std::move(take))
   {
-    Vector away;
-    mesh.coordinates(static_cast<vtkIdType>(*other), away.data());
+  }
+
+  void add(
+    const MeshArrays& mesh, vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
+  {
+    this->Points[this->Count] = point;
+    this->Ids.insert(this->Ids.end(), first, last);
+    this->Ends[this->Count++] = this->Ids.size();
+    this->Most = std::max(this->Most, static_cast<std::size_t>(last - first));
+    if (this->Count == PointFit::points)
+    {
+      this->finish(mesh);
+    }
+  }
+
+  void finish(const MeshArrays& mesh)
+  {
+    this->Fit.clear(this->Most, this->Kind);
+    for (std::size_t i = 0, next = 0; i < this->Count; ++i)
+    {
+      for (; next < this->Ends[i]; ++next)
+      {
+        this->add(mesh, i, this->Points[i], static_cast<vtkIdType>(this->Ids[next]));
+      }
+      this->setOwn(mesh, i, this->Points[i]);
+    }
+    fitPoints(this->Fit);
+    for (std::size_t i = 0; i < this->Count; ++i)
+    {
+      this->Taken(this->Fit, i, this->Points[i]);
+    }
+    this->Ids.clear();
+    this->Count = this->Most = 0;
+  }
+
+private:
+  void add(const MeshArrays& mesh, std::size_t i, vtkIdType point, vtkIdType other)
+  {
+    Vector x, away;
+    mesh.coordinates(point, x.data());
+    mesh.coordinates(other, away.data());
     away = away - x;
-    if (away == Vector{ 0, 0, 0 }) // a double of the point
+    if (away[0] == 0 && away[1] == 0 && away[2] == 0) // a double of the point
     {
-      continue;
+      return;
     }
-    PointFit::Neighbour& neighbour = fit.neighbours.emplace_back(
-      PointFit::Neighbour{ away, mesh.values()[*other] - mesh.values()[point] });
-    if (!ofMeans)
+    const double value = mesh.values()[other] - mesh.values()[point];
+    if (this->Kind == PointFit::Values::AtPoints)
     {
-      continue;
+      this->Fit.add(i, away.data(), value);
+      return;
     }
-    const CellsAround& there = mesh.cellsAround()[*other];
+    const CellsAround& here = mesh.cellsAround()[point];
+    const CellsAround& there = mesh.cellsAround()[other];
+    Vector firsts;
+    double seconds[6];
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const std::size_t next = (axis + 1) % 3;
-      neighbour.x[axis] = away[axis] + there.first[axis] - here.first[axis];
-      neighbour.second[axis] =
+      firsts[axis] = away[axis] + there.first[axis] - here.first[axis];
+      seconds[axis] =
         away[axis] * (away[axis] + 2 * there.first[axis]) + there.second[axis] - here.second[axis];
-      neighbour.second[axis + 3] = away[axis] * (away[next] + there.first[next]) +
+      seconds[axis + 3] = away[axis] * (away[next] + there.first[next]) +
         away[next] * there.first[axis] + there.second[axis + 3] - here.second[axis + 3];
     }
+    this->Fit.add(i, firsts.data(), seconds, value);
   }
-  std::copy(here.first, here.first + 3, fit.own.begin());
-  std::copy(here.second, here.second + 6, fit.own.begin() + 3);
-  fit.find();
-}
+
+  void setOwn(const MeshArrays& mesh, std::size_t i, vtkIdType point)
+  {
+    if (this->Kind == PointFit::Values::Means)
+    {
+      const CellsAround& here = mesh.cellsAround()[point];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        this->Fit.own[axis][i] = here.first[axis];
+        this->Fit.own[axis + 3][i] = here.second[axis];
+        this->Fit.own[axis + 6][i] = here.second[axis + 3];
+      }
+    }
+  }
+
+  PointFit::Values Kind;
+  Take Taken;
+  PointFit Fit;
+  vtkIdType Points[PointFit::points];
+  std::vector<std::uint32_t> Ids;     // of all points that are fitted at once
+  std::size_t Ends[PointFit::points]; // in them
+  std::size_t Count = 0, Most = 0;
+};
 
 } // namespace
 
@@ -340,13 +408,13 @@ std::vector<PointTrend> PointNeighbours::trends(
   forChunks(mesh.points(), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
-      PointFit fit;
+      FitOfPoints fit(PointFit::Values::AtPoints,
+        [&](const PointFit& of, std::size_t i, vtkIdType point)
+        { trends[static_cast<std::size_t>(point)] = trendOf(of, i); });
       this->forNeighbours(mesh, begin, end,
         [&](vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
-        {
-          findFit(mesh, point, first, last, fit);
-          trends[static_cast<std::size_t>(point)] = trendOf(fit);
-        });
+        { fit.add(mesh, point, first, last); });
+      fit.finish(mesh);
     });
   return trends;
 }
@@ -365,16 +433,17 @@ std::vector<double> PointNeighbours::valuesFromCells(
   forChunks(mesh.points(), progress.part(0, 0.9),
     [&](vtkIdType begin, vtkIdType end)
     {
-      PointFit fit;
-      fit.values = PointFit::Values::Means;
+      FitOfPoints fit(PointFit::Values::Means,
+        [&](const PointFit& of, std::size_t i, vtkIdType point)
+        {
+          changes[static_cast<std::size_t>(point)] = { static_cast<float>(of.correction[i]),
+            { static_cast<float>(of.gradient[0][i]), static_cast<float>(of.gradient[1][i]),
+              static_cast<float>(of.gradient[2][i]) } };
+        });
       this->forNeighbours(mesh, begin, end,
         [&](vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
-        {
-          findFit(mesh, point, first, last, fit);
-          changes[static_cast<std::size_t>(point)] = { static_cast<float>(fit.correction),
-            { static_cast<float>(fit.gradient[0]), static_cast<float>(fit.gradient[1]),
-              static_cast<float>(fit.gradient[2]) } };
-        });
+        { fit.add(mesh, point, first, last); });
+      fit.finish(mesh);
     });
   double lowest = infinity, largest = 0; // of the cells
   for (std::size_t i = 0; i < points; ++i)
