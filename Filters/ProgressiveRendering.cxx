@@ -6,6 +6,7 @@
 #include "Common/AtTheEnd.h"
 #include "Common/AvailableMemory.h"
 #include "Common/Guarded.h"
+#include "Common/Threads.h"
 #include "Image/ImageOutput.h"
 #include "Image/MeanImage.h"
 #include "Image/Preview.h"
@@ -72,7 +73,7 @@ void vtkSchlierenFilter::Refine()
   else
   {
     hasMore = ranks
-                .serve(threadsFrom(*this),
+                .serve(threadsFrom(this->NumberOfThreads),
                   [&](const std::vector<char>& request) { return inside.Ranks.answer(request); })
                 .hasMore;
   }
@@ -283,7 +284,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene =
     sceneFrom(facing(*this, inside.Refractivity->FlatAxis), field.grid, inside.RgbImages);
-  addObjects(scene, this->GradedFilter, this->Medium->GetMaker().choice().settings);
+  addObjects(scene, this->GradedFilter, this->Medium->GetMaker());
   addBackground(scene, *this, inside.Scene);
   if (inside.FirstInstant && choosesK(*this))
   {

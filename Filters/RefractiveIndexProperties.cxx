@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/GasChoices.h"
+#include "Settings/SelectionFromInformation.h"
 #include "vtkGasTable.h"
 #include "vtkRefractiveIndex.h"
 
-#include "vtkDataObject.h"
-#include "vtkInformation.h"
 #include "vtkPiecewiseFunction.h"
 
 #include <cstddef>
@@ -36,18 +35,8 @@ MediumSettings vtkRefractiveIndex::GetSettings()
   MediumSettings settings = *this;
   for (int index = DENSITY; index <= MASK; ++index)
   {
-    vtkInformation* info = this->GetInputArrayInformation(index);
-    ArraySelection& selection = settings.Arrays[static_cast<std::size_t>(index)];
-    if (const char* name = info->Get(vtkDataObject::FIELD_NAME()))
-    {
-      selection.name = name;
-    }
-    else if (info->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
-    {
-      selection.attribute = info->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
-    }
-    selection.cellsFirst =
-      info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+    settings.Arrays[static_cast<std::size_t>(index)] =
+      selectionFrom(this->GetInputArrayInformation(index));
   }
   for (vtkPiecewiseFunction* function : this->Functions)
   {
@@ -61,15 +50,6 @@ MediumSettings vtkRefractiveIndex::GetSettings()
   }
   return settings;
 }
-
-//------------------------------------------------------------------------------
-bool vtkRefractiveIndex::HasHumidityArray()
-{
-  return this->GetSettings().Arrays[HumidityArray].isNamed();
-}
-
-//------------------------------------------------------------------------------
-bool vtkRefractiveIndex::HasMaskArray() { return this->GetSettings().Arrays[MaskArray].isNamed(); }
 
 //------------------------------------------------------------------------------
 void vtkRefractiveIndex::AddMixtureArray(const char* name)

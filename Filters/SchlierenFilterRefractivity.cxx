@@ -7,6 +7,7 @@
 #include "Image/SceneFromSettings.h"
 #include "Input/InputDescription.h"
 #include "Input/RefractivitySource.h"
+#include "Settings/SelectionFromInformation.h"
 #include "Sources/FieldTints.h"
 #include "Sources/MediumMaker.h"
 
@@ -21,24 +22,6 @@ using namespace filters;
 
 namespace
 {
-
-/// Whether two array selections say the same.
-bool sameSelection(vtkInformation* a, vtkInformation* b)
-{
-  const auto name = [](vtkInformation* info)
-  {
-    const char* text =
-      info->Has(vtkDataObject::FIELD_NAME()) ? info->Get(vtkDataObject::FIELD_NAME()) : nullptr;
-    return std::string(text ? text : "");
-  };
-  const auto number = [](vtkInformation* info, vtkInformationIntegerKey* key)
-  { return info->Has(key) ? info->Get(key) : -1; };
-  return name(a) == name(b) &&
-    number(a, vtkDataObject::FIELD_ASSOCIATION()) ==
-    number(b, vtkDataObject::FIELD_ASSOCIATION()) &&
-    number(a, vtkDataObject::FIELD_ATTRIBUTE_TYPE()) ==
-    number(b, vtkDataObject::FIELD_ATTRIBUTE_TYPE());
-}
 
 /// To a description of the filter's inputs; `bodies`: may be null.
 void addBodies(std::vector<double>& description, vtkAlgorithm* filter, vtkDataObject* bodies)
@@ -103,7 +86,7 @@ void vtkSchlierenFilter::PassToMedium()
   for (int index = vtkRefractiveIndex::DENSITY; index <= vtkRefractiveIndex::MASK; ++index)
   {
     vtkInformation* selection = this->GetInputArrayInformation(index);
-    if (!sameSelection(selection, this->Medium->GetInputArrayInformation(index)))
+    if (!(selectionFrom(selection) == selectionFrom(this->Medium->GetInputArrayInformation(index))))
     {
       this->Medium->SetInputArrayToProcess(index, selection);
     }

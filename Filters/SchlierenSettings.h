@@ -63,10 +63,10 @@ struct ViewSettings
 struct OpticsSettings
 {
   // Values without an enumeration in the tracer.
-  static constexpr int lockOff = 0, lockOverTime = 1, lockAlways = 2; // LockK
-  static constexpr int finiteFringes = 1;                             // FringeMode
-  static constexpr int divergingLight = 1;                            // LightSource
-  static constexpr int scenePattern = 3;                              // BackgroundPattern
+  static constexpr int lockOff = 0, lockAlways = 2; // LockK
+  static constexpr int finiteFringes = 1;           // FringeMode
+  static constexpr int divergingLight = 1;          // LightSource
+  static constexpr int scenePattern = 3;            // BackgroundPattern
 
   int Cutoff = 0;
   double KnifeEdgeAngle = 0;

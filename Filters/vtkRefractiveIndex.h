@@ -292,11 +292,6 @@ public:
   vtkGetMacro(RefractivityScale, double);
   ///@}
 
-  /**
-   * Returns whether an array is chosen for the humidity.
-   */
-  bool HasHumidityArray();
-
   ///@{
   /**
    * Points along x, y and z of the grid to which input other than images is resampled. An axis
@@ -453,7 +448,6 @@ public:
    */
   vtkSetClampMacro(MaskedSide, int, MASKED_ABOVE, MASKED_BELOW);
   vtkGetMacro(MaskedSide, int);
-  bool HasMaskArray();
   ///@}
 
   ///@{

@@ -4,6 +4,7 @@
 
 #include "Common/AtTheEnd.h"
 #include "Common/Guarded.h"
+#include "Common/Threads.h"
 #include "Image/Preview.h"
 #include "Image/SceneFromSettings.h"
 #include "Input/InputDescription.h"
@@ -81,7 +82,6 @@ static_assert(sameValue(Self::NO_FILTER, schlieren::NoiseFilter::None) &&
   sameValue(Self::MEAN, schlieren::NoiseFilter::Mean) &&
   sameValue(Self::CONE, schlieren::NoiseFilter::Cone));
 static_assert(Self::LOCK_OFF == OpticsSettings::lockOff &&
-  Self::LOCK_OVER_TIME == OpticsSettings::lockOverTime &&
   Self::LOCK_ALWAYS == OpticsSettings::lockAlways &&
   Self::FINITE_FRINGES == OpticsSettings::finiteFringes &&
   Self::DIVERGING == OpticsSettings::divergingLight &&
@@ -415,7 +415,7 @@ void vtkSchlierenFilter::ServeRank0(ExposureSteps& steps)
     }
     inside.HasImage =
       inside.Ranks.ranks()
-        .serve(threadsFrom(*this),
+        .serve(threadsFrom(this->NumberOfThreads),
           [&](const std::vector<char>& message) { return inside.Ranks.answer(message); })
         .hasImage;
   } while (steps.Resume());

@@ -37,7 +37,7 @@ protected:
   schlieren::Scene scene()
   {
     schlieren::Scene made = sceneFrom(this->filter->GetSettings(), this->grid, this->images);
-    addObjects(made, this->filter->GetGradedFilter(), this->medium->GetMaker().choice().settings);
+    addObjects(made, this->filter->GetGradedFilter(), this->medium->GetMaker());
     return made;
   }
 

@@ -76,16 +76,8 @@ std::string inWords(const MediumSettings& settings)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<FlowArray> KnownArrays::Get() const
-{
-  const std::lock_guard<std::mutex> lock(this->Mutex);
-  return this->Arrays;
-}
-
-//------------------------------------------------------------------------------
 void KnownArrays::Note(std::vector<FlowArray> arrays)
 {
-  const std::lock_guard<std::mutex> lock(this->Mutex);
   if (!this->AreAll)
   {
     this->Arrays = std::move(arrays);
@@ -95,16 +87,8 @@ void KnownArrays::Note(std::vector<FlowArray> arrays)
 //------------------------------------------------------------------------------
 void KnownArrays::SetOfRanks(std::vector<FlowArray> arrays)
 {
-  const std::lock_guard<std::mutex> lock(this->Mutex);
   this->Arrays = std::move(arrays);
   this->AreAll = true;
-}
-
-//------------------------------------------------------------------------------
-bool KnownArrays::AreOfRanks() const
-{
-  const std::lock_guard<std::mutex> lock(this->Mutex);
-  return this->AreAll;
 }
 
 //------------------------------------------------------------------------------

@@ -9,7 +9,6 @@
 #include "MediumSettings.h"
 
 #include <cstddef>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,20 +17,19 @@ class vtkDataSet;
 namespace filters
 {
 
-/// Keeps the arrays that defaults are chosen from. Thread-safe.
+/// Keeps the arrays that defaults are chosen from.
 class KnownArrays
 {
 public:
-  std::vector<FlowArray> Get() const;
+  const std::vector<FlowArray>& Get() const { return this->Arrays; }
 
   /// Stores the arrays of this rank, unless those of all ranks are known.
   void Note(std::vector<FlowArray> arrays);
   /// Stores the arrays of all ranks.
   void SetOfRanks(std::vector<FlowArray> arrays);
-  bool AreOfRanks() const;
+  bool AreOfRanks() const { return this->AreAll; }
 
 private:
-  mutable std::mutex Mutex;
   std::vector<FlowArray> Arrays;
   bool AreAll = false; // whether Arrays are those of all ranks
 };

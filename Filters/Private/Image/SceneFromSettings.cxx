@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/SceneFromSettings.h"
+#include "Common/Threads.h"
+#include "Sources/MediumMaker.h"
 
 #include "Gas/GasChoices.h"
 #include "Image/Preview.h"
@@ -141,14 +143,6 @@ schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::G
 }
 
 //------------------------------------------------------------------------------
-int threadsFrom(const ResourceSettings& settings)
-{
-  const char* limit = std::getenv("VTK_SMP_MAX_THREADS");
-  return settings.NumberOfThreads > 0 || !limit ? settings.NumberOfThreads
-                                                : std::max(0, std::atoi(limit));
-}
-
-//------------------------------------------------------------------------------
 schlieren::Scene sceneFrom(
   const SchlierenSettings& settings, const schlieren::Grid& grid, RgbImageReader& images)
 {
@@ -204,7 +198,7 @@ schlieren::Scene sceneFrom(
   scene.mediumTolerance = settings.MediumTolerance;
   scene.mediumMemory = static_cast<std::size_t>(settings.MediumMemory) << 20;
   scene.device = static_cast<schlieren::Device>(settings.Device);
-  scene.threads = threadsFrom(settings);
+  scene.threads = threadsFrom(settings.NumberOfThreads);
   if (settings.PreviewReduction > 1)
   {
     makePreview(scene, frame, settings.PreviewReduction);
@@ -214,7 +208,7 @@ schlieren::Scene sceneFrom(
 
 //------------------------------------------------------------------------------
 void addObjects(
-  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumSettings& medium)
+  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumMaker& medium)
 {
   if (scene.cutoff == schlieren::Cutoff::GradedFilter)
   {
@@ -222,7 +216,7 @@ void addObjects(
   }
   if (scene.fringes.whiteLight)
   {
-    scene.fringes.dispersion = filters::dispersionOfGases(medium, scene.wavelength);
+    scene.fringes.dispersion = dispersionOfGases(medium.choice().settings, scene.wavelength);
   }
 }
 

@@ -7,13 +7,12 @@
 #include <memory>
 
 class vtkPiecewiseFunction;
-struct MediumSettings;
-struct ResourceSettings;
 struct SchlierenSettings;
 
 namespace filters
 {
 
+class MediumMaker;
 class RgbImageReader;
 
 /// The image of the view behind the flow.
@@ -33,7 +32,7 @@ schlieren::Scene sceneFrom(
 /// Adds what comes from objects and the scene needs: the graded filter (null: a straight line) and
 /// the dispersion for white light, but not the colours of fields.
 void addObjects(
-  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumSettings& medium);
+  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumMaker& medium);
 
 /// Adds the image behind the flow, if the settings use it.
 void addBackground(
@@ -47,8 +46,5 @@ std::string noteOnView(const SchlierenSettings& settings, int flatAxis);
 
 /// Returns the frame of the image.
 schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid);
-
-/// Returns the number of threads: given, or VTK_SMP_MAX_THREADS, or coresOfProcess() for 0.
-int threadsFrom(const ResourceSettings& resources);
 
 } // namespace filters

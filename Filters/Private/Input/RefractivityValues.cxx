@@ -164,15 +164,6 @@ void convertBy(const Gas& model, const Arrays& values, const Results<Real>& resu
   tally += { all, doubtful };
 }
 
-/// Makes a mask with undefined values.
-vtkSmartPointer<vtkUnsignedCharArray> newUnsetMask(vtkIdType count)
-{
-  auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  mask->SetName(maskName);
-  setTuples(mask, count);
-  return mask;
-}
-
 double refractivityOf(const Linear& model, const double* values)
 {
   return model.scale * values[0] + model.offset;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes the medium of data that stay on several ranks. All of them run this.
 #include "Ranks/SourceOverRanks.h"
+#include "Common/Threads.h"
 
 #include "Amr/AmrFaces.h"
 #include "Cells/MeshKey.h"

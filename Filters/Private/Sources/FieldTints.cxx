@@ -4,6 +4,7 @@
 
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
+#include "Common/Threads.h"
 #include "Gas/RefractivityModels.h"
 #include "Input/RefractivitySource.h"
 #include "Input/RefractivityValues.h"
@@ -128,8 +129,8 @@ void forSampledFields(MediumMaker& maker, vtkDataObject* input, vtkImageData* re
   std::string reportedBefore;
   const auto source = maker.makeSourceOfCells(input, nullptr, reportedBefore, true);
   std::vector<float> all;
-  vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
-    [&] { all = fieldsAtGrid(*source, WorkProgress(), refractivity); });
+  vtkSMPTools::LocalScope(
+    loopsWith(threads), [&] { all = fieldsAtGrid(*source, WorkProgress(), refractivity); });
   const vtkIdType points = refractivity->GetNumberOfPoints();
   for (int field = 0; field < source->fields(); ++field)
   {

@@ -4,6 +4,7 @@
 
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
+#include "Common/Threads.h"
 #include "Input/FlatData.h"
 #include "Input/InputDescription.h"
 #include "Input/OneLayer.h"
@@ -32,7 +33,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -42,8 +42,6 @@ namespace filters
 
 namespace
 {
-
-bool isZero(int count) { return count == 0; }
 
 /// Throws if memory does not suffice for a grid's arrays and their computation.
 void requireMemoryFor(
@@ -91,17 +89,8 @@ MediumMaker::MediumMaker(Progress progress)
 //------------------------------------------------------------------------------
 int MediumMaker::threads() const
 {
-  const char* const most = std::getenv("VTK_SMP_MAX_THREADS");
-  const int limit = most ? std::atoi(most) : 0;
-  return this->numberOfThreads > 0 ? this->numberOfThreads
-    : limit > 0                    ? limit
-                                   : schlieren::coresOfProcess();
-}
-
-//------------------------------------------------------------------------------
-vtkSMPTools::Config loopsWith(int threads)
-{
-  return vtkSMPTools::Config(threads, "STDThread", false);
+  const int given = threadsFrom(this->numberOfThreads);
+  return given > 0 ? given : schlieren::coresOfProcess();
 }
 
 //------------------------------------------------------------------------------
@@ -119,12 +108,12 @@ void addText(std::string& text, const std::string& more)
 }
 
 //------------------------------------------------------------------------------
-MediumChoice MediumMaker::choice() const { return choiceOf(this->settings, this->Known->Get()); }
+MediumChoice MediumMaker::choice() const { return choiceOf(this->settings, this->Known.Get()); }
 
 //------------------------------------------------------------------------------
 MediumChoice MediumMaker::choiceFor(vtkDataObject* input)
 {
-  return filters::choiceFor(this->settings, *this->Known, dataSetsOf(input));
+  return filters::choiceFor(this->settings, this->Known, dataSetsOf(input));
 }
 
 //------------------------------------------------------------------------------
@@ -136,7 +125,7 @@ WorkProgress MediumMaker::progressOf(double from, double to) const
 //------------------------------------------------------------------------------
 Source MediumMaker::choose(vtkDataObject* input, const Source* like)
 {
-  return chooseSource(this->settings, *this->Known, input, like);
+  return chooseSource(this->settings, this->Known, input, like);
 }
 
 //------------------------------------------------------------------------------
@@ -372,20 +361,23 @@ bool MediumMaker::canMakeSource(vtkDataObject* input, vtkDataObject* bodies, boo
 }
 
 //------------------------------------------------------------------------------
-bool MediumMaker::canUsePieces() const
+bool MediumMaker::hasDimensions() const
 {
   const int* given = this->settings.SamplingDimensions;
-  return std::all_of(given, given + 3, isZero) &&
-    !SamplingBox::isWanted(this->settings.SamplingBounds) &&
+  return std::any_of(given, given + 3, [](int count) { return count != 0; });
+}
+
+//------------------------------------------------------------------------------
+bool MediumMaker::canUsePieces() const
+{
+  return !this->hasDimensions() && !SamplingBox::isWanted(this->settings.SamplingBounds) &&
     !this->settings.isAxisymmetric(); // planes are small
 }
 
 //------------------------------------------------------------------------------
 bool MediumMaker::wantsGrid() const
 {
-  const int* given = this->settings.SamplingDimensions;
-  return SamplingBox(this->settings.SamplingBounds).isGiven() ||
-    !std::all_of(given, given + 3, isZero);
+  return SamplingBox(this->settings.SamplingBounds).isGiven() || this->hasDimensions();
 }
 
 //------------------------------------------------------------------------------

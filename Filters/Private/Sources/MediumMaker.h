@@ -11,7 +11,6 @@
 
 #include "vtkSchlierenFiltersModule.h" // for export macro
 
-#include "vtkSMPTools.h"
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
@@ -59,7 +58,7 @@ public:
   int numberOfThreads = 0;
 
   /// Returns the arrays of the last data, among which defaults are chosen.
-  KnownArrays& known() const { return *this->Known; }
+  KnownArrays& known() { return this->Known; }
   /// Returns the completed settings for the last data, or for others.
   MediumChoice choice() const;
   MediumChoice choiceFor(vtkDataObject* input);
@@ -131,6 +130,7 @@ private:
 
   WorkProgress progressOf(double from, double to) const;
   Source choose(vtkDataObject* input, const Source* like = nullptr);
+  bool hasDimensions() const;
   bool wantsGrid() const;
   void fillFromImage(const Source& source, Numbers numbers, vtkDataObject* bodies,
     vtkImageData* output, std::string& warning);
@@ -152,7 +152,7 @@ private:
   void leaveMesh();
 
   Progress Report;
-  std::shared_ptr<KnownArrays> Known = std::make_shared<KnownArrays>();
+  KnownArrays Known;
   GridPlan Plan;
   std::shared_ptr<KeptMesh> Mesh = std::make_shared<KeptMesh>();
   std::string Grid;
@@ -160,9 +160,6 @@ private:
   std::string ToldOfGases,
     ToldOfValues; // the last notes, not repeated for every time step
 };
-
-/// Configures VTK's loops, which use one core or all of them in most builds of ParaView.
-vtkSMPTools::Config loopsWith(int threads);
 
 /// Appends a sentence.
 void addText(std::string& text, const std::string& more);

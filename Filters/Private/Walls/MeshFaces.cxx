@@ -439,10 +439,12 @@ void addCurvedCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkI
     }
   }
 }
+
 /// Adds the surface of the cells of one state.
 void addCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states, State state,
   Copies copies, Faces& faces)
 {
+  const bool isGrid = isStructured(data);
   std::vector<vtkIdType> plain, curved;
   for (std::size_t i = 0; i < states.size(); ++i)
   {
@@ -450,7 +452,7 @@ void addCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& st
     {
       const auto cell = static_cast<vtkIdType>(i);
       const auto type = static_cast<unsigned char>(data->GetCellType(cell));
-      (isStructured(data) || vtkCellTypeUtilities::IsLinear(type) ? plain : curved).push_back(cell);
+      (isGrid || vtkCellTypeUtilities::IsLinear(type) ? plain : curved).push_back(cell);
     }
   }
   vtkUnsignedCharArray* ghosts = copies == Copies::Neighbours ? data->GetCellGhostArray() : nullptr;
