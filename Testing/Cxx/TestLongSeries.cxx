@@ -100,8 +100,9 @@ void expectNoGrowth(const std::function<vtkSmartPointer<vtkDataObject>(double)>&
     }
     if (step == last)
     {
-      // Of each step less than the smallest array: malloc keeps some small pieces of each size for later.
-      EXPECT_LT(memoryInUse(), inUse + (last - warmedUp) * 200);
+      // An array of a step takes 500 bytes or more. The first hundred steps of a mesh cost 150 to 260 bytes each, all
+      // of five hundred 70: malloc keeps some small pieces of each size for later.
+      EXPECT_LT(memoryInUse(), inUse + (last - warmedUp) * 400);
       EXPECT_LT(residentBytes(), resident + inPart);
     }
   }
