@@ -6,6 +6,7 @@
 #include "Common/AvailableMemory.h"
 #include "Input/FlatData.h"
 #include "Input/GatheredData.h"
+#include "Input/OneLayer.h"
 #include "Sources/ImagePiece.h"
 
 #include "vtkCellData.h"
@@ -269,6 +270,7 @@ struct PiecesOfRanks::Facts
     vtkIdType cells;
     std::uint64_t places;
     Extent extent;
+    LayerBounds layer;
   } numbers;
 };
 
@@ -277,7 +279,7 @@ PiecesOfRanks::Facts PiecesOfRanks::factsOf(const DatasetPiece& piece)
   Facts facts{ piece.slot, arraysIn(piece.data),
     { piece.data->GetDataObjectType(), dimensionOf(piece.data),
       hasCellValues(piece.data) ? layersForCells : layersForPoints, piece.data->GetNumberOfCells(),
-      placesOf(piece.data), { 0, -1, 0, -1, 0, -1 } } };
+      placesOf(piece.data), { 0, -1, 0, -1, 0, -1 }, layerBoundsOf(piece.data) } };
   if (isGrid(piece.data))
   {
     facts.numbers.extent = extentOf(piece.data, false);
@@ -337,6 +339,7 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
 {
   std::map<Slot, Dataset> datasets;
   std::map<Slot, std::string> arrays;
+  std::vector<LayerBounds> layers; // of all pieces with 3-D cells
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
     for (const Facts& facts : all[rank])
@@ -356,6 +359,10 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
         throw std::runtime_error(
           "The pieces of the input on several ranks have not the same arrays. Check the reader or "
           "filter that has made them.");
+      }
+      if (numbers.dimension == 3)
+      {
+        layers.push_back(numbers.layer);
       }
       dataset.type = dataset.type == numbers.type ? dataset.type : -1;
       dataset.dimension = std::max(dataset.dimension, numbers.dimension);
@@ -381,6 +388,7 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
   {
     this->Datasets.push_back(std::move(entry.second));
   }
+  this->IsOneLayer = areOneLayer(layers);
 }
 
 double PiecesOfRanks::cells() const
@@ -410,9 +418,10 @@ PiecesOfRanks::Kind PiecesOfRanks::kind() const
     dimension = std::max(dimension, dataset.dimension);
   }
   const bool isOneImage = areImages && this->Datasets.size() == 1 && this->Datasets[0].slot.empty();
-  return !areDivisible || dimension < 3 || (areImages && !isOneImage) ? Kind::Gathered
-    : isOneImage                                                      ? Kind::Image
-                                                                      : Kind::Meshes;
+  return !areDivisible || dimension < 3 || this->IsOneLayer || (areImages && !isOneImage)
+    ? Kind::Gathered
+    : isOneImage ? Kind::Image
+                 : Kind::Meshes;
 }
 
 vtkSmartPointer<vtkDataObject> PiecesOfRanks::gather()
