@@ -6,6 +6,7 @@
 #include "Bench/PassLoop.h"
 #include "Bench/RayCache.h"
 #include "Bench/StageSettings.h"
+#include "Bench/TargetError.h"
 #include "Bench/UnfinishedImage.h"
 #include "Bench/Validation.h"
 #include "Bench/Watch.h"
@@ -93,11 +94,27 @@ struct Bench::Stages
   RayCache rays;
   CutoffMaker cutoffs;
 
+  /// A request with the settings that a scene's target error needs; null if aborted.
+  std::unique_ptr<UnfinishedImage> requestForTarget(
+    const Field& field, const Scene& scene, const Monitor& monitor);
+
   /// Works on an image until it is finished, aborted or paused, on the device of its scene, and keeps what is left after a
   /// pause.
   Image render(std::unique_ptr<UnfinishedImage> request, const Monitor& monitor);
 
 private:
+  /// The same with the medium of `scene`; null if aborted, or if a medium with other settings is needed, which it then
+  /// writes into `scene`.
+  template <class Real>
+  std::unique_ptr<UnfinishedImage> aim(const Field& field, Scene& scene, const Watch& watch);
+
+  /// Drops the rays where another medium is to be made.
+  const Scene& clearedFor(const UnfinishedImage& request);
+  /// Finds the medium's voxels that a view needs, and its light.
+  template <class Real>
+  Light prepareMedium(
+    MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch, Image& image);
+
   /// The same on the device of the request, without an answer to its failures.
   template <class Real>
   Image proceed(UnfinishedImage& request, const Watch& watch);
@@ -126,6 +143,8 @@ Image Bench::Stages::begin(const UnfinishedImage& request) const
   image.device = request.device;
   image.deviceNote = request.deviceNote;
   image.threads = threadCount(scene.threads);
+  image.samplesPerPixel = scene.samplesPerPixel;
+  image.stepSize = scene.stepSize;
   image.processes = request.device == Device::Cpu && processes ? processes->others() + 1 : 1;
   return image;
 }
@@ -176,6 +195,7 @@ bool Bench::Stages::develop(
   ProgressiveImage& progressive = *request.image;
   image.kScale = request.kScale;
   image.momentumDrift = request.momentumDrift;
+  image.accuracy = request.accuracy;
   image.traceSeconds = request.traceSeconds;
   image.finished = hasAllPasses && progressive.passes() == request.scene.samplesPerPixel;
   request.hasBeenSilent = !image.finished && !request.isNewImageThere();
@@ -201,38 +221,120 @@ bool Bench::Stages::develop(
   return true;
 }
 
+const Scene& Bench::Stages::clearedFor(const UnfinishedImage& request)
+{
+  if (!media.holds(request.field, request.scene))
+  {
+    rays.clear();
+  }
+  return request.scene;
+}
+
+template <class Real>
+Light Bench::Stages::prepareMedium(
+  MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch, Image& image)
+{
+  const Scene& scene = request.scene;
+  image.ambient = inUse.medium().ambient;
+  image.exitRefractivity = exitRefractivityOf(scene, image.ambient);
+  Light light = lightOf(scene, request.field.grid, image.frame, facesOf(inUse.medium(), scene));
+  if (request.field.source)
+  {
+    inUse.refine(columnOf(scene, light, image.frame), monitorOfVoxels(request, watch.monitor()));
+    image.medium = inUse.medium().tree->statistics();
+  }
+  light.faces = facesOf(inUse.medium(), scene); // of all voxels
+  return light;
+}
+
+template <class Real>
+std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
+  const Field& field, Scene& scene, const Watch& watch)
+{
+  auto request = std::make_unique<UnfinishedImage>(field, scene);
+  Image image = begin(*request);
+  MediumInUse<Real> inUse(media, field, clearedFor(*request));
+  const Light light = prepareMedium(inUse, *request, watch, image);
+  if (watch.isAborted())
+  {
+    return nullptr;
+  }
+  const Medium<Real>& medium = inUse.medium();
+  const RaySettings settings = boundRays(medium, light, *request, image);
+  const Projection projection =
+    projectionOf(scene, image.frame, light, (1 + image.exitRefractivity) * field.lengthScale);
+  const PilotBench<Real> bench{ medium, light, scene, projection, settings,
+    marginFor(*request->bound, scene, image.frame, light) };
+  const double deflectionError = light.faces.ratio * image.medium.deflectionError;
+  Pilot<Real> pilot(
+    bench, { light.faces.ratio * noiseFloor(medium, field, light), deflectionError });
+  const double k = scene.kScale.value_or(
+    automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
+  CutoffMaker maker;
+  const Cutoffs cutoff = maker.cutoffOf(scene, k, image.frame.pixelSize);
+  pilot.setCutoff(cutoff);
+  const KnownErrors known = knownErrors(bench, pilot.view(), deflectionError, k);
+  if (changeMedium(known, image.medium.isMemoryShort, scene))
+  {
+    return nullptr;
+  }
+  const bool hasWalls =
+    !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
+  const AccurateSettings chosen =
+    chooseFor(scene.targetError, pilot, scene, hasWalls, known, watch.monitor());
+  if (watch.isAborted())
+  {
+    return nullptr;
+  }
+  Scene accurate = scene;
+  accurate.stepSize = chosen.step;
+  accurate.samplesPerPixel = chosen.samples;
+  auto result = std::make_unique<UnfinishedImage>(field, accurate);
+  result->bound = request->bound;
+  result->accuracy = chosen.accuracy;
+  return result;
+}
+
+std::unique_ptr<UnfinishedImage> Bench::Stages::requestForTarget(
+  const Field& field, const Scene& scene, const Monitor& monitor)
+{
+  const Watch watch(monitor);
+  Scene accurate = scene;
+  accurate.interpolation = Interpolation::Cubic;
+  accurate.homogeneityTolerance = 0;
+  accurate.stepSize = longestStep;
+  if (field.source)
+  {
+    accurate.mediumTolerance = toleranceForTarget(field, scene);
+  }
+  media.adopt(field, accurate);
+  std::unique_ptr<UnfinishedImage> request;
+  while (!request && !watch.isAborted())
+  {
+    request = accurate.precision == Precision::Single ? aim<float>(field, accurate, watch)
+                                                      : aim<double>(field, accurate, watch);
+  }
+  return request;
+}
+
 template <class Real>
 Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
 {
   Image aborted;
   aborted.aborted = true;
 
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
   Image image = begin(request);
-  if (!media.holds(field, scene))
+  MediumInUse<Real> inUse(media, request.field, clearedFor(request));
+  const Light light = prepareMedium(inUse, request, watch, image);
+  if (watch.isAborted())
   {
-    rays.clear(); // before there is another medium
-  }
-  MediumInUse<Real> inUse(media, field, scene);
-  image.ambient = inUse.medium().ambient;
-  image.exitRefractivity = exitRefractivityOf(scene, image.ambient);
-  Light light = lightOf(scene, field.grid, image.frame, facesOf(inUse.medium(), scene));
-  if (field.source)
-  {
-    inUse.refine(columnOf(scene, light, image.frame), monitorOfVoxels(request, watch.monitor()));
-    image.medium = inUse.medium().tree->statistics();
-    if (watch.isAborted())
-    {
-      return aborted;
-    }
+    return aborted;
   }
   if (inUse.seesChange())
   {
     rays.clear();
     request.beginAnew();
   }
-  light.faces = facesOf(inUse.medium(), scene); // of all voxels
 
   const RaysOfImage<Real> ofImage = prepareRays(inUse.onDevices(), light, request, image);
   const bool hasAllPasses =
@@ -252,6 +354,7 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::instead(
   const UnfinishedImage& request, const DeviceError& failure)
 {
   auto again = std::make_unique<UnfinishedImage>(request.field, request.scene);
+  again->accuracy = request.accuracy;
   if (request.keepsRays && dynamic_cast<const OutOfDeviceMemory*>(&failure) != nullptr)
   {
     again->device = request.device;
@@ -327,13 +430,21 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
 {
   stages_->unfinished.reset();
   validate(field, scene);
-  auto request = std::make_unique<UnfinishedImage>(field, scene);
   std::string reason;
   const bool hasCuda = scene.device != Device::Cpu && cudaAvailable(&reason);
   if (scene.device == Device::Cuda && !hasCuda)
   {
     throw Error("Device is CUDA, but no CUDA device can be used: " + reason +
       ". Set Device to Auto or CPU, or check the driver with nvidia-smi.");
+  }
+  std::unique_ptr<UnfinishedImage> request = scene.targetError > 0
+    ? stages_->requestForTarget(field, scene, monitor)
+    : std::make_unique<UnfinishedImage>(field, scene);
+  if (!request)
+  {
+    Image aborted;
+    aborted.aborted = true;
+    return aborted;
   }
   request->device = hasCuda ? Device::Cuda : Device::Cpu;
   return stages_->render(std::move(request), monitor);

@@ -32,6 +32,7 @@ struct UnfinishedImage
   bool keepsRays = true;                 ///< as far as the budget of memory goes
   std::optional<ProgressiveImage> image; ///< always there
   std::optional<DisplacementBound> bound;
+  Accuracy accuracy;
   double kScale = 0;
   double momentumDrift = 0;
   double traceSeconds = 0;
