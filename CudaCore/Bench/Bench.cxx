@@ -57,31 +57,18 @@ double homogeneityLimit(const Medium<Real>& medium, const Scene& scene)
   return std::max(scene.homogeneityTolerance * medium.rangeOfNu, rounding * medium.largestNu);
 }
 
-/// The bound for an image, found once, and where the medium is steepest.
-template <class Real>
-RaySettings boundRays(
-  const Medium<Real>& medium, const Light& light, UnfinishedImage& request, Image& image)
+} // namespace
+
+namespace
 {
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
-  if (!request.bound)
-  {
-    const bool maySkip = !field.source && scene.homogeneityTolerance > 0;
-    request.bound = boundDisplacement(medium, light, scene.view, scene.stepSize,
-      maySkip ? steepestOf(scene.interpolation) * homogeneityLimit(medium, scene) : 0);
-  }
-  const DisplacementBound& bound = *request.bound;
-  image.displacementBound = bound.displacement;
-  image.displacementWithin = bound.withinMedium;
-  const SteepestPlace steepest = findSteepest(medium.slopes);
-  image.steepestChange = steepest.perVoxel;
-  image.steepestPlace = placeOf(field.grid, steepest.at);
-  const RaySettings settings =
-    settingsOf(scene, field.lengthScale, bound, image.frame, steepest.perVoxel);
-  image.pathModel = settings.kernel.path;
-  image.integrator = settings.kernel.integrator;
-  return settings;
-}
+
+/// How the rays of a view are bounded and to be traced.
+struct BoundedRays
+{
+  BoundKey key;
+  DisplacementBound bound;
+  RaySettings settings;
+};
 
 } // namespace
 
@@ -93,6 +80,7 @@ struct Bench::Stages
   MediumCache media{ work };
   RayCache rays;
   CutoffMaker cutoffs;
+  TargetCache targets;
 
   /// A request with the settings that a scene's target error needs; null if aborted.
   std::unique_ptr<UnfinishedImage> requestForTarget(
@@ -108,8 +96,18 @@ private:
   template <class Real>
   std::unique_ptr<UnfinishedImage> aim(const Field& field, Scene& scene, const Watch& watch);
 
-  /// Drops the rays where another medium is to be made.
+  /// Drops rays, before their medium goes or after it has changed.
+  void clearRays()
+  {
+    rays.clear();
+    targets.clear();
+  }
+  /// Drops them where another medium is to be made.
   const Scene& clearedFor(const UnfinishedImage& request);
+  /// How the rays of an image are bounded and to be traced, and where the medium is steepest.
+  template <class Real>
+  BoundedRays boundRays(const MediumOnDevices<Real>& onDevices, const Light& light,
+    const UnfinishedImage& request, Image& image);
   /// Finds the medium's voxels that a view needs, and its light.
   template <class Real>
   Light prepareMedium(
@@ -150,6 +148,35 @@ Image Bench::Stages::begin(const UnfinishedImage& request) const
 }
 
 template <class Real>
+BoundedRays Bench::Stages::boundRays(const MediumOnDevices<Real>& onDevices, const Light& light,
+  const UnfinishedImage& request, Image& image)
+{
+  const Field& field = request.field;
+  const Scene& scene = request.scene;
+  const Medium<Real>& medium = onDevices.medium;
+  const bool maySkip = !field.source && scene.homogeneityTolerance > 0;
+  const double atLeast =
+    maySkip ? steepestOf(scene.interpolation) * homogeneityLimit(medium, scene) : 0;
+  // Steps for a target error are no longer than those that are tried first.
+  const double step = scene.targetError > 0 ? longestStep : scene.stepSize;
+  const BoundKey key{ image.frame, scene.view.width, scene.view.height, step, atLeast,
+    LightKey::of(scene, image.frame, filmDistance(scene, image.frame, light.faces), light.faces),
+    onDevices.changes };
+  const DisplacementBound bound =
+    rays.boundOf(key, [&] { return boundDisplacement(medium, light, scene.view, step, atLeast); });
+  image.displacementBound = bound.displacement;
+  image.displacementWithin = bound.withinMedium;
+  const SteepestPlace steepest = findSteepest(medium.slopes);
+  image.steepestChange = steepest.perVoxel;
+  image.steepestPlace = placeOf(field.grid, steepest.at);
+  const RaySettings settings =
+    settingsOf(scene, field.lengthScale, bound, image.frame, steepest.perVoxel);
+  image.pathModel = settings.kernel.path;
+  image.integrator = settings.kernel.integrator;
+  return { key, bound, settings };
+}
+
+template <class Real>
 RaysOfImage<Real> Bench::Stages::prepareRays(
   MediumOnDevices<Real>& onDevices, const Light& light, UnfinishedImage& request, Image& image)
 {
@@ -157,7 +184,7 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
   const Scene& scene = request.scene;
   const View& view = scene.view;
   const Medium<Real>& medium = onDevices.medium;
-  const RaySettings settings = boundRays(medium, light, request, image);
+  const auto [boundKey, bound, settings] = boundRays(onDevices, light, request, image);
 
   // An adaptive step is as long as the medium lets it be without a map.
   const double skips = field.source || settings.kernel.integrator == Integrator::Adaptive
@@ -172,7 +199,7 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
       light.faces.ratio * skippingBound(medium, light, limit, scene.interpolation);
   }
 
-  const std::int64_t margin = marginFor(*request.bound, scene, image.frame, light);
+  const std::int64_t margin = marginFor(bound, scene, image.frame, light);
   RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, request.device,
     {},
     LightKey::of(scene, image.frame, filmDistance(scene, image.frame, light.faces), light.faces) };
@@ -225,7 +252,7 @@ const Scene& Bench::Stages::clearedFor(const UnfinishedImage& request)
 {
   if (!media.holds(request.field, request.scene))
   {
-    rays.clear();
+    clearRays();
   }
   return request.scene;
 }
@@ -259,21 +286,32 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
   {
     return nullptr;
   }
+  if (inUse.seesChange())
+  {
+    clearRays();
+  }
   const Medium<Real>& medium = inUse.medium();
-  const RaySettings settings = boundRays(medium, light, *request, image);
+  const BoundedRays bounded = boundRays(inUse.onDevices(), light, *request, image);
   const Projection projection =
     projectionOf(scene, image.frame, light, (1 + image.exitRefractivity) * field.lengthScale);
-  const PilotBench<Real> bench{ medium, light, scene, projection, settings,
-    marginFor(*request->bound, scene, image.frame, light) };
   const double deflectionError = light.faces.ratio * image.medium.deflectionError;
-  Pilot<Real> pilot(
-    bench, { light.faces.ratio * noiseFloor(medium, field, light), deflectionError });
+  Pilot<Real>& pilot =
+    targets.pilotOf<Real>({ bounded.key, bounded.settings.kernel, field.lengthScale, projection,
+                            scene.filmEstimator, scene.seed },
+      [&]
+      {
+        const PilotBench<Real> bench{ &medium, light, scene, projection, bounded.settings,
+          marginFor(bounded.bound, scene, image.frame, light) };
+        const DeflectionErrors errors{ light.faces.ratio * noiseFloor(medium, field, light),
+          deflectionError };
+        return std::make_unique<Pilot<Real>>(bench, errors);
+      });
   const double k = scene.kScale.value_or(
     automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
   CutoffMaker maker;
   const Cutoffs cutoff = maker.cutoffOf(scene, k, image.frame.pixelSize);
-  pilot.setCutoff(cutoff);
-  const KnownErrors known = knownErrors(bench, pilot.view(), deflectionError, k);
+  pilot.setCutoff(scene, cutoff);
+  const KnownErrors known = knownErrors(pilot.bench(), pilot.view(), deflectionError, k);
   if (changeMedium(known, image.medium.isMemoryShort, scene))
   {
     return nullptr;
@@ -281,16 +319,16 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
   const bool hasWalls =
     !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
   const AccurateSettings chosen =
-    chooseFor(scene.targetError, pilot, scene, hasWalls, known, watch.monitor());
+    chooseFor(pilot, hasWalls, known, targets.lastFor(scene), watch.monitor());
   if (watch.isAborted())
   {
     return nullptr;
   }
+  targets.keep(scene, chosen);
   Scene accurate = scene;
   accurate.stepSize = chosen.step;
   accurate.samplesPerPixel = chosen.samples;
   auto result = std::make_unique<UnfinishedImage>(field, accurate);
-  result->bound = request->bound;
   result->accuracy = chosen.accuracy;
   return result;
 }
@@ -302,7 +340,6 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::requestForTarget(
   Scene accurate = scene;
   accurate.interpolation = Interpolation::Cubic;
   accurate.homogeneityTolerance = 0;
-  accurate.stepSize = longestStep;
   if (field.source)
   {
     accurate.mediumTolerance = toleranceForTarget(field, scene);
@@ -332,7 +369,7 @@ Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
   }
   if (inUse.seesChange())
   {
-    rays.clear();
+    clearRays();
     request.beginAnew();
   }
 
@@ -383,7 +420,7 @@ Image Bench::Stages::render(std::unique_ptr<UnfinishedImage> request, const Moni
     }
     catch (const DeviceError& failure)
     {
-      rays.clear();
+      clearRays();
       media.leaveDevice();
       request = instead(*request, failure);
       if (!request)
@@ -393,7 +430,7 @@ Image Bench::Stages::render(std::unique_ptr<UnfinishedImage> request, const Moni
     }
     catch (...) // what another process may have thrown, after some of the rays
     {
-      rays.clear();
+      clearRays();
       throw;
     }
   }

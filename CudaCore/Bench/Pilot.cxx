@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace schlieren
 {
@@ -20,8 +21,9 @@ namespace
 {
 
 constexpr std::int64_t scouts = 4096; ///< rays that look at the view
-/// Pixels of a set of blocks: within the light, and at its edges.
-constexpr std::size_t pixelsWithin = 768, pixelsAtEdges = 256;
+/// Pixels of a set of blocks: a few thousandths of the image's.
+constexpr double shareOfPixels = 4e-3;
+constexpr double fewestPixels = 320, mostPixels = 1024;
 constexpr double stepOfScouts = 2; ///< voxels
 
 /// Caustics: light that is displaced by no more than this is where it should be, pixels.
@@ -83,8 +85,8 @@ double largestOf(const Differences& differences)
 }
 
 template <class Real>
-Pilot<Real>::Pilot(const PilotBench<Real>& bench, const DeflectionErrors& errors)
-  : bench_(bench)
+Pilot<Real>::Pilot(PilotBench<Real> bench, const DeflectionErrors& errors)
+  : bench_(std::move(bench))
 {
   scout(errors);
   layOut();
@@ -95,7 +97,7 @@ RayTask<Real> Pilot<Real>::taskFor(double step) const
 {
   RaySettings settings = bench_.settings;
   settings.stepVoxels = step;
-  return makeTask<Real>(bench_.medium, nullptr, {}, bench_.light, settings);
+  return makeTask<Real>(*bench_.medium, nullptr, {}, bench_.light, settings);
 }
 
 /// Traces a ray through the middle of each of some thousand squares of pixels.
@@ -165,9 +167,11 @@ void Pilot<Real>::layOut()
       std::min({ moved, static_cast<double>(bench_.margin), static_cast<double>(mostAround) }));
   // As many rays around a block as in it, at most.
   edge_ = std::max<std::int64_t>(4, margin_);
-  const auto ofBlock = static_cast<std::size_t>(edge_ * edge_);
-  spread(within_, std::max<std::size_t>(6, pixelsWithin / ofBlock));
-  spread(atEdges_, std::max<std::size_t>(2, pixelsAtEdges / ofBlock));
+  const double pixels = shareOfPixels * static_cast<double>(view_.crossed * stride_ * stride_);
+  const auto blocks = static_cast<std::size_t>(
+    std::clamp(pixels, fewestPixels, mostPixels) / static_cast<double>(edge_ * edge_));
+  spread(within_, std::max<std::size_t>(6, blocks * 3 / 4));
+  spread(atEdges_, std::max<std::size_t>(2, blocks / 4));
 }
 
 /// Puts so many blocks of each set into some of these cells, at even distances in the order of rows.

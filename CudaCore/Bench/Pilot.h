@@ -24,10 +24,10 @@ namespace schlieren
 template <class Real>
 struct PilotBench
 {
-  const Medium<Real>& medium;
-  const Light& light;
-  const Scene& scene;
-  const Projection& projection;
+  const Medium<Real>* medium; ///< stays with its owner
+  Light light;
+  Scene scene;
+  Projection projection;
   RaySettings settings;
   std::int64_t margin; ///< pixels around the image from which light may be bent into it
 };
@@ -67,13 +67,18 @@ public:
     int samples; ///< rays per pixel
   };
 
-  /// Looks at the view. `errors`: see strongDeflection(). The bench and what it refers to stay with their owner.
-  Pilot(const PilotBench<Real>& bench, const DeflectionErrors& errors);
+  /// Looks at the view. `errors`: see strongDeflection().
+  Pilot(PilotBench<Real> bench, const DeflectionErrors& errors);
 
+  const PilotBench<Real>& bench() const { return bench_; }
   const PilotView& view() const { return view_; }
 
-  /// Exposes blocks by this cutoff from now on.
-  void setCutoff(const Cutoffs& cutoff) { cutoff_ = &cutoff; }
+  /// Exposes blocks by another cutoff of a scene with the same rays from now on. The cutoff's table stays with its owner.
+  void setCutoff(const Scene& scene, const Cutoffs& cutoff)
+  {
+    bench_.scene = scene;
+    cutoff_ = &cutoff;
+  }
 
   /// Two sets of blocks that have no pixel in common: one to choose by, one to verify the choice with.
   enum class Blocks
@@ -114,7 +119,7 @@ private:
   void addDifferences(
     const Values& a, const Values& b, double weight, Differences& differences) const;
 
-  const PilotBench<Real> bench_;
+  PilotBench<Real> bench_;
   const Cutoffs* cutoff_ = nullptr;
   PilotView view_;
   BlockList within_, atEdges_; ///< cells of the view where light crosses the data, row by row

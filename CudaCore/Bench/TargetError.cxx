@@ -32,7 +32,7 @@ double sumOf(double a, double b, double c = 0, double d = 0)
   return std::sqrt(a * a + b * b + c * c + d * d);
 }
 
-/// Finds errors of steps and rays per pixel when they are asked for.
+/// Finds errors of steps and rays per pixel when they are requested.
 template <class Real>
 class Ladder
 {
@@ -59,16 +59,28 @@ public:
       percentile99(pilot_.compare(Blocks::ToChoose, { step, 1 }, { 0.5 * step, 1 }, monitor_));
   }
 
-  double ofRays(int samples)
+  /// `allowed`: where the error of 16 rays is less than that by what 4 gain, it is not measured.
+  double ofRays(int samples, double allowed)
   {
-    constexpr int mostCompared = 16;
+    constexpr int cheap = 4, mostCompared = 16;
+    constexpr double trust = 0.7, most = 16;
     if (!hasFilm_)
     {
       return 0;
     }
     if (samples > mostCompared)
     {
-      return ofRays(samples / 4) / leastGain;
+      return ofRays(samples / 4, 0) / leastGain;
+    }
+    if (samples > cheap)
+    {
+      const double before = ofRays(cheap, allowed);
+      const double gain =
+        before > 0 ? std::clamp(trust * ofRays(1, allowed) / before, leastGain, most) : leastGain;
+      if (before / gain <= allowed)
+      {
+        return before / gain;
+      }
     }
     return errorByFourfold *
       percentile99(pilot_.compare(
@@ -82,7 +94,7 @@ private:
   const Monitor& monitor_;
 };
 
-ErrorSource largestOf(double ofSteps, double ofRays, const KnownErrors& known)
+ErrorSource limitOf(double ofSteps, double ofRays, const KnownErrors& known)
 {
   const std::array<std::pair<double, ErrorSource>, 4> all{ {
     { ofSteps, ErrorSource::Steps },
@@ -109,7 +121,7 @@ AccurateSettings cheapest(double target, Ladder<Real>& ladder, const KnownErrors
   for (const int samples : raysPerPixel)
   {
     settings.samples = samples;
-    ofRays = ladder.ofRays(samples);
+    ofRays = ladder.ofRays(samples, shareOfRays * allowed);
     if (ofRays <= shareOfRays * allowed)
     {
       break;
@@ -126,7 +138,7 @@ AccurateSettings cheapest(double target, Ladder<Real>& ladder, const KnownErrors
     }
   }
   settings.accuracy = { target, margin * sumOf(ofRays, ofSteps, known.voxels, known.rounding), 0,
-    largestOf(ofSteps, ofRays, known) };
+    limitOf(ofSteps, ofRays, known) };
   return settings;
 }
 
@@ -204,37 +216,55 @@ bool changeMedium(const KnownErrors& known, bool isMemoryShort, Scene& scene)
   return false;
 }
 
+/// Finds what other blocks say of settings, and writes it into them. Nothing if aborted.
 template <class Real>
-AccurateSettings chooseFor(double target, Pilot<Real>& pilot, const Scene& scene, bool hasWalls,
-  const KnownErrors& known, const Monitor& monitor)
+void verify(
+  AccurateSettings& settings, Pilot<Real>& pilot, const KnownErrors& known, const Monitor& monitor)
 {
-  using Blocks = typename Pilot<Real>::Blocks;
-  const bool hasFilm = !isOfCamera(scene.cutoff);
-  Ladder<Real> ladder(pilot, hasWalls ? longestStepAtWalls : longestStep, hasFilm, monitor);
+  const Scene& scene = pilot.bench().scene;
+  const int more = isOfCamera(scene.cutoff) ? 1 : settings.samples <= 4 ? 4 : 2;
+  const Differences differences = pilot.compare(Pilot<Real>::Blocks::ToVerify,
+    { settings.step, settings.samples }, { 0.5 * settings.step, more * settings.samples }, monitor);
+  Accuracy& accuracy = settings.accuracy;
+  accuracy.target = scene.targetError;
+  accuracy.reached =
+    sumOf(errorByFourfold * percentile99(differences), known.voxels, known.rounding);
+  accuracy.largest = sumOf(errorByFourfold * largestOf(differences), known.voxels, known.rounding);
+}
+
+template <class Real>
+AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors& known,
+  const AccurateSettings* before, const Monitor& monitor)
+{
+  const Scene& scene = pilot.bench().scene;
+  const double target = scene.targetError;
+  const double longest = hasWalls ? longestStepAtWalls : longestStep;
+  const auto isAborted = [&] { return monitor.aborted && monitor.aborted(); };
   AccurateSettings settings{};
-  double aim = target;
-  for (int tries = 0; tries < 3; ++tries)
+  if (before)
   {
-    settings = cheapest(aim, ladder, known);
-    const int more = hasFilm ? (settings.samples <= 4 ? 4 : 2) : 1;
-    const Differences differences =
-      pilot.compare(Blocks::ToVerify, { settings.step, settings.samples },
-        { 0.5 * settings.step, more * settings.samples }, monitor);
-    if (monitor.aborted && monitor.aborted())
+    constexpr double wasteful = 0.2;
+    settings = *before;
+    verify(settings, pilot, known, monitor);
+    const bool isCheapest = settings.samples == raysPerPixel.front() && settings.step >= longest;
+    if (isAborted() ||
+      (settings.accuracy.isKept() && (isCheapest || settings.accuracy.reached > wasteful * target)))
     {
       return settings;
     }
-    Accuracy& accuracy = settings.accuracy;
-    const double found = errorByFourfold * percentile99(differences);
-    accuracy.target = target;
-    accuracy.reached = sumOf(found, known.voxels, known.rounding);
-    accuracy.largest = sumOf(schlieren::largestOf(differences), known.voxels, known.rounding);
+  }
+  Ladder<Real> ladder(pilot, longest, !isOfCamera(scene.cutoff), monitor);
+  double aim = target;
+  for (int tries = 0; tries < 3 && !isAborted(); ++tries)
+  {
+    settings = cheapest(aim, ladder, known);
+    verify(settings, pilot, known, monitor);
     const bool isFinest = settings.step <= shortestStep && settings.samples == raysPerPixel.back();
-    if (accuracy.isKept() || isFinest)
+    if (settings.accuracy.isKept() || isFinest)
     {
       break;
     }
-    aim *= std::clamp(0.8 * target / accuracy.reached, 0.25, 0.8);
+    aim *= std::clamp(0.8 * target / settings.accuracy.reached, 0.25, 0.8);
   }
   return settings;
 }
@@ -244,8 +274,8 @@ template KnownErrors knownErrors(
 template KnownErrors knownErrors(
   const PilotBench<double>&, const PilotView&, double deflectionError, double k);
 template AccurateSettings chooseFor(
-  double target, Pilot<float>&, const Scene&, bool hasWalls, const KnownErrors&, const Monitor&);
-template AccurateSettings chooseFor(
-  double target, Pilot<double>&, const Scene&, bool hasWalls, const KnownErrors&, const Monitor&);
+  Pilot<float>&, bool hasWalls, const KnownErrors&, const AccurateSettings* before, const Monitor&);
+template AccurateSettings chooseFor(Pilot<double>&, bool hasWalls, const KnownErrors&,
+  const AccurateSettings* before, const Monitor&);
 
 } // namespace schlieren

@@ -90,7 +90,7 @@ struct Image
   /// False where the monitor has paused it, and Bench::resume continues it. The arrays then hold the image of
   /// the samples so far (the histogram may know of more), or are empty where this call has completed none.
   bool finished = true;
-  int samples = 0; ///< per pixel, that the image is of
+  int samples = 0;         ///< per pixel, that the image is of
   int samplesPerPixel = 0; ///< that the finished image is of
   double stepSize = 0;     ///< voxels
 };

@@ -151,7 +151,7 @@ protected:
       EXPECT_LE(error, 1.05 * before + 1e-6);
       // Below a tenth of the target it need not be known.
       EXPECT_GT(image.accuracy.reached, 0.5 * error - 0.1 * scene.targetError);
-      EXPECT_LT(image.accuracy.reached, 3 * error + 0.2 * scene.targetError);
+      EXPECT_LT(image.accuracy.reached, 3 * error + 0.5 * scene.targetError);
       before = error;
     }
   }
@@ -193,7 +193,7 @@ TEST(TargetErrors, ThatCannotBeKeptAreSaid)
   const Image image = Bench().render(field.field, scene);
   EXPECT_FALSE(image.accuracy.isKept());
   EXPECT_GT(image.accuracy.reached, 1e-12);
-  EXPECT_GE(image.accuracy.largest, 0.99 * image.accuracy.reached);
+  EXPECT_GE(image.accuracy.largest, image.accuracy.reached);
 }
 
 /// Single precision has an error of 0.02 fringes in 10^5.
