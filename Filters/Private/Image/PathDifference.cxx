@@ -3,6 +3,7 @@
 #include "Image/PathDifference.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace filters
@@ -40,6 +41,8 @@ schlieren::Image differenceOf(
   image.raysBlocked += straight.raysBlocked;
   image.raysLost += straight.raysLost;
   image.traceSeconds += straight.traceSeconds;
+  image.accuracy.reached = 0.5 * std::hypot(image.accuracy.reached, straight.accuracy.reached);
+  image.accuracy.largest = 0.5 * std::hypot(image.accuracy.largest, straight.accuracy.largest);
   image.samples = std::min(image.samples, straight.samples);
   image.finished = image.finished && straight.finished;
   return image;
