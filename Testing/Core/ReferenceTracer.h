@@ -44,6 +44,10 @@ std::array<Real, n> operator-(const std::array<Real, n>& a, const std::array<Rea
   return a + Real(-1) * b;
 }
 
+/// Of a grid: from a point to the next one along an axis, and index coordinates of a place.
+Vec stepOf(const Grid& grid, std::size_t axis);
+Vec indexOf(const Grid& grid, const Vec& place);
+
 /// Refractivity at a place in data coordinates, and its gradient by data units.
 struct Value
 {
@@ -64,20 +68,14 @@ struct Piece
 struct Flow
 {
   Grid grid;
-  std::function<Piece(const Vec& index)>
-    pieceAt;            ///< the piece that has a place in index coordinates
-  Real largest = 1;     ///< of |N - ambient|, about: errors are relative to it
-  Real ambient = 0;     ///< N outside
-  Real lengthScale = 1; ///< metres per data unit
+  std::function<Piece(const Vec&)> pieceAt; ///< that has a place in index coordinates
+  Real largest = 1;                         ///< of |N - ambient|, about: errors are relative to it
+  Real ambient = 0;                         ///< N outside
+  Real lengthScale = 1;                     ///< metres per data unit
 };
 
 /// A flow that is one formula, smooth in all of the box.
 Flow flowOf(const Grid& grid, const Refractivity& refractivity, Real largest);
-
-/// The spline (Linear, Quadratic, Cubic) through samples at the grid's points, x fastest. At the grid's sides its coefficients
-/// continue as the polynomial of the spline's degree through the last of them.
-Flow splineThrough(
-  const Grid& grid, const std::vector<double>& samples, Interpolation interpolation, Real largest);
 
 /// Of a ray: where it is, n times its direction, and the integral of n ds so far (data units).
 struct RayState
@@ -89,21 +87,21 @@ struct RayState
 /// Follows d/ds (n dr/ds) = grad n from a place in the box to where the ray leaves it.
 RayState follow(const Flow& flow, const RayState& start);
 
-/// As those of schlieren::Image. Intensity of FilmEstimator::Sheet is the mean over a pixel's area of a film that has no folds.
-struct Images
+/// What a ray through the middle of a pixel has. Places are in data units of the image, from its middle.
+struct Ray
 {
-  std::vector<Pair> deflection, displacement,
-    shift; ///< of Cutoff::Background shift is backgroundDisplacement
-  std::vector<Real> opticalPathDifference, intensity, background;
-  std::vector<Color> color;
+  Pair deflection, displacement; ///< displacement: where it leaves the data, as opticalPath
+  Pair shift, place; ///< on the film, in data units there, and where it lands in the image
+  Real opticalPath = 0, onFilm = 0; ///< difference to undisturbed light, metres
 };
 
-/// Makes what is of rays through pixels' centres, for a scene with parallelScale and ExitInto::Surroundings. Rays bend, whatever
-/// its path model. There are no bodies.
-Images trace(const Flow& flow, const Scene& scene);
+/// Traces the rays through the pixels' centres, row by row, for a scene with parallelScale and ExitInto::Surroundings. They
+/// bend, whatever its path model. There are no bodies.
+std::vector<Ray> trace(const Flow& flow, const Scene& scene);
 
-/// Makes all images, for a scene that also has kScale where its cutoff has a k, and seed 1. There are no fields that tint, and no
-/// noise filters.
-Images render(const Flow& flow, const Scene& scene);
+/// Makes an image (all three the same where there are no colours) of a scene that also has kScale where its cutoff has a k, and
+/// seed 1. FilmEstimator::Sheet: the mean over the pixels' areas of a film that has no folds. There are no images as filters or
+/// patterns, white light, fields that tint, or noise filters.
+std::vector<Color> render(const Flow& flow, const Scene& scene);
 
 } // namespace schlieren::reference
