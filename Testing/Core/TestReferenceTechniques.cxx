@@ -200,6 +200,20 @@ TEST(ReferenceTechniques, OfExtendedSources)
   }
 }
 
+/// To first order, a path through a flow in focus is as long on the film as that straight through the flow.
+TEST(ReferenceTechniques, OfStraightInterferograms)
+{
+  const Medium medium = ball(1e-3, Interpolation::Cubic, 48);
+  Scene scene = nearScene({ 0, 0, -1 });
+  scene.cutoff = Cutoff::Interferogram;
+  scene.filmEstimator = FilmEstimator::Photon;
+  scene.view.focalPoint = Vector{ 0.3, -0.05, 0.05 }; // where it is steepest
+  scene.focusOffset = 0.05;
+  scene.pathModel = PathModel::Straight;
+  // It is off by eps^2 / 2 of the ball's width, 0.02 fringes. That of the data's depth would be 0.2.
+  EXPECT_LT(differenceOf(medium, scene), 0.1);
+}
+
 TEST(ReferenceTechniques, OfRayTubes)
 {
   const Medium medium = polynomial(0.02);
