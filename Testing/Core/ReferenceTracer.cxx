@@ -57,6 +57,7 @@ namespace
 
 // ---- The equation of rays
 
+static_assert(std::numeric_limits<Real>::digits >= 64, "tolerances are below those of doubles");
 using Numbers = std::array<Real, 7>; ///< position, momentum, path
 
 Vec placeOf(const Numbers& y) { return { y[0], y[1], y[2] }; }
