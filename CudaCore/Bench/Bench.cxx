@@ -208,12 +208,14 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
     key.gradients = field.gradients.version;
   }
   work.raySets += rays.prepare(key, margin) ? 1 : 0;
+  // Of straight rays all is of first order, and the bend makes nothing longer.
+  const bool bends = settings.kernel.path != PathModel::Straight;
+  const double pathPerDataUnit = bends ? (1 + image.exitRefractivity) * field.lengthScale : 0;
   return { onDevices, makeTask<Real>(medium, map, medium.gradientsOf(field), light, settings),
     margin,
     { light.faces.ratio * noiseFloor(medium, field, light),
       light.faces.ratio * image.medium.deflectionError },
-    projectionOf(scene, image.frame, light, (1 + image.exitRefractivity) * field.lengthScale),
-    image.frame.pixelSize };
+    projectionOf(scene, image.frame, light, pathPerDataUnit), image.frame.pixelSize };
 }
 
 bool Bench::Stages::develop(

@@ -161,7 +161,7 @@ std::int64_t marginFor(
 {
   if (isOfCamera(scene.cutoff))
   {
-    return 1;
+    return 2; // what the light of a pixel's mean depends on
   }
   const double depth = frame.exit - frame.entry;
   const double slope = slopeOutside(bound, light);

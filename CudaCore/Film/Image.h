@@ -48,7 +48,8 @@ struct Image
   /// the ray through the pixel's centre, from the middle of the light source; where that ends in a solid, the mean of
   /// the pixel's rays that do not.
   PixelArray<float> deflection;
-  PixelArray<double> opticalPathDifference; ///< per pixel, metres, against undisturbed light
+  /// Per pixel, metres, against undisturbed light; on the same plane as displacement.
+  PixelArray<double> opticalPathDifference;
   /// 2 per pixel: at the exit plane, data units; with a perspective, and of Cutoff::Background, where rays go from the
   /// camera on, at the entry plane.
   PixelArray<float> displacement;

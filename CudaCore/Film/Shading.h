@@ -18,7 +18,8 @@ struct Projection
 {
   double distance;    ///< of what the film shows past the exit plane, data units; < 0: before it
   double perDataUnit; ///< pixels, for a data unit on the film
-  double pathPerDataUnit;                 ///< optical path of undisturbed light, metres
+  double
+    pathPerDataUnit; ///< optical path of undisturbed light, metres; 0: straight rays, no longer for their bend
   Inclination inclination{ { 0, 0 }, 0 }; ///< of the light, in the data
   double exitRatio = 1;                   ///< see Light; of lengths, these are outside of the data
   double perSourceDistance = 0; ///< 1 / from the source to the film, by data unit; 0: collimated

@@ -38,7 +38,7 @@ struct RayExit
 {
   double deflection[2];  ///< direction cosines along u and v, less those of undisturbed light
   float displacement[2]; ///< on the exit plane, along u and v, data units
-  double opticalPathDifference; ///< metres, up to where the ray leaves the grid
+  double opticalPathDifference; ///< metres, on the exit plane
   RayFate fate;
   std::int32_t steps;
 

@@ -278,7 +278,7 @@ inline Reading readingOf(
   const double rest = (frame.exit - dot(end.position, w)) / dot(p, w);
   return { { dot(p, u) / length(p), dot(p, v) / length(p) },
     { dot(path, u) + rest * dot(p, u), dot(path, v) + rest * dot(p, v) },
-    end.path - start.path - indexAround * dot(path, w) };
+    end.path - start.path + indexAround * (rest * length(p) - dot(path + rest * p, w)) };
 }
 
 inline Reading readingOf(const Image& image, std::size_t pixel)

@@ -59,11 +59,12 @@ Reading truthOf(const ClosedForm& form, const Image& image, const Scene& scene, 
   const Point w = asPoint(image.frame.w);
   const auto onExitPlane = [&](const Point& position, const Point& direction)
   { return position + ((image.frame.exit - dot(position, w)) / dot(direction, w)) * direction; };
-  const Point moved = onExitPlane(end.position, end.momentum) - onExitPlane(middle.position, d);
+  const Point landed = onExitPlane(end.position, end.momentum);
+  const Point moved = landed - onExitPlane(middle.position, d);
   const Point turned = (1 / length(end.momentum)) * end.momentum - d;
   const Point u = asPoint(image.frame.u), v = asPoint(image.frame.v);
   return { { dot(turned, u), dot(turned, v) }, { dot(moved, u), dot(moved, v) },
-    end.path - dot(end.position - start.position, d) };
+    end.path + length(landed - end.position) - dot(landed - start.position, d) };
 }
 
 Comparison compare(const ClosedForm& form, const Image& image, const Scene& scene, const Grid& grid)

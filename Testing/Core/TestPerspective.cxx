@@ -53,11 +53,12 @@ Reading truthOf(const ClosedForm& form, const Image& image, const Scene& scene, 
   const Point w = asPoint(image.frame.w);
   const auto onFarPlane = [&](const Point& position, const Point& direction)
   { return position + ((image.frame.entry - dot(position, w)) / dot(direction, w)) * direction; };
-  const Point moved = onFarPlane(end.position, end.momentum) - onFarPlane(place, d);
+  const Point landed = onFarPlane(end.position, end.momentum);
+  const Point moved = landed - onFarPlane(place, d);
   const Point turned = (1 / length(end.momentum)) * end.momentum - d;
   const Point u = asPoint(image.frame.u), v = asPoint(image.frame.v);
   return { { dot(turned, u), dot(turned, v) }, { dot(moved, u), dot(moved, v) },
-    end.path - dot(end.position - start.position, d) };
+    end.path + length(landed - end.position) - dot(landed - start.position, d) };
 }
 
 /// A pupil at such a distance from the focal point.

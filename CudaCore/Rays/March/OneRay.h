@@ -179,6 +179,14 @@ SCHLIEREN_HD RayExit leaveGrid(
   const double remaining = light.depth - entry.from -
     static_cast<double>(batch.length[i]) * entry.cosine - (bends ? ahead : 0);
   const double further = remaining / forward;
+  if (bends)
+  {
+    // It is longer than that of the undisturbed wave by 1 - d.p / |p| per unit, which is |p / |p| - d|^2 / 2.
+    const double momentum = length(d + q);
+    const Vec3<double> turned = q - ((2 * dot(d, q) + dot(q, q)) / (momentum + 1)) * d;
+    exit.opticalPathDifference +=
+      0.5 * further / momentum * dot(turned, turned) * task.metresPerUnit;
+  }
   exit.displacement[0] = static_cast<float>(
     (dot(offset, light.u) - ahead * entry.slope[0] + further * (q.x - q.z * entry.slope[0])) *
     light.unit);
