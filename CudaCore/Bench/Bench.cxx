@@ -48,6 +48,15 @@ Monitor monitorOfVoxels(UnfinishedImage& request, const Monitor& monitor)
   return ofTree;
 }
 
+Projection projectionFor(const RaySettings& settings, const Light& light,
+  const UnfinishedImage& request, const Image& image)
+{
+  // Of straight rays all is of first order, and the bend makes nothing longer.
+  const bool bends = settings.kernel.path != PathModel::Straight;
+  return projectionOf(request.scene, image.frame, light,
+    bends ? (1 + image.exitRefractivity) * request.field.lengthScale : 0);
+}
+
 /// The most that nu may vary in a cube that counts as homogeneous.
 template <class Real>
 double homogeneityLimit(const Medium<Real>& medium, const Scene& scene)
@@ -208,14 +217,11 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
     key.gradients = field.gradients.version;
   }
   work.raySets += rays.prepare(key, margin) ? 1 : 0;
-  // Of straight rays all is of first order, and the bend makes nothing longer.
-  const bool bends = settings.kernel.path != PathModel::Straight;
-  const double pathPerDataUnit = bends ? (1 + image.exitRefractivity) * field.lengthScale : 0;
   return { onDevices, makeTask<Real>(medium, map, medium.gradientsOf(field), light, settings),
     margin,
     { light.faces.ratio * noiseFloor(medium, field, light),
       light.faces.ratio * image.medium.deflectionError },
-    projectionOf(scene, image.frame, light, pathPerDataUnit), image.frame.pixelSize };
+    projectionFor(settings, light, request, image), image.frame.pixelSize };
 }
 
 bool Bench::Stages::develop(
@@ -294,8 +300,7 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
   }
   const Medium<Real>& medium = inUse.medium();
   const BoundedRays bounded = boundRays(inUse.onDevices(), light, *request, image);
-  const Projection projection =
-    projectionOf(scene, image.frame, light, (1 + image.exitRefractivity) * field.lengthScale);
+  const Projection projection = projectionFor(bounded.settings, light, *request, image);
   const double deflectionError = light.faces.ratio * image.medium.deflectionError;
   Pilot<Real>& pilot =
     targets.pilotOf<Real>({ bounded.key, bounded.settings.kernel, field.lengthScale, projection,
