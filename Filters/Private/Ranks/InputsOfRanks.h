@@ -4,6 +4,7 @@
 
 #include "Ranks/Ranks.h"
 #include "Ranks/SourceOverRanks.h"
+#include "Sources/MediumMaker.h"
 
 #include "vtkSmartPointer.h"
 
@@ -25,8 +26,6 @@ class MediumSource;
 
 namespace filters
 {
-
-class MediumMaker;
 
 /// The inputs of a filter on several ranks. Unless noted otherwise, rank 0 calls functions between
 /// begin() and end() of its ranks; the others follow by answer().
@@ -98,7 +97,7 @@ private:
   bool InPieces = false;
   double GatheredVersion = -1, GatheredMost = -1; // of the gathered data
   std::vector<std::string> GatheredArrays;
-  KeptOverRanks Kept;
+  KeptMesh Kept;
   MadeOverRanks Made;
   std::shared_ptr<const SamplesOverRanks> Held; // on all ranks
 };

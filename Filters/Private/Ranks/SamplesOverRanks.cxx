@@ -56,20 +56,18 @@ void extend(
   }
 }
 
-SamplesOverRanks::SamplesOverRanks(const Ranks& ranks, std::uint64_t number, Facts facts,
-  std::unique_ptr<const DataPiece> piece, std::shared_ptr<const GasBoundary> boundary,
+SamplesOverRanks::SamplesOverRanks(const Ranks& ranks, std::uint64_t number,
+  std::unique_ptr<const DataPiece> piece, const DataPiece::Facts& facts,
+  std::vector<FieldRange> fields, std::shared_ptr<const GasBoundary> boundary, double ambient,
   std::shared_ptr<LatticesOfMesh> lattices, int threads)
-  : AllRanks(ranks)
+  : PieceSource(std::move(piece), facts, std::move(boundary), ambient, std::move(lattices))
+  , AllRanks(ranks)
   , Number(number)
-  , All(std::move(facts))
-  , Piece(std::move(piece))
-  , Boundary(std::move(boundary))
-  , Lattices(std::move(lattices))
+  , Own(this->piece().facts())
+  , Ranges(std::move(fields))
   , Threads(threads)
+  , Whole(this->contentWith(facts.bounds, { facts.content, { 1, 1, 1, 1, 1, 1, 1, 1, 1 } }))
 {
-  OwnContent all{ this->All.content, {} };
-  all.holds.fill(1);
-  this->Whole = this->contentFrom(this->All.bounds, all);
 }
 
 SamplesOverRanks::BoxKey SamplesOverRanks::keyOf(const schlieren::Box& box)
@@ -85,40 +83,28 @@ SamplesOverRanks::LatticeKey SamplesOverRanks::keyOf(const schlieren::Lattice& l
     static_cast<double>(points[2]) };
 }
 
-/// Combines kinds of points, by the boundary, with the cells that have gas.
-schlieren::MediumSource::Content SamplesOverRanks::contentFrom(
+schlieren::MediumSource::Content SamplesOverRanks::contentWith(
   const schlieren::Box& box, const OwnContent& found) const
 {
-  Content content{ 1, 0, { infinity, infinity, infinity }, false, false, false };
   const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
-  this->Boundary->findPlaces(
-    box,
-    [&](const Point& place)
-    {
-      const auto at = std::find(tested.begin(), tested.end(), place);
-      return at != tested.end() && found.holds[static_cast<std::size_t>(at - tested.begin())] != 0;
-    },
-    content);
-  if (content.hasGas)
+  const auto holds = [&](const Point& place)
   {
-    content.lowest = found.cells.lowest;
-    content.highest = found.cells.highest;
-    content.cellSize = found.cells.cellSize;
-  }
-  return content;
+    const auto at = std::find(tested.begin(), tested.end(), place);
+    return at != tested.end() && found.holds[static_cast<std::size_t>(at - tested.begin())] != 0;
+  };
+  return this->contentFrom(box, holds, [&] { return found.cells; });
 }
 
 SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box& box) const
 {
   OwnContent own{ { 1, 0, { infinity, infinity, infinity } }, {} };
-  const DataPiece::Summary summary = this->Piece->summary();
-  if (summary.cells > 0 && meet(box, summary.bounds))
+  if (this->Own.cells > 0 && meet(box, this->Own.bounds))
   {
-    own.cells = this->Piece->contentOf(box);
+    own.cells = this->piece().contentOf(box);
     const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
     for (std::size_t n = 0; n < tested.size(); ++n)
     {
-      own.holds[n] = this->Piece->holds(tested[n]) ? 1 : 0;
+      own.holds[n] = this->piece().holds(tested[n]) ? 1 : 0;
     }
   }
   return own;
@@ -126,7 +112,7 @@ SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box
 
 void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes) const
 {
-  const std::size_t fields = this->All.fields.size();
+  const std::size_t fields = this->Ranges.size();
   const std::vector<Ranks::Bytes> ofRanks = this->AllRanks.allGather(
     [&]
     {
@@ -140,7 +126,7 @@ void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes)
           for (std::size_t field = 0; has && field < fields; ++field)
           {
             ranges[n * fields + field] =
-              this->Piece->rangeOfField(static_cast<int>(field), boxes[n]);
+              this->piece().rangeOfField(static_cast<int>(field), boxes[n]);
           }
         });
       Ranks::Bytes bytes;
@@ -178,7 +164,7 @@ void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes)
     [&](std::size_t n)
     {
       const auto first = ranges.begin() + static_cast<std::ptrdiff_t>(n * fields);
-      *known[n] = { this->contentFrom(boxes[n], all[n]),
+      *known[n] = { this->contentWith(boxes[n], all[n]),
         { first, first + static_cast<std::ptrdiff_t>(fields) } };
     });
 }
@@ -194,10 +180,9 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
       forEach(lattices.size(), this->Threads,
         [&](std::size_t n)
         {
-          const DataPiece::Summary summary = this->Piece->summary();
-          if (summary.cells > 0)
+          if (this->Own.cells > 0)
           {
-            this->Piece->sample(lattices[n]).Put(ofLattices[n]);
+            this->piece().samplesOn(lattices[n]).Put(ofLattices[n]);
           }
         });
       for (std::size_t n = 0; n < lattices.size(); ++n)
@@ -228,7 +213,7 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
       {
         Reader own(ofLattice);
         samples.Add(DataPiece::Samples::Get(
-          own, static_cast<std::size_t>(lattices[n].size()), this->All.fields.size()));
+          own, static_cast<std::size_t>(lattices[n].size()), this->Ranges.size()));
       }
     }
   }
@@ -236,34 +221,32 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
 
 schlieren::MediumSource::Content SamplesOverRanks::contentOf(const schlieren::Box& box) const
 {
-  const bool isAll = box.low == this->All.bounds.low && box.high == this->All.bounds.high;
+  const bool isAll = box.low == this->bounds().low && box.high == this->bounds().high;
   return isAll ? this->Whole : this->Boxes.at(keyOf(box)).content;
 }
 
-const DataPiece::Samples& SamplesOverRanks::samplesOn(const schlieren::Lattice& lattice) const
+/// Copies what has been prepared. `found`: may be null.
+void SamplesOverRanks::sampleGas(const schlieren::Lattice& lattice, double* refractivity,
+  unsigned char* found, double* values, CellsOfLattice*) const
 {
-  return this->Samples.at(keyOf(lattice));
+  const DataPiece::Samples& samples = this->Samples.at(keyOf(lattice));
+  std::fill_n(refractivity, static_cast<std::size_t>(lattice.size()), 0.);
+  std::copy(samples.values.begin(), samples.values.end(), refractivity);
+  if (found)
+  {
+    std::copy(samples.found.begin(), samples.found.end(), found);
+  }
+  if (values)
+  {
+    std::copy(samples.fields.begin(), samples.fields.end(), values);
+  }
 }
 
-void SamplesOverRanks::sample(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances) const
+bool SamplesOverRanks::sampleGasIn(const CellsOfLattice&, const schlieren::Lattice& lattice,
+  double* refractivity, double* values) const
 {
-  const DataPiece::Samples& samples = this->samplesOn(lattice);
-  const auto size = static_cast<std::size_t>(lattice.size());
-  std::fill_n(refractivity, size, 0.);
-  std::copy(samples.values.begin(), samples.values.end(), refractivity);
-  if (const auto known = this->Lattices ? this->Lattices->find(lattice, distances) : nullptr)
-  {
-    known->copyTo(places, distances, size);
-    return;
-  }
-  const std::vector<unsigned char> none(samples.found.empty() ? size : 0, 0);
-  this->Boundary->sample(
-    lattice, none.empty() ? samples.found.data() : none.data(), places, distances);
-  if (this->Lattices && this->Lattices->hasRoomFor(lattice))
-  {
-    this->Lattices->keep(lattice, knownLattice({}, places, distances, size));
-  }
+  this->sampleGas(lattice, refractivity, nullptr, values, nullptr);
+  return true;
 }
 
 schlieren::MediumSource::FieldRange SamplesOverRanks::rangeOfField(
@@ -271,17 +254,7 @@ schlieren::MediumSource::FieldRange SamplesOverRanks::rangeOfField(
 {
   const auto number = static_cast<std::size_t>(field);
   const auto found = this->Boxes.find(keyOf(box));
-  return found == this->Boxes.end() ? this->All.fields[number] : found->second.fields[number];
-}
-
-void SamplesOverRanks::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances, double* values) const
-{
-  this->sample(lattice, refractivity, places, distances);
-  const std::vector<double>& fields = this->samplesOn(lattice).fields;
-  std::fill_n(values, static_cast<std::size_t>(lattice.size()) * this->All.fields.size(),
-    std::numeric_limits<double>::quiet_NaN());
-  std::copy(fields.begin(), fields.end(), values);
+  return found == this->Boxes.end() ? this->Ranges[number] : found->second.fields[number];
 }
 
 std::vector<std::vector<char>> SamplesOverRanks::makeShare(

@@ -22,6 +22,19 @@ bool meet(const schlieren::Box& a, const schlieren::Box& b)
   return meet;
 }
 
+DataPiece::Samples DataPiece::samplesOn(const schlieren::Lattice& lattice) const
+{
+  const auto size = static_cast<std::size_t>(lattice.size());
+  const auto fields = static_cast<std::size_t>(this->fields());
+  Samples samples{ std::vector<unsigned char>(size), std::vector<double>(size),
+    std::vector<double>(fields * size) };
+  this->sample(lattice, samples.values.data(), samples.found.data(),
+    fields > 0 ? samples.fields.data() : nullptr);
+  const bool isAny =
+    std::find(samples.found.begin(), samples.found.end(), 1) != samples.found.end();
+  return isAny ? std::move(samples) : Samples();
+}
+
 void DataPiece::Samples::Add(Samples other)
 {
   if (this->found.empty())

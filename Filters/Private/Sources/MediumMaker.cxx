@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sources/MediumMaker.h"
 
+#include "Cells/MeshKey.h"
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
 #include "Common/Threads.h"
@@ -10,10 +11,9 @@
 #include "Input/OneLayer.h"
 #include "Input/RefractivityOfImage.h"
 #include "Input/SamplingBox.h"
-#include "Sources/AmrSource.h"
+#include "Sources/AmrPiece.h"
 #include "Sources/FieldTints.h"
 #include "Sources/GridOfSource.h"
-#include "Sources/ImageSource.h"
 #include "Sources/PreparedLeaves.h"
 #include "Sources/Revolution.h"
 #include "Sources/RevolvedSource.h"
@@ -65,6 +65,28 @@ int planeOf(const Source& source)
 {
   return source.image && !source.image->GetDirectionMatrix()->IsIdentity() ? -1
                                                                            : flatAxisOf(source);
+}
+
+/// Makes the source of an image. `bodies`: in its axes; may be null.
+std::shared_ptr<const PieceSource> sourceOf(
+  std::unique_ptr<const ImagePiece> piece, vtkDataObject* bodies)
+{
+  const DataPiece::Facts facts = piece->facts();
+  const double ambient = ImagePiece::ambientOf(piece->outer());
+  auto boundary = std::make_shared<const GasBoundary>(piece->faces(), bodies, Outside::Passes);
+  return std::make_shared<PieceSource>(std::move(piece), facts, std::move(boundary), ambient);
+}
+
+/// Makes the source of adaptive meshes, with walls at the edges of solid cells.
+std::shared_ptr<const PieceSource> sourceOf(
+  std::unique_ptr<const AmrPiece> piece, vtkDataObject* bodies, Outside outside)
+{
+  const DataPiece::Facts facts = piece->facts();
+  const double ambient = weightedMedian(piece->refractivity().outerValues());
+  BoundaryFaces faces = piece->refractivity().faces();
+  sortTriangles(faces);
+  auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
+  return std::make_shared<PieceSource>(std::move(piece), facts, std::move(boundary), ambient);
 }
 
 /// Returns a note on 3-D data that are a wedge; else empty.
@@ -129,12 +151,6 @@ Source MediumMaker::choose(vtkDataObject* input, const Source* like)
 }
 
 //------------------------------------------------------------------------------
-bool MediumMaker::keepsGrid(vtkDataObject* input)
-{
-  return !this->settings.isAxisymmetric() && this->choose(input).image != nullptr;
-}
-
-//------------------------------------------------------------------------------
 bool MediumMaker::willReadCells(vtkDataObject* image)
 {
   try
@@ -145,6 +161,22 @@ bool MediumMaker::willReadCells(vtkDataObject* image)
   {
     return selectionsFrom(this->choice().settings)[0].cellsFirst;
   }
+}
+
+//------------------------------------------------------------------------------
+void KeptMesh::beginStep()
+{
+  this->lattices = this->lattices ? this->lattices : std::make_shared<LatticesOfMesh>();
+  this->lattices->beginStep();
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t keyOfWalls(Outside outside, vtkDataObject* bodies)
+{
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(outside));
+  addBodies(hash, bodies);
+  return hash.value();
 }
 
 //------------------------------------------------------------------------------
@@ -250,10 +282,9 @@ const MediumMaker::GridPlan& MediumMaker::planGrid(const Source& source, vtkData
 }
 
 //------------------------------------------------------------------------------
-void MediumMaker::fillFromImage(const Source& given, Numbers numbers, vtkDataObject* bodies,
-  vtkImageData* output, std::string& warning)
+void MediumMaker::fillFromImage(
+  Source source, Numbers numbers, vtkDataObject* bodies, vtkImageData* output, std::string& warning)
 {
-  Source source = given;
   this->leaveMesh();
   if (auto* fields = std::get_if<FieldMean>(&source.model))
   {
@@ -269,10 +300,13 @@ void MediumMaker::fillFromImage(const Source& given, Numbers numbers, vtkDataObj
     vtkNew<vtkImageData> refractivity;
     refractivity->ShallowCopy(output);
     mergeMasks(refractivity);
-    const ImageSource withBodies(
-      refractivity, bodies, vtkSMPTools::GetEstimatedNumberOfThreads(), this->progressOf(0.5, 0.7));
+    const auto own = turnedBack(bodies, gridFrom(output).direction);
+    const auto withBodies = sourceOf(this->makePieceOfImage(refractivity,
+                                       ImagePiece::extentsOf(output), own, nullptr, source, false),
+      own);
+    this->progressOf(0.5, 1).reach(0.4);
     bodiesMissed =
-      !withBodies.meetsBodies() || !maskWalls(withBodies, this->progressOf(0.7, 1), output);
+      !withBodies->meetsBodies() || !maskWalls(*withBodies, this->progressOf(0.7, 1), output);
   }
   warning = this->warningOf(source, tally, bodiesMissed);
   const int flat = flatAxisOf(source);
@@ -297,7 +331,7 @@ void MediumMaker::fillFromSource(const Source& source, vtkDataObject* input, Num
   }
   constexpr std::size_t bytesToFill = sizeof(double) + 3;
   requireMemoryFor(output, this->settings.DoublePrecision, bytesToFill, fewerPoints);
-  const auto made = this->makeSourceOfCells(input, bodies, warning);
+  const auto made = this->makeSourceOfCells(source, input, bodies, warning, false);
   fillGrid(*made, numbers, bodies != nullptr, this->progressOf(0.5, 1), output);
 }
 
@@ -307,7 +341,13 @@ std::string MediumMaker::convert(
 {
   output->Initialize();
   this->Grid.clear();
-  const Source source = this->choose(input);
+  return this->convert(this->choose(input), input, output, bodies, numbers);
+}
+
+//------------------------------------------------------------------------------
+std::string MediumMaker::convert(const Source& source, vtkDataObject* input, vtkImageData* output,
+  vtkDataObject* bodies, Numbers numbers)
+{
   this->progressOf(0, 1).reach(0.05);
   numbers = this->settings.DoublePrecision ? Numbers::Doubles : numbers;
   this->FlatAxis = planeOf(source);
@@ -315,7 +355,7 @@ std::string MediumMaker::convert(
   vtkSMPTools::LocalScope(loopsWith(this->threads()),
     [&]
     {
-      source.image && !this->settings.isAxisymmetric()
+      this->keepsGrid(source)
         ? this->fillFromImage(source, numbers, bodies, output, warning)
         : this->fillFromSource(source, input, numbers, bodies, output, warning, note);
     });
@@ -381,25 +421,37 @@ bool MediumMaker::wantsGrid() const
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfImage(
+std::unique_ptr<ImagePiece> MediumMaker::makePieceOfImage(vtkImageData* refractivity,
+  const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input,
+  const Source& source, bool withFields, const std::vector<FieldMean::Range>& ranges)
+{
+  const int threads = this->threads();
+  auto piece = std::make_unique<ImagePiece>(refractivity, extents, bodies, threads);
+  if (withFields)
+  {
+    forFieldImages(
+      *this, input, source, refractivity,
+      [&](std::size_t, vtkImageData* field) { piece->addField(field, threads); }, ranges);
+  }
+  return piece;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfImage(const Source& source,
   vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
 {
   vtkNew<vtkImageData> refractivity;
-  warning = this->convert(input, refractivity, nullptr, Numbers::Differences);
+  warning = this->convert(source, input, refractivity, nullptr, Numbers::Differences);
   this->Grid.clear();
   mergeMasks(refractivity);
-  const WorkProgress progress(this->Report);
-  std::shared_ptr<ImageSource> made;
+  std::shared_ptr<const PieceSource> made;
   const auto make = [&]
   {
-    const int threads = vtkSMPTools::GetEstimatedNumberOfThreads();
-    made = std::make_shared<ImageSource>(refractivity, bodies, threads, progress.part(0.5, 1));
-    if (withFields)
-    {
-      forFieldImages(*this, input, refractivity, threads,
-        [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
-    }
-    progress.reach(1);
+    const auto own = turnedBack(bodies, gridFrom(refractivity).direction);
+    made = sourceOf(this->makePieceOfImage(refractivity, ImagePiece::extentsOf(refractivity), own,
+                      input, source, withFields),
+      own);
+    this->progressOf(0, 1).reach(1);
   };
   vtkSMPTools::LocalScope(loopsWith(this->threads()), make);
   if (!made->hasGas())
@@ -417,65 +469,55 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfImage(
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSource(
   vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
 {
+  const Source source = this->choose(input);
   const bool isGrid =
-    !this->settings.isAxisymmetric() && (this->wantsGrid() || this->keepsGrid(input));
-  return isGrid ? this->makeSourceOfImage(input, bodies, warning, withFields)
-                : this->makeSourceOfCells(input, bodies, warning, withFields);
+    this->keepsGrid(source) || (this->wantsGrid() && !this->settings.isAxisymmetric());
+  return isGrid ? this->makeSourceOfImage(source, input, bodies, warning, withFields)
+                : this->makeSourceOfCells(source, input, bodies, warning, withFields);
 }
 
 //------------------------------------------------------------------------------
-MediumMaker::Made MediumMaker::makeOfMesh(
-  const Source& source, const std::vector<FieldValues>& fields, vtkDataObject* bodies, int flat)
+std::shared_ptr<const PieceSource> MediumMaker::makeOfMesh(
+  const Source& source, const std::vector<Source>& fields, vtkDataObject* bodies, Tally& tally)
 {
   const WorkProgress progress(this->Report);
-  Made result;
-  const bool isSmooth = this->settings.isSmooth();
-  const auto cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
-  std::shared_ptr<const SharedPoints> shared;
-  std::vector<const Source*> others;
-  std::transform(fields.begin(), fields.end(), std::back_inserter(others),
-    [](const FieldValues& field) { return &field.source; });
-  const auto leaves = preparedLeaves(source, cellValues, result.tally, shared, others);
+  const auto reconstruction = reconstructionOf(this->settings);
+  const PreparedLeaves prepared = preparedLeaves(source, fields, reconstruction, tally);
+  const std::vector<vtkDataSet*> leaves = pointersTo(prepared.refractivity);
   progress.reach(0.1);
+  const auto mesh = PieceMesh::of(prepared.refractivity, reconstruction, this->Mesh->piece);
   const auto outside = static_cast<filters::Outside>(this->settings.Outside);
-  const auto reconstruction =
-    isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
-  const std::uint64_t key = MeshSource::keyOf(leaves, bodies, outside, reconstruction);
-  if (this->Mesh->key != key || !MeshSource::hasSameSheets(this->Mesh->mesh, leaves))
+  const std::vector<std::uint64_t> keys{ mesh->key, keyOfWalls(outside, bodies) };
+  const auto valuesOf = [&](const CutFaces& cuts)
+  { return valuesAt(cuts.firstContributions, cuts.contributions, leaves); };
+  if (this->Mesh->keys != keys || !this->Mesh->boundary->hasSheetsOf(valuesOf))
   {
     this->leaveMesh();
   }
   KeptMesh& kept = *this->Mesh;
-  const WorkProgress ofMedium = progress.part(0.1, fields.empty() ? 1 : 0.8);
-  std::shared_ptr<MeshSource> made;
-  if (kept.key == key)
+  kept.builds += kept.boundary ? 0 : 1;
+  auto piece = std::make_unique<MeshPiece>(
+    prepared, mesh, Copies::Used, progress.part(0.1, kept.boundary ? 1 : 0.7), this->FlatAxis);
+  if (kept.boundary)
   {
-    made = std::make_shared<MeshSource>(leaves, kept.mesh, ofMedium, flat);
+    kept.beginStep();
   }
   else
   {
-    ++kept.builds;
-    made = std::make_shared<MeshSource>(leaves, bodies, outside, reconstruction, ofMedium, flat);
-    kept.key = key;
+    kept.boundary = std::make_shared<const GasBoundary>(
+      leaves, bodies, outside, [&](const Point& place) { return piece->holds(place); },
+      progress.part(0.7, 1), this->FlatAxis < 0 ? Extent::Volume : Extent::Layer);
+    kept.piece = mesh;
+    kept.keys = keys;
   }
-  kept.mesh = made->mesh();
-  const auto begunAt = [&](std::size_t number)
-  { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
-  for (std::size_t number = 0; number < fields.size(); ++number)
-  {
-    Tally notReported;
-    made->addField(preparedLeaves(fields[number].source, cellValues, notReported, shared),
-      progress.part(begunAt(number), begunAt(number + 1)));
-  }
-  result.hasGas = made->hasGas();
-  result.meetsBodies = made->meetsBodies();
-  result.source = made;
-  return result;
+  const DataPiece::Facts facts = piece->facts();
+  return std::make_shared<PieceSource>(
+    std::move(piece), facts, kept.boundary, kept.boundary->ambient(leaves), kept.lattices);
 }
 
 //------------------------------------------------------------------------------
-MediumMaker::Made MediumMaker::makeOf(
-  Source source, std::vector<FieldValues> fields, vtkDataObject* bodies, double depth)
+std::shared_ptr<const PieceSource> MediumMaker::makeOf(
+  Source source, std::vector<Source> fields, vtkDataObject* bodies, double depth, Tally& tally)
 {
   const int flat = this->FlatAxis;
   const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat, depth);
@@ -485,38 +527,28 @@ MediumMaker::Made MediumMaker::makeOf(
     if (flat >= 0)
     {
       source = extruded(source, flat, depth);
-      for (FieldValues& field : fields)
+      for (Source& field : fields)
       {
-        field.source = extruded(field.source, flat, depth);
+        field = extruded(field, flat, depth);
       }
     }
-    return this->makeOfMesh(source, fields, ownBodies, flat);
+    return this->makeOfMesh(source, fields, ownBodies, tally);
   }
   if (flat >= 0)
   {
     setDepth(*levels, depth);
     levels = turnedAcrossZ(std::move(*levels));
   }
-  Made result;
-  const auto outside = static_cast<filters::Outside>(this->settings.Outside);
-  const auto made = std::make_shared<AmrSource>(
-    *levels, source, ownBodies, outside, result.tally, this->progressOf(0.02, 1));
-  for (FieldValues& field : fields)
-  {
-    bringToCells(field);
-    made->addField(*levels, field.source);
-  }
-  result.hasGas = made->hasGas();
-  result.meetsBodies = made->meetsBodies();
-  result.source = made;
-  return result;
+  std::for_each(fields.begin(), fields.end(), bringToCells);
+  return sourceOf(
+    std::make_unique<AmrPiece>(*levels, source, fields, tally, this->progressOf(0.02, 1)),
+    ownBodies, static_cast<filters::Outside>(this->settings.Outside));
 }
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfCells(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
+  Source source, vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
 {
-  Source source = this->choose(input);
   std::optional<Revolution> revolution;
   if (this->settings.isAxisymmetric())
   {
@@ -528,41 +560,42 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfCells(
   const std::string ofShape = revolution ? revolution->note
     : this->FlatAxis >= 0                ? warningOfExtrusion(source, this->FlatAxis)
                                          : noteOnWedge(source);
-  Made made;
+  Tally tally;
+  std::shared_ptr<const PieceSource> made;
   const auto make = [&]
   {
     if (auto* mean = std::get_if<FieldMean>(&source.model))
     {
       mean->findRanges(source.leaves);
     }
-    std::vector<FieldValues> fields;
+    std::vector<Source> fields;
     if (withFields)
     {
-      fields = fieldValues(source.choice.settings, input, source);
+      fields = fieldSources(source.choice.settings, input, source);
     }
     if (revolution)
     {
       source = mirrored(source, *revolution);
-      for (FieldValues& field : fields)
+      for (Source& field : fields)
       {
-        field.source = mirrored(field.source, *revolution);
+        field = mirrored(field, *revolution);
       }
     }
     this->progressOf(0, 1).reach(0.02);
-    made = this->makeOf(source, std::move(fields), bodies, depth);
+    made = this->makeOf(source, std::move(fields), bodies, depth, tally);
   };
   vtkSMPTools::LocalScope(loopsWith(this->threads()), make);
-  if (!made.hasGas)
+  if (!made->hasGas())
   {
     throw std::runtime_error(noGas(source.label));
   }
-  warning = this->warningOf(source, made.tally, bodies && !made.meetsBodies);
+  warning = this->warningOf(source, tally, bodies && !made->meetsBodies());
   addText(warning, ofShape);
   if (revolution)
   {
-    return std::make_shared<RevolvedSource>(made.source, *revolution);
+    return std::make_shared<RevolvedSource>(made, *revolution);
   }
-  return made.source;
+  return made;
 }
 
 } // namespace filters

@@ -6,13 +6,16 @@
 #include "Input/RefractivitySource.h"
 #include "Sources/AmrGrid.h"
 #include "Sources/FieldTints.h"
-#include "Sources/MeshSource.h"
+#include "Sources/ImagePiece.h"
+#include "Sources/MeshPiece.h"
+#include "Sources/PieceSource.h"
 #include "Sources/SamplingGrid.h"
 
 #include "vtkSchlierenFiltersModule.h" // for export macro
 
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -30,19 +33,26 @@ class MediumSource;
 namespace filters
 {
 
-/// State of a mesh that is kept for the next one, and may be shared by several makers.
+/// The state of a medium that depends on meshes alone, kept for the next time step; several makers
+/// may share it.
 struct KeptMesh
 {
-  std::optional<std::uint64_t> key; // unset: none
-  SourceMesh mesh;
-  vtkTypeInt64 builds = 0;
+  std::vector<std::uint64_t> keys; ///< of the pieces of all ranks, and keyOfWalls()
+  std::shared_ptr<PieceMesh> piece;
+  std::shared_ptr<const GasBoundary> boundary; ///< null: nothing is kept
+  std::shared_ptr<LatticesOfMesh> lattices;    ///< null in the first time step
+  // Over several ranks:
+  std::vector<Contribution> contributions; ///< of all ranks' values to those at boundary points
+  std::array<double, 3> voxelShape{};
+  vtkTypeInt64 builds = 0; ///< number of different meshes
 
-  void release()
-  {
-    this->key.reset();
-    this->mesh = {};
-  }
+  void release() { *this = { {}, {}, {}, {}, {}, {}, this->builds }; }
+  /// Begins a time step on the same mesh.
+  void beginStep();
 };
+
+/// Hashes what boundaries of gas depend on beside it. `bodies`: may be null.
+std::uint64_t keyOfWalls(Outside outside, vtkDataObject* bodies);
 
 /// Makes the medium of data: a source for the tracer, or a grid. Functions throw std::runtime_error
 /// with a message for the user, std::bad_alloc, or Stopped if cancelled.
@@ -72,8 +82,13 @@ public:
   void computeBox(vtkDataObject* input, vtkImageData* structure);
   /// Returns the coordinate axis across the plane of the last data; -1: no plane.
   int flatAxis() const { return this->FlatAxis; }
+  /// Selects what to read of data; see chooseSource().
+  Source choose(vtkDataObject* input, const Source* like = nullptr);
   /// Returns whether data are an image, whose grid is kept.
-  bool keepsGrid(vtkDataObject* input);
+  bool keepsGrid(const Source& source) const
+  {
+    return source.image && !this->settings.isAxisymmetric();
+  }
   /// Returns whether the values of an image belong to its cells: the user's choice, or else that of
   /// its data, if they are known already.
   bool willReadCells(vtkDataObject* image);
@@ -103,9 +118,15 @@ public:
   /// hides them, valid values, bodies, Outside and Reconstruction.
   std::shared_ptr<const schlieren::MediumSource> makeSource(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields = false);
-  /// Makes the source of data whose grid is not kept, whatever grid the settings have.
-  std::shared_ptr<const schlieren::MediumSource> makeSourceOfCells(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields = false);
+  /// Makes the source of data whose grid is not kept, whatever grid the settings have. `source`:
+  /// chosen from `input`.
+  std::shared_ptr<const schlieren::MediumSource> makeSourceOfCells(Source source,
+    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields);
+  /// Makes the piece of an image, or of a rank's piece of it, on whose grid `refractivity` has been
+  /// made of `source`. `bodies`: see ImagePiece. `ranges`: see forFieldImages().
+  std::unique_ptr<ImagePiece> makePieceOfImage(vtkImageData* refractivity,
+    const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input,
+    const Source& source, bool withFields, const std::vector<FieldMean::Range>& ranges = {});
 
   std::shared_ptr<KeptMesh> mesh() const { return this->Mesh; }
   void setMesh(std::shared_ptr<KeptMesh> mesh) { this->Mesh = std::move(mesh); }
@@ -129,25 +150,20 @@ private:
   const GridPlan& planGrid(const Source& source, vtkDataObject* input);
 
   WorkProgress progressOf(double from, double to) const;
-  Source choose(vtkDataObject* input, const Source* like = nullptr);
   bool hasDimensions() const;
   bool wantsGrid() const;
-  void fillFromImage(const Source& source, Numbers numbers, vtkDataObject* bodies,
-    vtkImageData* output, std::string& warning);
+  std::string convert(const Source& source, vtkDataObject* input, vtkImageData* output,
+    vtkDataObject* bodies, Numbers numbers);
+  void fillFromImage(Source source, Numbers numbers, vtkDataObject* bodies, vtkImageData* output,
+    std::string& warning);
   void fillFromSource(const Source& source, vtkDataObject* input, Numbers numbers,
     vtkDataObject* bodies, vtkImageData* output, std::string& warning, std::string& note);
-  std::shared_ptr<const schlieren::MediumSource> makeSourceOfImage(
+  std::shared_ptr<const schlieren::MediumSource> makeSourceOfImage(const Source& source,
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields);
-  /// What makeSourceOfCells() has made of a source, and of the fields beside it.
-  struct Made
-  {
-    std::shared_ptr<const schlieren::MediumSource> source;
-    bool hasGas = false, meetsBodies = false;
-    Tally tally{};
-  };
-  Made makeOf(Source source, std::vector<FieldValues> fields, vtkDataObject* bodies, double depth);
-  Made makeOfMesh(
-    const Source& source, const std::vector<FieldValues>& fields, vtkDataObject* bodies, int flat);
+  std::shared_ptr<const PieceSource> makeOf(
+    Source source, std::vector<Source> fields, vtkDataObject* bodies, double depth, Tally& tally);
+  std::shared_ptr<const PieceSource> makeOfMesh(
+    const Source& source, const std::vector<Source>& fields, vtkDataObject* bodies, Tally& tally);
   /// Frees what is kept of a mesh, or leaves it to others that have it.
   void leaveMesh();
 
