@@ -134,26 +134,13 @@ Source sourceOf(vtkRefractiveIndex* filter, vtkDataObject* input, vtkDataObject*
   return filter->GetMaker().makeSource(input, bodies, warning);
 }
 
-/// The source of prepared meshes, of which the first are to be seen in `kept`.
-std::unique_ptr<filters::PieceSource> stepOf(
-  const filters::PreparedLeaves& prepared, filters::KeptMesh& kept)
+/// The source of prepared meshes.
+std::shared_ptr<const filters::PieceSource> stepOf(
+  const filters::PreparedLeaves& prepared, std::shared_ptr<filters::KeptMesh>& kept)
 {
-  const std::vector<vtkDataSet*> leaves = filters::pointersTo(prepared.refractivity);
-  kept.piece = filters::PieceMesh::of(
-    prepared.refractivity, filters::CellTree::Reconstruction::Smooth, kept.piece);
-  auto piece = std::make_unique<filters::MeshPiece>(prepared, kept.piece, filters::Copies::Used);
-  if (kept.boundary)
-  {
-    kept.beginStep();
-  }
-  else
-  {
-    kept.boundary = std::make_shared<filters::GasBoundary>(leaves, nullptr, filters::Outside::Auto,
-      [&](const auto& place) { return piece->holds(place); });
-  }
-  const filters::DataPiece::Facts facts = piece->facts();
-  return std::make_unique<filters::PieceSource>(
-    std::move(piece), facts, kept.boundary, kept.boundary->ambient(leaves), kept.lattices);
+  return filters::sourceOfMeshes(prepared,
+    { filters::CellTree::Reconstruction::Smooth, filters::Outside::Auto, -1 }, nullptr,
+    filters::WorkProgress(), kept);
 }
 
 /// Values may differ in curved cells, where places are found by an iteration.
@@ -501,7 +488,7 @@ TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
       return std::vector<vtkSmartPointer<vtkDataSet>>{ mesh };
     };
     const schlieren::Lattice lattice{ { -0.2, 0.1, 0.1 }, { 0.07, 0.06, 0.05 }, { 20, 20, 20 } };
-    filters::KeptMesh kept;
+    auto kept = std::make_shared<filters::KeptMesh>();
     for (const double time : { 0., 3. })
     {
       const auto made = stepOf({ leavesAt(time), { leavesAt(time), leavesAt(time + 1) } }, kept);
@@ -554,16 +541,16 @@ TEST(MeshSteps, LatticesAreKeptAsLongAsTheyAreNeeded)
     std::vector<float> distances(values.size());
     source.sample(lattice, values.data(), places.data(), hasDistances ? distances.data() : nullptr);
   };
-  filters::KeptMesh kept;
+  auto kept = std::make_shared<filters::KeptMesh>();
   sample(*stepOf({ leavesAt(0), {} }, kept), 0.1, false);
-  EXPECT_EQ(kept.lattices, nullptr);
+  EXPECT_EQ(kept->lattices, nullptr);
   std::vector<std::size_t> bytes;
   for (int step = 1; step < 9; ++step)
   {
     const auto next = stepOf({ leavesAt(step), {} }, kept);
     sample(*next, 0.1, true);
     sample(*next, step < 4 ? 0.2 : 0.2 + step, false); // from then on a new one with each step
-    bytes.push_back(kept.lattices->bytes());
+    bytes.push_back(kept->lattices->bytes());
   }
   constexpr std::size_t points = 20 * 20 * 20;
   EXPECT_GT(bytes[0], points * 5); // places and distances of the first lattice, and cells of both

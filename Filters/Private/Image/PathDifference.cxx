@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/PathDifference.h"
 
+#include "Image/MeanImage.h"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -35,11 +37,7 @@ schlieren::Image differenceOf(
   subtract(image.displacement, straight.displacement);
   subtract(image.blockedFraction, straight.blockedFraction);
   image.undisturbedLevel = middle;
-  image.raysTraced += straight.raysTraced;
-  image.stepsTaken += straight.stepsTaken;
-  image.raysBlocked += straight.raysBlocked;
-  image.raysLost += straight.raysLost;
-  image.traceSeconds += straight.traceSeconds;
+  addRays(image, straight);
   image.samples = std::min(image.samples, straight.samples);
   image.finished = image.finished && straight.finished;
   return image;

@@ -4,8 +4,7 @@
 
 #include "Amr/AmrFaces.h"
 #include "Sources/ImagePiece.h"
-#include "Sources/MediumMaker.h"
-#include "Sources/MeshPiece.h"
+#include "Sources/KeptMesh.h"
 
 #include "vtkSMPTools.h"
 

@@ -8,6 +8,7 @@
 #include "Input/InputDescription.h"
 #include "Input/RefractivitySource.h"
 #include "Ranks/PiecesOfRanks.h"
+#include "Sources/MediumMaker.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

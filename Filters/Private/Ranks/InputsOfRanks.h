@@ -4,7 +4,7 @@
 
 #include "Ranks/Ranks.h"
 #include "Ranks/SourceOverRanks.h"
-#include "Sources/MediumMaker.h"
+#include "Sources/KeptMesh.h"
 
 #include "vtkSmartPointer.h"
 
@@ -26,6 +26,8 @@ class MediumSource;
 
 namespace filters
 {
+
+class MediumMaker;
 
 /// The inputs of a filter on several ranks. Unless noted otherwise, rank 0 calls functions between
 /// begin() and end() of its ranks; the others follow by answer().

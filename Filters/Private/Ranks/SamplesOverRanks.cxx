@@ -17,7 +17,6 @@ namespace filters
 namespace
 {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr schlieren::MediumSource::FieldRange nowhere{ 1, 0 };
 
 } // namespace
@@ -31,20 +30,6 @@ void extend(schlieren::Box& box, const schlieren::Box& by)
   }
 }
 
-void extend(CellTree::Content& content, const CellTree::Content& by)
-{
-  if (by.lowest <= by.highest)
-  {
-    const bool isFirst = content.lowest > content.highest;
-    content.lowest = isFirst ? by.lowest : std::min(content.lowest, by.lowest);
-    content.highest = isFirst ? by.highest : std::max(content.highest, by.highest);
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    content.cellSize[axis] = std::min(content.cellSize[axis], by.cellSize[axis]);
-  }
-}
-
 void extend(
   schlieren::MediumSource::FieldRange& range, const schlieren::MediumSource::FieldRange& by)
 {
@@ -53,6 +38,18 @@ void extend(
     const bool isFirst = range.lowest > range.highest;
     range.lowest = isFirst ? by.lowest : std::min(range.lowest, by.lowest);
     range.highest = isFirst ? by.highest : std::max(range.highest, by.highest);
+  }
+}
+
+void extend(CellTree::Content& content, const CellTree::Content& by)
+{
+  schlieren::MediumSource::FieldRange range{ content.lowest, content.highest };
+  extend(range, { by.lowest, by.highest });
+  content.lowest = range.lowest;
+  content.highest = range.highest;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    content.cellSize[axis] = std::min(content.cellSize[axis], by.cellSize[axis]);
   }
 }
 
@@ -97,7 +94,7 @@ schlieren::MediumSource::Content SamplesOverRanks::contentWith(
 
 SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box& box) const
 {
-  OwnContent own{ { 1, 0, { infinity, infinity, infinity } }, {} };
+  OwnContent own;
   if (this->Own.cells > 0 && meet(box, this->Own.bounds))
   {
     own.cells = this->piece().contentOf(box);
@@ -110,50 +107,56 @@ SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box
   return own;
 }
 
+void SamplesOverRanks::OwnContent::add(const OwnContent& other)
+{
+  extend(this->cells, other.cells);
+  for (std::size_t place = 0; place < this->holds.size(); ++place)
+  {
+    this->holds[place] = this->holds[place] | other.holds[place];
+  }
+}
+
+/// Writes contents and ranges of fields, of each box.
+std::vector<char> SamplesOverRanks::ownContentsOf(const std::vector<schlieren::Box>& boxes) const
+{
+  const std::size_t fields = this->Ranges.size();
+  std::vector<OwnContent> own(boxes.size());
+  std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
+  forEach(boxes.size(), this->Threads,
+    [&](std::size_t n)
+    {
+      own[n] = this->ownContentOf(boxes[n]);
+      const bool has = own[n].cells.lowest <= own[n].cells.highest;
+      for (std::size_t field = 0; has && field < fields; ++field)
+      {
+        ranges[n * fields + field] = this->piece().rangeOfField(static_cast<int>(field), boxes[n]);
+      }
+    });
+  std::vector<char> bytes;
+  putAll(own, bytes);
+  putAll(ranges, bytes);
+  return bytes;
+}
+
 void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes) const
 {
   const std::size_t fields = this->Ranges.size();
-  const std::vector<Ranks::Bytes> ofRanks = this->AllRanks.allGather(
-    [&]
-    {
-      std::vector<OwnContent> own(boxes.size());
-      std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
-      forEach(boxes.size(), this->Threads,
-        [&](std::size_t n)
-        {
-          own[n] = this->ownContentOf(boxes[n]);
-          const bool has = own[n].cells.lowest <= own[n].cells.highest;
-          for (std::size_t field = 0; has && field < fields; ++field)
-          {
-            ranges[n * fields + field] =
-              this->piece().rangeOfField(static_cast<int>(field), boxes[n]);
-          }
-        });
-      Ranks::Bytes bytes;
-      putAll(own, bytes);
-      putAll(ranges, bytes);
-      return bytes;
-    });
-  std::vector<OwnContent> all(boxes.size(), { { 1, 0, { infinity, infinity, infinity } }, {} });
+  std::vector<OwnContent> all(boxes.size());
   std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
-  for (const Ranks::Bytes& bytes : ofRanks)
-  {
-    Reader reader(bytes);
-    const auto own = reader.GetAll<std::vector<OwnContent>>();
-    const auto ownRanges = reader.GetAll<std::vector<FieldRange>>();
-    for (std::size_t n = 0; n < all.size(); ++n)
+  this->AllRanks.allGather([&] { return this->ownContentsOf(boxes); },
+    [&](Reader& reader)
     {
-      extend(all[n].cells, own.at(n).cells);
-      for (std::size_t place = 0; place < all[n].holds.size(); ++place)
+      const auto own = reader.GetAll<std::vector<OwnContent>>();
+      const auto ownRanges = reader.GetAll<std::vector<FieldRange>>();
+      for (std::size_t n = 0; n < all.size(); ++n)
       {
-        all[n].holds[place] = all[n].holds[place] | own[n].holds[place];
+        all[n].add(own.at(n));
       }
-    }
-    for (std::size_t n = 0; n < ranges.size(); ++n)
-    {
-      extend(ranges[n], ownRanges.at(n));
-    }
-  }
+      for (std::size_t n = 0; n < ranges.size(); ++n)
+      {
+        extend(ranges[n], ownRanges.at(n));
+      }
+    });
   this->Boxes.clear();
   std::vector<KnownBox*> known;
   for (const schlieren::Box& box : boxes)
@@ -169,33 +172,37 @@ void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes)
     });
 }
 
+/// Writes, for each rank, the samples of its lattices.
+std::vector<std::vector<char>> SamplesOverRanks::ownSamplesOn(
+  const std::vector<schlieren::Lattice>& lattices) const
+{
+  std::vector<std::vector<char>> ofLattices(lattices.size()), forRanks(this->AllRanks.count());
+  forEach(lattices.size(), this->Threads,
+    [&](std::size_t n)
+    {
+      if (this->Own.cells > 0)
+      {
+        this->piece().samplesOn(lattices[n]).Put(ofLattices[n]);
+      }
+    });
+  for (std::size_t n = 0; n < lattices.size(); ++n)
+  {
+    putAll(ofLattices[n], forRanks[n % forRanks.size()]);
+  }
+  return forRanks;
+}
+
 void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lattices) const
 {
   const std::size_t ranks = this->AllRanks.count();
-  std::vector<Ranks::Bytes> packed(ranks); // for each rank
-  this->AllRanks.agree(
-    [&]
-    {
-      std::vector<Ranks::Bytes> ofLattices(lattices.size());
-      forEach(lattices.size(), this->Threads,
-        [&](std::size_t n)
-        {
-          if (this->Own.cells > 0)
-          {
-            this->piece().samplesOn(lattices[n]).Put(ofLattices[n]);
-          }
-        });
-      for (std::size_t n = 0; n < lattices.size(); ++n)
-      {
-        putAll(ofLattices[n], packed[n % ranks]);
-      }
-    });
+  std::vector<Ranks::Bytes> forRanks;
+  this->AllRanks.agree([&] { forRanks = this->ownSamplesOn(lattices); });
   // Defers errors until the last collective, at which others would wait.
   std::vector<Ranks::Bytes> ofRanks;
   for (std::size_t root = 0; root < ranks; ++root)
   {
-    std::vector<Ranks::Bytes> gathered = this->AllRanks.gather(packed[root], root);
-    Ranks::Bytes().swap(packed[root]);
+    std::vector<Ranks::Bytes> gathered = this->AllRanks.gather(forRanks[root], root);
+    Ranks::Bytes().swap(forRanks[root]);
     if (root == this->AllRanks.rank())
     {
       ofRanks = std::move(gathered);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <vector>
@@ -71,8 +72,11 @@ private:
   /// Content of a rank in a box: its cells, and which of GasBoundary::testedPlaces() they contain.
   struct OwnContent
   {
-    CellTree::Content cells;
-    std::array<unsigned char, 9> holds;
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    CellTree::Content cells{ 1, 0, { infinity, infinity, infinity } };
+    std::array<unsigned char, 9> holds{};
+
+    void add(const OwnContent& other);
   };
   using BoxKey = std::array<double, 6>;
   using LatticeKey = std::array<double, 9>;
@@ -80,6 +84,9 @@ private:
   static LatticeKey keyOf(const schlieren::Lattice& lattice);
   Content contentWith(const schlieren::Box& box, const OwnContent& found) const;
   OwnContent ownContentOf(const schlieren::Box& box) const;
+  std::vector<char> ownContentsOf(const std::vector<schlieren::Box>& boxes) const;
+  std::vector<std::vector<char>> ownSamplesOn(
+    const std::vector<schlieren::Lattice>& lattices) const;
   std::vector<std::vector<char>> makeShare(
     const schlieren::BrickRules& rules, const std::vector<schlieren::BrickRequest>& requests) const;
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sources/MediumMaker.h"
 
-#include "Cells/MeshKey.h"
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
 #include "Common/Threads.h"
@@ -164,39 +163,11 @@ bool MediumMaker::willReadCells(vtkDataObject* image)
 }
 
 //------------------------------------------------------------------------------
-void KeptMesh::beginStep()
-{
-  this->lattices = this->lattices ? this->lattices : std::make_shared<LatticesOfMesh>();
-  this->lattices->beginStep();
-}
-
-//------------------------------------------------------------------------------
-std::uint64_t keyOfWalls(Outside outside, vtkDataObject* bodies)
-{
-  Hash hash;
-  hash.add(static_cast<std::uint64_t>(outside));
-  addBodies(hash, bodies);
-  return hash.value();
-}
-
-//------------------------------------------------------------------------------
-void MediumMaker::leaveMesh()
-{
-  if (this->Mesh.use_count() > 1)
-  {
-    const vtkTypeInt64 builds = this->Mesh->builds;
-    this->Mesh = std::make_shared<KeptMesh>();
-    this->Mesh->builds = builds;
-  }
-  this->Mesh->release();
-}
-
-//------------------------------------------------------------------------------
 void MediumMaker::forgetLast()
 {
   this->Grid.clear();
   this->FlatAxis = -1;
-  this->leaveMesh();
+  leave(this->Mesh);
 }
 
 //------------------------------------------------------------------------------
@@ -285,7 +256,7 @@ const MediumMaker::GridPlan& MediumMaker::planGrid(const Source& source, vtkData
 void MediumMaker::fillFromImage(
   Source source, Numbers numbers, vtkDataObject* bodies, vtkImageData* output, std::string& warning)
 {
-  this->leaveMesh();
+  leave(this->Mesh);
   if (auto* fields = std::get_if<FieldMean>(&source.model))
   {
     fields->findRanges(source.leaves);
@@ -477,50 +448,12 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSource(
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const PieceSource> MediumMaker::makeOfMesh(
-  const Source& source, const std::vector<Source>& fields, vtkDataObject* bodies, Tally& tally)
-{
-  const WorkProgress progress(this->Report);
-  const auto reconstruction = reconstructionOf(this->settings);
-  const PreparedLeaves prepared = preparedLeaves(source, fields, reconstruction, tally);
-  const std::vector<vtkDataSet*> leaves = pointersTo(prepared.refractivity);
-  progress.reach(0.1);
-  const auto mesh = PieceMesh::of(prepared.refractivity, reconstruction, this->Mesh->piece);
-  const auto outside = static_cast<filters::Outside>(this->settings.Outside);
-  const std::vector<std::uint64_t> keys{ mesh->key, keyOfWalls(outside, bodies) };
-  const auto valuesOf = [&](const CutFaces& cuts)
-  { return valuesAt(cuts.firstContributions, cuts.contributions, leaves); };
-  if (this->Mesh->keys != keys || !this->Mesh->boundary->hasSheetsOf(valuesOf))
-  {
-    this->leaveMesh();
-  }
-  KeptMesh& kept = *this->Mesh;
-  kept.builds += kept.boundary ? 0 : 1;
-  auto piece = std::make_unique<MeshPiece>(
-    prepared, mesh, Copies::Used, progress.part(0.1, kept.boundary ? 1 : 0.7), this->FlatAxis);
-  if (kept.boundary)
-  {
-    kept.beginStep();
-  }
-  else
-  {
-    kept.boundary = std::make_shared<const GasBoundary>(
-      leaves, bodies, outside, [&](const Point& place) { return piece->holds(place); },
-      progress.part(0.7, 1), this->FlatAxis < 0 ? Extent::Volume : Extent::Layer);
-    kept.piece = mesh;
-    kept.keys = keys;
-  }
-  const DataPiece::Facts facts = piece->facts();
-  return std::make_shared<PieceSource>(
-    std::move(piece), facts, kept.boundary, kept.boundary->ambient(leaves), kept.lattices);
-}
-
-//------------------------------------------------------------------------------
 std::shared_ptr<const PieceSource> MediumMaker::makeOf(
   Source source, std::vector<Source> fields, vtkDataObject* bodies, double depth, Tally& tally)
 {
   const int flat = this->FlatAxis;
   const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat, depth);
+  const auto outside = static_cast<Outside>(this->settings.Outside);
   std::optional<AmrLevels> levels = findLevels(source.leaves);
   if (!levels)
   {
@@ -532,7 +465,11 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(
         field = extruded(field, flat, depth);
       }
     }
-    return this->makeOfMesh(source, fields, ownBodies, tally);
+    const auto reconstruction = reconstructionOf(this->settings);
+    const PreparedLeaves leaves = preparedLeaves(source, fields, reconstruction, tally);
+    this->progressOf(0, 1).reach(0.1);
+    return sourceOfMeshes(
+      leaves, { reconstruction, outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
   }
   if (flat >= 0)
   {
@@ -542,7 +479,7 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(
   std::for_each(fields.begin(), fields.end(), bringToCells);
   return sourceOf(
     std::make_unique<AmrPiece>(*levels, source, fields, tally, this->progressOf(0.02, 1)),
-    ownBodies, static_cast<filters::Outside>(this->settings.Outside));
+    ownBodies, outside);
 }
 
 //------------------------------------------------------------------------------

@@ -7,16 +7,13 @@
 #include "Sources/AmrGrid.h"
 #include "Sources/FieldTints.h"
 #include "Sources/ImagePiece.h"
-#include "Sources/MeshPiece.h"
-#include "Sources/PieceSource.h"
+#include "Sources/KeptMesh.h"
 #include "Sources/SamplingGrid.h"
 
 #include "vtkSchlierenFiltersModule.h" // for export macro
 
 #include "vtkSmartPointer.h"
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,27 +29,6 @@ class MediumSource;
 
 namespace filters
 {
-
-/// The state of a medium that depends on meshes alone, kept for the next time step; several makers
-/// may share it.
-struct KeptMesh
-{
-  std::vector<std::uint64_t> keys; ///< of the pieces of all ranks, and keyOfWalls()
-  std::shared_ptr<PieceMesh> piece;
-  std::shared_ptr<const GasBoundary> boundary; ///< null: nothing is kept
-  std::shared_ptr<LatticesOfMesh> lattices;    ///< null in the first time step
-  // Over several ranks:
-  std::vector<Contribution> contributions; ///< of all ranks' values to those at boundary points
-  std::array<double, 3> voxelShape{};
-  vtkTypeInt64 builds = 0; ///< number of different meshes
-
-  void release() { *this = { {}, {}, {}, {}, {}, {}, this->builds }; }
-  /// Begins a time step on the same mesh.
-  void beginStep();
-};
-
-/// Hashes what boundaries of gas depend on beside it. `bodies`: may be null.
-std::uint64_t keyOfWalls(Outside outside, vtkDataObject* bodies);
 
 /// Makes the medium of data: a source for the tracer, or a grid. Functions throw std::runtime_error
 /// with a message for the user, std::bad_alloc, or Stopped if cancelled.
