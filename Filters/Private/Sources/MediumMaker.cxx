@@ -272,8 +272,8 @@ void MediumMaker::fillFromImage(
     refractivity->ShallowCopy(output);
     mergeMasks(refractivity);
     const auto own = turnedBack(bodies, gridFrom(output).direction);
-    const auto withBodies = sourceOf(this->makePieceOfImage(refractivity,
-                                       ImagePiece::extentsOf(output), own, nullptr, source, false),
+    const auto withBodies = sourceOf(std::make_unique<const ImagePiece>(refractivity,
+                                       ImagePiece::extentsOf(output), own, this->threads()),
       own);
     this->progressOf(0.5, 1).reach(0.4);
     bodiesMissed =
