@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/SamplesOverRanks.h"
 
-#include "Cells/LatticeDistances.h"
 #include "Common/ForEach.h"
-#include "Input/DatasetPieces.h"
 
 #include <algorithm>
 #include <limits>
@@ -18,6 +16,17 @@ namespace
 {
 
 constexpr schlieren::MediumSource::FieldRange nowhere{ 1, 0 };
+
+/// Returns whether two boxes have a point in common.
+bool meet(const schlieren::Box& a, const schlieren::Box& b)
+{
+  bool meet = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    meet = meet && a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
+  }
+  return meet;
+}
 
 } // namespace
 
@@ -182,7 +191,7 @@ std::vector<std::vector<char>> SamplesOverRanks::ownSamplesOn(
     {
       if (this->Own.cells > 0)
       {
-        this->piece().samplesOn(lattices[n]).Put(ofLattices[n]);
+        PieceSamples::Of(this->piece(), lattices[n]).Put(ofLattices[n]);
       }
     });
   for (std::size_t n = 0; n < lattices.size(); ++n)
@@ -215,11 +224,11 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
     for (std::size_t n = this->AllRanks.rank(); n < lattices.size(); n += ranks)
     {
       const auto ofLattice = reader.GetAll<Ranks::Bytes>();
-      DataPiece::Samples& samples = this->Samples[keyOf(lattices[n])];
+      PieceSamples& samples = this->Samples[keyOf(lattices[n])];
       if (!ofLattice.empty())
       {
         Reader own(ofLattice);
-        samples.Add(DataPiece::Samples::Get(
+        samples.Add(PieceSamples::Get(
           own, static_cast<std::size_t>(lattices[n].size()), this->Ranges.size()));
       }
     }
@@ -236,7 +245,7 @@ schlieren::MediumSource::Content SamplesOverRanks::contentOf(const schlieren::Bo
 void SamplesOverRanks::sampleGas(const schlieren::Lattice& lattice, double* refractivity,
   unsigned char* found, double* values, CellsOfLattice*) const
 {
-  const DataPiece::Samples& samples = this->Samples.at(keyOf(lattice));
+  const PieceSamples& samples = this->Samples.at(keyOf(lattice));
   std::fill_n(refractivity, static_cast<std::size_t>(lattice.size()), 0.);
   std::copy(samples.values.begin(), samples.values.end(), refractivity);
   if (found)

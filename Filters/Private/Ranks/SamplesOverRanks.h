@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Ranks/PieceSamples.h"
 #include "Ranks/Ranks.h"
 #include "Sources/PieceSource.h"
 
@@ -97,7 +98,7 @@ private:
   const int Threads;
   const Content Whole; // of bounds()
   mutable std::map<BoxKey, KnownBox> Boxes;
-  mutable std::map<LatticeKey, DataPiece::Samples> Samples;
+  mutable std::map<LatticeKey, PieceSamples> Samples;
   mutable FilterRanks* Used = nullptr;
 };
 

@@ -9,17 +9,10 @@
 #include "Schlieren.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace filters
 {
-
-class Reader;
-
-/// Returns whether two boxes have a point in common.
-bool meet(const schlieren::Box& a, const schlieren::Box& b);
 
 /// All data of a process, or a rank's piece of them and the points that it answers for.
 /// Thread-safe.
@@ -65,22 +58,6 @@ public:
   {
     return false;
   }
-
-  /// The samples that a rank sends. `found`: empty if the piece has no point of the lattice.
-  struct Samples
-  {
-    std::vector<unsigned char> found;
-    std::vector<double> values;
-    std::vector<double> fields{};
-
-    /// Adds the samples of another piece; of points in both, these have priority.
-    void Add(Samples other);
-
-    void Put(std::vector<char>& message) const;
-    /// Reads what Put() has written for so many points and fields; else throws std::runtime_error.
-    static Samples Get(Reader& message, std::size_t points, std::size_t fields);
-  };
-  Samples samplesOn(const schlieren::Lattice& lattice) const;
 
   /// Returns a number that is equal for two pieces only if their meshes are equal; 0: unknown.
   virtual std::uint64_t meshKey() const { return 0; }

@@ -4,8 +4,8 @@
 
 #include "Amr/AmrFaces.h"
 #include "Common/FieldFromImage.h"
+#include "Common/Message.h"
 #include "Common/WeightedMedian.h"
-#include "Input/DatasetPieces.h"
 #include "Input/FlatData.h"
 #include "Schlieren.h"
 #include "Walls/BodySurfaces.h"

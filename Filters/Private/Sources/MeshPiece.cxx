@@ -3,7 +3,7 @@
 #include "Sources/MeshPiece.h"
 
 #include "Cells/MeshKey.h"
-#include "Input/DatasetPieces.h"
+#include "Common/Message.h"
 #include "Input/FlatData.h"
 #include "Walls/BoundaryFaces.h"
 
