@@ -514,6 +514,18 @@ TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
         EXPECT_FALSE(std::equal(
           ofFields.begin() + static_cast<std::ptrdiff_t>(size), ofFields.end(), ofFields.begin()));
       }
+      // Of more points than numbers of 16 bits count.
+      const schlieren::Lattice large{ lattice.first, lattice.spacing, { 20, 20, 170 } };
+      const auto largeSize = static_cast<std::size_t>(large.size());
+      std::vector<double> ofLarge(largeSize), fieldsOfLarge(2 * largeSize);
+      std::vector<schlieren::Place> placesOfLarge(largeSize);
+      source.sampleWithFields(
+        large, ofLarge.data(), placesOfLarge.data(), nullptr, fieldsOfLarge.data());
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        ASSERT_EQ(std::isnan(fieldsOfLarge[i]), std::isnan(ofFields[i])) << i;
+        EXPECT_FALSE(std::abs(fieldsOfLarge[i] - ofFields[i]) > 1e-15) << i;
+      }
       const auto range = source.rangeOfField(0, source.bounds());
       const auto content = source.contentOf(source.bounds());
       EXPECT_EQ(range.lowest, content.lowest);

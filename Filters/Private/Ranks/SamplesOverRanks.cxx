@@ -66,7 +66,7 @@ SamplesOverRanks::SamplesOverRanks(const Ranks& ranks, std::uint64_t number,
   std::unique_ptr<const DataPiece> piece, const DataPiece::Facts& facts,
   std::vector<FieldRange> fields, std::shared_ptr<const GasBoundary> boundary, double ambient,
   std::shared_ptr<LatticesOfMesh> lattices, int threads)
-  : PieceSource(std::move(piece), facts, std::move(boundary), ambient, std::move(lattices))
+  : PieceSource(std::move(piece), std::move(boundary), ambient, std::move(lattices), facts)
   , AllRanks(ranks)
   , Number(number)
   , Own(this->piece().facts())

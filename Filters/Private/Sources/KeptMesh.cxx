@@ -63,9 +63,8 @@ std::shared_ptr<const PieceSource> sourceOfMeshes(const PreparedLeaves& prepared
   {
     kept->beginStep();
   }
-  const DataPiece::Facts facts = piece->facts();
   return std::make_shared<PieceSource>(
-    std::move(piece), facts, kept->boundary, kept->boundary->ambient(leaves), kept->lattices);
+    std::move(piece), kept->boundary, kept->boundary->ambient(leaves), kept->lattices);
 }
 
 } // namespace filters

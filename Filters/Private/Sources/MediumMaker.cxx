@@ -69,22 +69,20 @@ int planeOf(const Source& source)
 std::shared_ptr<const PieceSource> sourceOf(
   std::unique_ptr<const ImagePiece> piece, vtkDataObject* bodies)
 {
-  const DataPiece::Facts facts = piece->facts();
   const double ambient = ImagePiece::ambientOf(piece->outer());
   auto boundary = std::make_shared<const GasBoundary>(piece->faces(), bodies, Outside::Passes);
-  return std::make_shared<PieceSource>(std::move(piece), facts, std::move(boundary), ambient);
+  return std::make_shared<PieceSource>(std::move(piece), std::move(boundary), ambient);
 }
 
 /// Makes the source of adaptive meshes, with walls at the edges of solid cells.
 std::shared_ptr<const PieceSource> sourceOf(
   std::unique_ptr<const AmrPiece> piece, vtkDataObject* bodies, Outside outside)
 {
-  const DataPiece::Facts facts = piece->facts();
   const double ambient = weightedMedian(piece->refractivity().outerValues());
   BoundaryFaces faces = piece->refractivity().faces();
   sortTriangles(faces);
   auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
-  return std::make_shared<PieceSource>(std::move(piece), facts, std::move(boundary), ambient);
+  return std::make_shared<PieceSource>(std::move(piece), std::move(boundary), ambient);
 }
 
 /// Returns a note on 3-D data that are a wedge; else empty.

@@ -111,11 +111,12 @@ void MeshPiece::sample(const schlieren::Lattice& lattice, double* refractivity,
   unsigned char* found, double* fields, CellsOfLattice* cells) const
 {
   CellsOfLattice ofFields;
-  cells = cells || !fields ? cells : &ofFields;
+  const bool isLarge = lattice.size() > CellsOfLattice::maxPoints;
+  cells = cells || !fields || isLarge ? cells : &ofFields;
   this->Values.sample(lattice, refractivity, found, cells);
   if (fields)
   {
-    this->Fields.sample(lattice, *cells, fields);
+    this->Fields.sample(lattice, cells, fields);
   }
 }
 
@@ -125,7 +126,7 @@ bool MeshPiece::sampleIn(const CellsOfLattice& cells, const schlieren::Lattice& 
   const bool areSame = this->Values.sample(lattice, cells, refractivity);
   if (areSame && fields)
   {
-    this->Fields.sample(lattice, cells, fields);
+    this->Fields.sample(lattice, &cells, fields);
   }
   return areSame;
 }

@@ -10,14 +10,15 @@
 namespace filters
 {
 
-PieceSource::PieceSource(std::unique_ptr<const DataPiece> piece, const DataPiece::Facts& facts,
+PieceSource::PieceSource(std::unique_ptr<const DataPiece> piece,
   std::shared_ptr<const GasBoundary> boundary, double ambient,
-  std::shared_ptr<LatticesOfMesh> lattices)
+  std::shared_ptr<LatticesOfMesh> lattices, const std::optional<DataPiece::Facts>& facts)
   : Piece(std::move(piece))
-  , All(facts)
+  , All(facts ? *facts : this->Piece->facts())
   , Boundary(std::move(boundary))
   , Lattices(std::move(lattices))
-  , Ambient(std::isnan(ambient) ? 0.5 * (facts.content.lowest + facts.content.highest) : ambient)
+  , Ambient(
+      std::isnan(ambient) ? 0.5 * (this->All.content.lowest + this->All.content.highest) : ambient)
 {
 }
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace filters
 {
@@ -20,11 +21,11 @@ namespace filters
 class PieceSource : public schlieren::MediumSource
 {
 public:
-  /// `facts`: of all data. `ambient`: NaN for the middle of the range. `lattices`: of earlier time
-  /// steps; may be null.
-  PieceSource(std::unique_ptr<const DataPiece> piece, const DataPiece::Facts& facts,
-    std::shared_ptr<const GasBoundary> boundary, double ambient,
-    std::shared_ptr<LatticesOfMesh> lattices = nullptr);
+  /// `ambient`: NaN for the middle of the range. `lattices`: of earlier time steps; may be null.
+  /// `facts`: of all data; by default the piece's.
+  PieceSource(std::unique_ptr<const DataPiece> piece, std::shared_ptr<const GasBoundary> boundary,
+    double ambient, std::shared_ptr<LatticesOfMesh> lattices = nullptr,
+    const std::optional<DataPiece::Facts>& facts = {});
 
   bool hasGas() const { return this->All.cells > 0; }
   /// Returns whether bodies meet the bounds.
