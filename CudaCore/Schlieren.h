@@ -132,6 +132,13 @@ struct Scene
   int samplesPerPixel = 4;
   std::uint32_t seed = 1;
 
+  /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the settings below. It chooses
+  /// interpolation, stepSize, homogeneityTolerance, samplesPerPixel, mediumTolerance (no coarser than 0.01) and precision,
+  /// and says in Image::accuracy what is reached. Its unit is that which the image is read in: of an interferogram fringes;
+  /// of Cutoff::Background pixels of displacement; else the fraction of full scale, of a shadowgraph of undisturbed light,
+  /// not counting what light displaced by 0.05 pixels explains.
+  double targetError = 0;
+
   PathModel pathModel = PathModel::Auto;
   Integrator integrator = Integrator::Leapfrog;
   Interpolation interpolation = Interpolation::Quadratic;

@@ -27,6 +27,13 @@ struct FlowArray
   std::array<double, 2> range;
 };
 
+/// The array of the property Mask.
+struct MaskDefault
+{
+  std::string array; ///< empty: none
+  FlowArray::Association association = FlowArray::Points;
+};
+
 /// The index model and arrays that a filter uses by default.
 struct FlowDefaults
 {
@@ -44,11 +51,6 @@ struct FlowDefaults
   std::vector<std::string> fractions;
   std::vector<std::string> gases;
   bool ofVolume = false;
-
-  /// The array of the property Mask (empty: none), its association, and whether it marks gas.
-  std::string mask;
-  FlowArray::Association maskAssociation = FlowArray::Points;
-  bool isMaskOfGas = false;
 
   /// The choice as a text for the user, with names that were not understood; whether there are
   /// none.
@@ -85,6 +87,13 @@ VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaults(
 /// Chooses only the fractions of known gases among the arrays of points or cells.
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowSpecies(
   const std::vector<FlowArray>& arrays, FlowArray::Association association);
+
+/// Chooses an array that marks bodies or gas by its name, with values on both sides of `threshold`.
+VTKSCHLIERENFILTERS_EXPORT MaskDefault flowMask(
+  const std::vector<FlowArray>& arrays, double threshold = MediumSettings().MaskThreshold);
+
+/// Returns whether the array's name says that it marks gas, not bodies.
+VTKSCHLIERENFILTERS_EXPORT bool marksGas(const std::string& array);
 
 /// Returns whether a choice may depend on the range of an array of this name; others need no range.
 VTKSCHLIERENFILTERS_EXPORT bool dependsOnRange(const std::string& name);

@@ -100,7 +100,7 @@ struct MediumSettings
   int SamplingDimensions[3] = { 0, 0, 0 };
   double SamplingBounds[6] = { 0, 0, 0, 0, 0, 0 };
   double MaskThreshold = 0.5;
-  int MaskedSide = 0; ///< 0: above the threshold, 1: below
+  int MaskedSide = -1; ///< -1: by the mask's name, 0: above the threshold, 1: below
   double Depth = 0;
   int Symmetry = 0;     ///< 0: none, 1: axisymmetric
   int SymmetryAxis = 0; ///< 0: chosen; 1 to 3: x, y, z

@@ -135,7 +135,8 @@ struct OpticsSettings
   }
 };
 
-/// The properties that presets of Quality set: see QualityPresets.h, which has their values.
+/// The properties that presets of Quality set (see QualityPresets.h, which has their values), and the target that chooses
+/// some of them instead.
 struct AccuracySettings
 {
   static constexpr int differencePath = 3; // of PathModel, beside the tracer's values
@@ -151,6 +152,7 @@ struct AccuracySettings
   double AdaptiveTolerance = 0;
   double PathTolerance = 0;
   double MediumTolerance = 0;
+  double TargetError = 0;
 
   template <class Visit>
   void visit(const Visit& use) const
@@ -166,6 +168,7 @@ struct AccuracySettings
     use("AdaptiveTolerance", this->AdaptiveTolerance);
     use("PathTolerance", this->PathTolerance);
     use("MediumTolerance", this->MediumTolerance);
+    use("TargetError", this->TargetError);
   }
 };
 

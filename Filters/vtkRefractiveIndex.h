@@ -433,6 +433,7 @@ public:
   /// Values of the array MASK that mark regions without gas.
   enum MaskedSides
   {
+    MASKED_AUTO = -1,
     MASKED_ABOVE = 0,
     MASKED_BELOW = 1
   };
@@ -440,13 +441,17 @@ public:
   ///@{
   /**
    * Regions without gas, by an array of points or cells (SetInputArrayToProcess(MASK, ...)): with
-   * MASKED_ABOVE (the default) where it is MaskThreshold or more, such as an array `solid`; with
-   * MASKED_BELOW where it is less, such as `iblank` or a cell's gas fraction. NaN is not gas,
-   * either. These regions block light, and their values are not used: points are hidden, or cells
-   * if the field belongs to cells (those with a hidden point). Blocks without the array are all
-   * gas; it is an error if all blocks are.
+   * MASKED_ABOVE where it is MaskThreshold or more, such as an array `solid`; with MASKED_BELOW
+   * where it is less, such as `iblank` or a cell's gas fraction; with MASKED_AUTO (the default) on
+   * the side that the array's name means, above for unknown names. NaN is not gas, either. These
+   * regions block light, and their values are not used: points are hidden, or cells if the field
+   * belongs to cells (those with a hidden point). Blocks without the array are all gas; it is an
+   * error if all blocks are.
+   *
+   * If no array is chosen, one is that has such a name and values on both sides of MaskThreshold;
+   * GetArraysUsed() lists it. The name None chooses none.
    */
-  vtkSetClampMacro(MaskedSide, int, MASKED_ABOVE, MASKED_BELOW);
+  vtkSetClampMacro(MaskedSide, int, MASKED_AUTO, MASKED_BELOW);
   vtkGetMacro(MaskedSide, int);
   ///@}
 

@@ -789,6 +789,22 @@ public:
 
   ///@{
   /**
+   * Error that 99 % of the pixels whose light crosses the data shall keep, in the unit that the image
+   * is read in: of an interferogram fringes; with Background Oriented pixels of displacement; else a
+   * fraction of full scale, of a shadowgraph of the undisturbed light (what light displaced by 0.05
+   * pixels explains does not count). 0, the default: off. It chooses StepSize, SamplesPerPixel (up to
+   * 64), MediumTolerance (0.01 to 0.0003), Interpolation (Cubic), HomogeneityTolerance (0) and
+   * Precision, whatever these properties are, by tracing some thousand pixels with several settings,
+   * and verifies its choice with others. The image's field data say what is reached: ErrorReached,
+   * ErrorLargest (of the pixels that were traced) and ErrorLimit, what contributes most. ErrorReached
+   * above TargetError: it cannot be kept, as Status says.
+   */
+  vtkSetMacro(TargetError, double);
+  vtkGetMacro(TargetError, double);
+  ///@}
+
+  ///@{
+  /**
    * Memory for a mesh's voxels, MiB. Default: 1024. If it does not suffice, MediumTolerance is not
    * met, and the field data MediumError report the error (the larger of both). MediumError is the
    * maximum over rays through many leaves, so it may be about twice MediumTolerance even with

@@ -6,6 +6,7 @@
 #include "Bench/PassLoop.h"
 #include "Bench/RayCache.h"
 #include "Bench/StageSettings.h"
+#include "Bench/TargetError.h"
 #include "Bench/UnfinishedImage.h"
 #include "Bench/Validation.h"
 #include "Bench/Watch.h"
@@ -56,31 +57,18 @@ double homogeneityLimit(const Medium<Real>& medium, const Scene& scene)
   return std::max(scene.homogeneityTolerance * medium.rangeOfNu, rounding * medium.largestNu);
 }
 
-/// The bound for an image, found once, and where the medium is steepest.
-template <class Real>
-RaySettings boundRays(
-  const Medium<Real>& medium, const Light& light, UnfinishedImage& request, Image& image)
+} // namespace
+
+namespace
 {
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
-  if (!request.bound)
-  {
-    const bool maySkip = !field.source && scene.homogeneityTolerance > 0;
-    request.bound = boundDisplacement(medium, light, scene.view, scene.stepSize,
-      maySkip ? steepestOf(scene.interpolation) * homogeneityLimit(medium, scene) : 0);
-  }
-  const DisplacementBound& bound = *request.bound;
-  image.displacementBound = bound.displacement;
-  image.displacementWithin = bound.withinMedium;
-  const SteepestPlace steepest = findSteepest(medium.slopes);
-  image.steepestChange = steepest.perVoxel;
-  image.steepestPlace = placeOf(field.grid, steepest.at);
-  const RaySettings settings =
-    settingsOf(scene, field.lengthScale, bound, image.frame, steepest.perVoxel);
-  image.pathModel = settings.kernel.path;
-  image.integrator = settings.kernel.integrator;
-  return settings;
-}
+
+/// How the rays of a view are bounded and to be traced.
+struct BoundedRays
+{
+  BoundKey key;
+  DisplacementBound bound;
+  RaySettings settings;
+};
 
 } // namespace
 
@@ -92,12 +80,39 @@ struct Bench::Stages
   MediumCache media{ work };
   RayCache rays;
   CutoffMaker cutoffs;
+  TargetCache targets;
+
+  /// A request with the settings that a scene's target error needs; null if aborted.
+  std::unique_ptr<UnfinishedImage> requestForTarget(
+    const Field& field, const Scene& scene, const Monitor& monitor);
 
   /// Works on an image until it is finished, aborted or paused, on the device of its scene, and keeps what is left after a
   /// pause.
   Image render(std::unique_ptr<UnfinishedImage> request, const Monitor& monitor);
 
 private:
+  /// The same with the medium of `scene`; null if aborted, or if a medium with other settings is needed, which it then
+  /// writes into `scene`.
+  template <class Real>
+  std::unique_ptr<UnfinishedImage> aim(const Field& field, Scene& scene, const Watch& watch);
+
+  /// Drops rays, before their medium goes or after it has changed.
+  void clearRays()
+  {
+    rays.clear();
+    targets.clear();
+  }
+  /// Drops them where another medium is to be made.
+  const Scene& clearedFor(const UnfinishedImage& request);
+  /// How the rays of an image are bounded and to be traced, and where the medium is steepest.
+  template <class Real>
+  BoundedRays boundRays(const MediumOnDevices<Real>& onDevices, const Light& light,
+    const UnfinishedImage& request, Image& image);
+  /// Finds the medium's voxels that a view needs, and its light.
+  template <class Real>
+  Light prepareMedium(
+    MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch, Image& image);
+
   /// The same on the device of the request, without an answer to its failures.
   template <class Real>
   Image proceed(UnfinishedImage& request, const Watch& watch);
@@ -126,8 +141,39 @@ Image Bench::Stages::begin(const UnfinishedImage& request) const
   image.device = request.device;
   image.deviceNote = request.deviceNote;
   image.threads = threadCount(scene.threads);
+  image.samplesPerPixel = scene.samplesPerPixel;
+  image.stepSize = scene.stepSize;
   image.processes = request.device == Device::Cpu && processes ? processes->others() + 1 : 1;
   return image;
+}
+
+template <class Real>
+BoundedRays Bench::Stages::boundRays(const MediumOnDevices<Real>& onDevices, const Light& light,
+  const UnfinishedImage& request, Image& image)
+{
+  const Field& field = request.field;
+  const Scene& scene = request.scene;
+  const Medium<Real>& medium = onDevices.medium;
+  const bool maySkip = !field.source && scene.homogeneityTolerance > 0;
+  const double atLeast =
+    maySkip ? steepestOf(scene.interpolation) * homogeneityLimit(medium, scene) : 0;
+  // Steps for a target error are no longer than those that are tried first.
+  const double step = scene.targetError > 0 ? longestStep : scene.stepSize;
+  const BoundKey key{ image.frame, scene.view.width, scene.view.height, step, atLeast,
+    LightKey::of(scene, image.frame, filmDistance(scene, image.frame, light.faces), light.faces),
+    onDevices.changes };
+  const DisplacementBound bound =
+    rays.boundOf(key, [&] { return boundDisplacement(medium, light, scene.view, step, atLeast); });
+  image.displacementBound = bound.displacement;
+  image.displacementWithin = bound.withinMedium;
+  const SteepestPlace steepest = findSteepest(medium.slopes);
+  image.steepestChange = steepest.perVoxel;
+  image.steepestPlace = placeOf(field.grid, steepest.at);
+  const RaySettings settings =
+    settingsOf(scene, field.lengthScale, bound, image.frame, steepest.perVoxel);
+  image.pathModel = settings.kernel.path;
+  image.integrator = settings.kernel.integrator;
+  return { key, bound, settings };
 }
 
 template <class Real>
@@ -138,7 +184,7 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
   const Scene& scene = request.scene;
   const View& view = scene.view;
   const Medium<Real>& medium = onDevices.medium;
-  const RaySettings settings = boundRays(medium, light, request, image);
+  const auto [boundKey, bound, settings] = boundRays(onDevices, light, request, image);
 
   // An adaptive step is as long as the medium lets it be without a map.
   const double skips = field.source || settings.kernel.integrator == Integrator::Adaptive
@@ -153,7 +199,7 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
       light.faces.ratio * skippingBound(medium, light, limit, scene.interpolation);
   }
 
-  const std::int64_t margin = marginFor(*request.bound, scene, image.frame, light);
+  const std::int64_t margin = marginFor(bound, scene, image.frame, light);
   RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, request.device,
     {},
     LightKey::of(scene, image.frame, filmDistance(scene, image.frame, light.faces), light.faces) };
@@ -176,6 +222,7 @@ bool Bench::Stages::develop(
   ProgressiveImage& progressive = *request.image;
   image.kScale = request.kScale;
   image.momentumDrift = request.momentumDrift;
+  image.accuracy = request.accuracy;
   image.traceSeconds = request.traceSeconds;
   image.finished = hasAllPasses && progressive.passes() == request.scene.samplesPerPixel;
   request.hasBeenSilent = !image.finished && !request.isNewImageThere();
@@ -201,38 +248,130 @@ bool Bench::Stages::develop(
   return true;
 }
 
+const Scene& Bench::Stages::clearedFor(const UnfinishedImage& request)
+{
+  if (!media.holds(request.field, request.scene))
+  {
+    clearRays();
+  }
+  return request.scene;
+}
+
+template <class Real>
+Light Bench::Stages::prepareMedium(
+  MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch, Image& image)
+{
+  const Scene& scene = request.scene;
+  image.ambient = inUse.medium().ambient;
+  image.exitRefractivity = exitRefractivityOf(scene, image.ambient);
+  Light light = lightOf(scene, request.field.grid, image.frame, facesOf(inUse.medium(), scene));
+  if (request.field.source)
+  {
+    inUse.refine(columnOf(scene, light, image.frame), monitorOfVoxels(request, watch.monitor()));
+    image.medium = inUse.medium().tree->statistics();
+  }
+  light.faces = facesOf(inUse.medium(), scene); // of all voxels
+  return light;
+}
+
+template <class Real>
+std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
+  const Field& field, Scene& scene, const Watch& watch)
+{
+  auto request = std::make_unique<UnfinishedImage>(field, scene);
+  Image image = begin(*request);
+  MediumInUse<Real> inUse(media, field, clearedFor(*request));
+  const Light light = prepareMedium(inUse, *request, watch, image);
+  if (watch.isAborted())
+  {
+    return nullptr;
+  }
+  if (inUse.seesChange())
+  {
+    clearRays();
+  }
+  const Medium<Real>& medium = inUse.medium();
+  const BoundedRays bounded = boundRays(inUse.onDevices(), light, *request, image);
+  const Projection projection =
+    projectionOf(scene, image.frame, light, (1 + image.exitRefractivity) * field.lengthScale);
+  const double deflectionError = light.faces.ratio * image.medium.deflectionError;
+  Pilot<Real>& pilot =
+    targets.pilotOf<Real>({ bounded.key, bounded.settings.kernel, field.lengthScale, projection,
+                            scene.filmEstimator, scene.seed },
+      [&]
+      {
+        const PilotBench<Real> bench{ &medium, light, scene, projection, bounded.settings,
+          marginFor(bounded.bound, scene, image.frame, light) };
+        const DeflectionErrors errors{ light.faces.ratio * noiseFloor(medium, field, light),
+          deflectionError };
+        return std::make_unique<Pilot<Real>>(bench, errors);
+      });
+  const double k = scene.kScale.value_or(
+    automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
+  CutoffMaker maker;
+  const Cutoffs cutoff = maker.cutoffOf(scene, k, image.frame.pixelSize);
+  pilot.setCutoff(scene, cutoff);
+  const KnownErrors known = knownErrors(pilot.bench(), pilot.view(), deflectionError, k);
+  if (changeMedium(known, image.medium.isMemoryShort, scene))
+  {
+    return nullptr;
+  }
+  const bool hasWalls =
+    !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
+  const AccurateSettings chosen =
+    chooseFor(pilot, hasWalls, known, targets.lastFor(scene), watch.monitor());
+  if (watch.isAborted())
+  {
+    return nullptr;
+  }
+  targets.keep(scene, chosen);
+  Scene accurate = scene;
+  accurate.stepSize = chosen.step;
+  accurate.samplesPerPixel = chosen.samples;
+  auto result = std::make_unique<UnfinishedImage>(field, accurate);
+  result->accuracy = chosen.accuracy;
+  return result;
+}
+
+std::unique_ptr<UnfinishedImage> Bench::Stages::requestForTarget(
+  const Field& field, const Scene& scene, const Monitor& monitor)
+{
+  const Watch watch(monitor);
+  Scene accurate = scene;
+  accurate.interpolation = Interpolation::Cubic;
+  accurate.homogeneityTolerance = 0;
+  if (field.source)
+  {
+    accurate.mediumTolerance = toleranceForTarget(field, scene);
+  }
+  media.adopt(field, accurate);
+  std::unique_ptr<UnfinishedImage> request;
+  while (!request && !watch.isAborted())
+  {
+    request = accurate.precision == Precision::Single ? aim<float>(field, accurate, watch)
+                                                      : aim<double>(field, accurate, watch);
+  }
+  return request;
+}
+
 template <class Real>
 Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
 {
   Image aborted;
   aborted.aborted = true;
 
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
   Image image = begin(request);
-  if (!media.holds(field, scene))
+  MediumInUse<Real> inUse(media, request.field, clearedFor(request));
+  const Light light = prepareMedium(inUse, request, watch, image);
+  if (watch.isAborted())
   {
-    rays.clear(); // before there is another medium
-  }
-  MediumInUse<Real> inUse(media, field, scene);
-  image.ambient = inUse.medium().ambient;
-  image.exitRefractivity = exitRefractivityOf(scene, image.ambient);
-  Light light = lightOf(scene, field.grid, image.frame, facesOf(inUse.medium(), scene));
-  if (field.source)
-  {
-    inUse.refine(columnOf(scene, light, image.frame), monitorOfVoxels(request, watch.monitor()));
-    image.medium = inUse.medium().tree->statistics();
-    if (watch.isAborted())
-    {
-      return aborted;
-    }
+    return aborted;
   }
   if (inUse.seesChange())
   {
-    rays.clear();
+    clearRays();
     request.beginAnew();
   }
-  light.faces = facesOf(inUse.medium(), scene); // of all voxels
 
   const RaysOfImage<Real> ofImage = prepareRays(inUse.onDevices(), light, request, image);
   const bool hasAllPasses =
@@ -252,6 +391,7 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::instead(
   const UnfinishedImage& request, const DeviceError& failure)
 {
   auto again = std::make_unique<UnfinishedImage>(request.field, request.scene);
+  again->accuracy = request.accuracy;
   if (request.keepsRays && dynamic_cast<const OutOfDeviceMemory*>(&failure) != nullptr)
   {
     again->device = request.device;
@@ -280,7 +420,7 @@ Image Bench::Stages::render(std::unique_ptr<UnfinishedImage> request, const Moni
     }
     catch (const DeviceError& failure)
     {
-      rays.clear();
+      clearRays();
       media.leaveDevice();
       request = instead(*request, failure);
       if (!request)
@@ -290,7 +430,7 @@ Image Bench::Stages::render(std::unique_ptr<UnfinishedImage> request, const Moni
     }
     catch (...) // what another process may have thrown, after some of the rays
     {
-      rays.clear();
+      clearRays();
       throw;
     }
   }
@@ -327,13 +467,21 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
 {
   stages_->unfinished.reset();
   validate(field, scene);
-  auto request = std::make_unique<UnfinishedImage>(field, scene);
   std::string reason;
   const bool hasCuda = scene.device != Device::Cpu && cudaAvailable(&reason);
   if (scene.device == Device::Cuda && !hasCuda)
   {
     throw Error("Device is CUDA, but no CUDA device can be used: " + reason +
       ". Set Device to Auto or CPU, or check the driver with nvidia-smi.");
+  }
+  std::unique_ptr<UnfinishedImage> request = scene.targetError > 0
+    ? stages_->requestForTarget(field, scene, monitor)
+    : std::make_unique<UnfinishedImage>(field, scene);
+  if (!request)
+  {
+    Image aborted;
+    aborted.aborted = true;
+    return aborted;
   }
   request->device = hasCuda ? Device::Cuda : Device::Cpu;
   return stages_->render(std::move(request), monitor);

@@ -141,6 +141,23 @@ bool MediumCache::holds(const Field& field, const Scene& scene) const
   return key_ && key_->tie() == MediumKey::of(field, scene).tie();
 }
 
+void MediumCache::adopt(const Field& field, Scene& scene) const
+{
+  if (!key_)
+  {
+    return;
+  }
+  Scene like = scene;
+  like.mediumTolerance = key_->tolerance;
+  like.precision = key_->precision;
+  const bool isFiner = !(key_->tolerance > scene.mediumTolerance) &&
+    (key_->precision == Precision::Double || scene.precision == Precision::Single);
+  if (isFiner && holds(field, like))
+  {
+    scene = like;
+  }
+}
+
 template <class Real>
 std::shared_ptr<MediumOnDevices<Real>> MediumCache::make(const Field& field, const Scene& scene)
 {

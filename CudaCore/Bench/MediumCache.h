@@ -104,6 +104,8 @@ public:
 
   /// Whether the medium of a field is there.
   bool holds(const Field& field, const Scene& scene) const;
+  /// Gives a scene with a target error what the medium of its field that is there has: finer voxels, double precision.
+  void adopt(const Field& field, Scene& scene) const;
   /// The medium of a field. What was there before it is freed first: two media at once might not fit.
   template <class Real>
   MediumOfBench<Real>& mediumOf(const Field& field, const Scene& scene);

@@ -31,6 +31,16 @@ bool RayCache::prepare(RaysKey key, std::int64_t margin)
   return true;
 }
 
+const DisplacementBound& RayCache::boundOf(
+  const BoundKey& key, const std::function<DisplacementBound()>& find)
+{
+  if (!bound_ || bound_->first.tie() != key.tie())
+  {
+    bound_.emplace(key, find());
+  }
+  return bound_->second;
+}
+
 void RayCache::prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields)
 {
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
@@ -145,6 +155,7 @@ void RayCache::finish()
 
 void RayCache::clear()
 {
+  bound_.reset();
   key_.reset();
   passes_.clear();
   finish();

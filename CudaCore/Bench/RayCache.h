@@ -62,6 +62,28 @@ struct LightKey
   }
 };
 
+inline auto tieOf(const Frame& frame)
+{
+  return std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry, frame.exit,
+    frame.pupil, frame.focus);
+}
+
+/// What a bound is of, apart from which medium.
+struct BoundKey
+{
+  Frame frame;
+  int width, height;
+  double stepVoxels, atLeast; ///< see boundDisplacement
+  LightKey light;
+  std::int64_t changes; ///< of the medium's voxels
+
+  auto tie() const
+  {
+    return std::tuple_cat(
+      light.tie(), tieOf(frame), std::tie(width, height, stepVoxels, atLeast, changes));
+  }
+};
+
 /// What cached rays were traced with, the medium apart.
 struct RaysKey
 {
@@ -76,11 +98,10 @@ struct RaysKey
 
   auto tie() const
   {
-    return std::tuple_cat(light.tie(),
-      std::tie(frame.u, frame.v, frame.w, frame.origin, frame.pixelSize, frame.entry, frame.exit,
-        frame.pupil, frame.focus, width, height, settings.kernel.path, settings.kernel.integrator,
-        settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance,
-        seed, device, gradients));
+    return std::tuple_cat(light.tie(), tieOf(frame),
+      std::tie(width, height, settings.kernel.path, settings.kernel.integrator, settings.stepVoxels,
+        settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance, seed, device,
+        gradients));
   }
 };
 
@@ -93,6 +114,10 @@ public:
   /// Returns whether it was.
   bool prepare(RaysKey key, std::int64_t margin);
   std::int64_t margin() const { return margin_; } ///< of the rays that are cached
+
+  /// The bound of a view, which is found where it is that of another one.
+  const DisplacementBound& boundOf(
+    const BoundKey& key, const std::function<DisplacementBound()>& find);
 
   /// Traces a pass, or resumes it. False if aborted or paused. `isWantedOnHost`: or else where it was traced.
   using Trace = std::function<bool(TracedPass& traced, bool isWantedOnHost)>;
@@ -115,13 +140,14 @@ public:
 
   /// Gives back the memory that only served to make more rays.
   void finish();
-  /// All of it, for rays in another medium or on another device.
+  /// All of it, bounds, too, for rays in another medium or on another device.
   void clear();
 
 private:
   /// Makes scratch_ the place for the rays of a pass, where it is not that already.
   void prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields);
 
+  std::optional<std::pair<BoundKey, DisplacementBound>> bound_; ///< of the last view
   std::optional<RaysKey> key_;
   std::int64_t margin_ = 0;
   std::deque<TracedPass> passes_;                ///< from pass 0 on

@@ -4,7 +4,6 @@
 
 #include "Bench/StageSettings.h"
 #include "Film/ProgressiveImage.h"
-#include "Rays/March/DisplacementBound.h"
 #include "Schlieren.h"
 
 #include <cstdint>
@@ -31,7 +30,7 @@ struct UnfinishedImage
   std::string deviceNote;
   bool keepsRays = true;                 ///< as far as the budget of memory goes
   std::optional<ProgressiveImage> image; ///< always there
-  std::optional<DisplacementBound> bound;
+  Accuracy accuracy;
   double kScale = 0;
   double momentumDrift = 0;
   double traceSeconds = 0;
@@ -44,7 +43,6 @@ struct UnfinishedImage
   void beginAnew()
   {
     image.emplace(filmSettingsOf(scene));
-    bound.reset();
     shown = 0;
   }
 

@@ -43,6 +43,8 @@ void validateTolerances(const Scene& scene)
   require(scene.mediumTolerance >= 0 && scene.mediumTolerance <= 1, "MediumTolerance",
     scene.mediumTolerance,
     "between 0 (voxels are as fine as the data) and 1, as a fraction of the largest deflection.");
+  require(scene.targetError >= 0 && std::isfinite(scene.targetError), "TargetError",
+    scene.targetError, "to a positive error, or to 0 for the settings as they are.");
   require(scene.pathTolerance >= 0 && std::isfinite(scene.pathTolerance), "PathTolerance",
     scene.pathTolerance, "to zero or more, in pixels.");
 }

@@ -11,6 +11,26 @@
 namespace schlieren
 {
 
+/// What contributes most to an image's error.
+enum class ErrorSource
+{
+  None,
+  Steps,        ///< Scene::stepSize
+  RaysPerPixel, ///< Scene::samplesPerPixel
+  Voxels,       ///< Scene::mediumTolerance: of meshes
+  Rounding      ///< Scene::precision
+};
+
+/// The error of an image, found from blocks of its pixels: see Scene::targetError.
+struct Accuracy
+{
+  double target = 0;  ///< 0: none was requested, and nothing else is known
+  double reached = 0; ///< of 99 % of the pixels whose light has crossed the data
+  double largest = 0; ///< of the pixels that were looked at
+  ErrorSource limit = ErrorSource::None;
+  bool isKept() const { return reached <= target; }
+};
+
 /// The image and what is known about it. Arrays are row-major, bottom row first.
 struct Image
 {
@@ -64,12 +84,15 @@ struct Image
   double steepestChange = 0; ///< of the index, by that of the surroundings, over one voxel
   Vector steepestPlace{};    ///< about where that is, data units
   MediumStatistics medium;   ///< of a Field's source
-  bool aborted = false;      ///< the monitor stopped it; all arrays are empty
+  Accuracy accuracy;
+  bool aborted = false; ///< the monitor stopped it; all arrays are empty
 
   /// False where the monitor has paused it, and Bench::resume continues it. The arrays then hold the image of
   /// the samples so far (the histogram may know of more), or are empty where this call has completed none.
   bool finished = true;
-  int samples = 0; ///< per pixel, that the image is of
+  int samples = 0;         ///< per pixel, that the image is of
+  int samplesPerPixel = 0; ///< that the finished image is of
+  double stepSize = 0;     ///< voxels
 };
 
 } // namespace schlieren

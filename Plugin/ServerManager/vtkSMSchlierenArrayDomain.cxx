@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -32,6 +34,19 @@ FlowDefaults defaultsFor(const std::string& property, const std::vector<FlowArra
   return index.arrays.empty() ? flowDefaults(arrays, MediumSettings::Refractivity) : index;
 }
 
+/// Chooses an array; an empty name: none is known.
+std::pair<FlowArray::Association, std::string> choiceFor(
+  const std::string& property, const std::vector<FlowArray>& arrays)
+{
+  if (property == "Mask")
+  {
+    const MaskDefault mask = flowMask(arrays);
+    return { mask.association, mask.array.empty() && !arrays.empty() ? "None" : mask.array };
+  }
+  const FlowDefaults defaults = defaultsFor(property, arrays);
+  return { defaults.association, defaults.arrayOf(property) };
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkSMSchlierenArrayDomain);
@@ -50,17 +65,17 @@ int vtkSMSchlierenArrayDomain::SetDefaultValues(vtkSMProperty* property, bool us
   const std::string name = property->GetXMLName();
   vtkSMPropertyHelper selection(property);
   selection.SetUseUnchecked(useUnchecked);
-  if (!input || name == "Mask" || selection.GetNumberOfElements() != elements)
+  if (!input || selection.GetNumberOfElements() != elements)
   {
     return 0; // the XML's value
   }
-  const FlowDefaults defaults = defaultsFor(name, arraysOf(input));
-  this->Chosen = defaults.arrayOf(name);
+  const auto [association, array] = choiceFor(name, arraysOf(input));
+  this->Chosen = array;
   if (this->Chosen.empty())
   {
     return 0; // makes ParaView try again
   }
-  selection.Set(associationElement, std::to_string(defaults.association).c_str());
+  selection.Set(associationElement, std::to_string(association).c_str());
   selection.Set(nameElement, this->Chosen.c_str());
   return 1;
 }

@@ -114,10 +114,4 @@ void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
     setStrings(filter, "MixtureGases", defaults.gases);
     vtkSMPropertyHelper(filter, "FractionType").Set(defaults.ofVolume ? 1 : 0);
   }
-  if (!defaults.mask.empty())
-  {
-    vtkSMPropertyHelper(filter, "Mask")
-      .SetInputArrayToProcess(defaults.maskAssociation, defaults.mask.c_str());
-    vtkSMPropertyHelper(filter, "MaskedSide").Set(defaults.isMaskOfGas ? 1 : 0);
-  }
 }

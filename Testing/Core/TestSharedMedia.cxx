@@ -6,6 +6,7 @@
 #include "PeakMemory.h"
 #include "SameImage.h"
 
+#include <stdexcept>
 #include <thread>
 
 namespace schlieren
@@ -26,6 +27,36 @@ std::shared_ptr<BallsSource> balls()
   return std::make_shared<BallsSource>(
     std::vector<Ball>{ { { 0.4, 0.1, 0.2 }, 0.1, 1e-4 }, { { -0.5, -0.2, 0 }, 0.15, 2e-4 } });
 }
+
+/// A source that fails to describe its content, or to sample it.
+class FailingBalls : public BallsSource
+{
+public:
+  using BallsSource::BallsSource;
+
+  Content contentOf(const Box& box) const override
+  {
+    failIf(failsContents);
+    return BallsSource::contentOf(box);
+  }
+  void sample(
+    const Lattice& lattice, double* refractivity, Place* places, float* distances) const override
+  {
+    failIf(failsSamples);
+    BallsSource::sample(lattice, refractivity, places, distances);
+  }
+
+  bool failsContents = false, failsSamples = false;
+
+private:
+  static void failIf(bool fails)
+  {
+    if (fails)
+    {
+      throw std::runtime_error("lost");
+    }
+  }
+};
 
 Scene sceneTowards(const Vector& direction)
 {
@@ -133,6 +164,33 @@ TEST(SharedMedia, WhatTheMediumDependsOnMakesAnother)
   other = scene;
   other.mediumMemory /= 2;
   expectOther("memory", ofSource, other);
+}
+
+TEST(SharedMedia, WhatCouldNotBeMadeIsMadeOnceItCanBe)
+{
+  const SampledField<float> before = blob();
+  const Scene scene = sceneTowards(front);
+  const std::vector<Ball> ofSource{ { { 0.4, 0.1, 0.2 }, 0.1, 1e-4 } };
+  const Image expected = Bench().render(fieldOf(std::make_shared<BallsSource>(ofSource)), scene);
+  for (const bool ofContents : { true, false })
+  {
+    SCOPED_TRACE(ofContents ? "contents" : "samples");
+    const auto source = std::make_shared<FailingBalls>(ofSource);
+    const Field field = fieldOf(source);
+    (ofContents ? source->failsContents : source->failsSamples) = true;
+    Together together;
+    together.first.render(before.field, scene);
+    for (Bench* bench : { &together.first, &together.first, &together.second })
+    {
+      EXPECT_THROW(bench->render(field, scene), std::runtime_error);
+      EXPECT_FALSE(bench->isUnfinished());
+    }
+    source->failsContents = source->failsSamples = false;
+    expectSameImage(together.first.render(field, scene), expected);
+    expectSameImage(together.second.render(field, scene), expected);
+    expectSameImage(
+      together.first.render(before.field, scene), Bench().render(before.field, scene));
+  }
 }
 
 TEST(SharedMedia, GoesWithItsLastUser)

@@ -10,6 +10,7 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <numeric>
 #include <tuple>
 
 namespace
@@ -163,6 +164,37 @@ TEST(ArrayChoice, MoistAirAndMixtures)
   // One gas by the user's choice.
   left->SetGas("helium");
   EXPECT_STREQ(left->GetArraysUsed(), "Density: 'density'.");
+}
+
+// A ball that either kind of name marks blocks light, as much as if the mask were chosen; None blocks none.
+TEST(ArrayChoice, MasksByTheirNames)
+{
+  constexpr double radius = 0.5;
+  for (const char* name : { "solid", "iblank" })
+  {
+    SCOPED_TRACE(name);
+    const bool isOfGas = std::string(name) == "iblank";
+    auto flow = cube(65);
+    addPointArray(flow, "rho", bump(1, 1.3));
+    addPointArray(
+      flow, name, [=](const Vec& x) { return (dot(x, x) < radius * radius) != isOfGas ? 1. : 0.; });
+    auto given = filterOf(flow);
+    choose(given, Medium::MASK, name);
+    given->SetMaskedSide(isOfGas ? Medium::MASKED_BELOW : Medium::MASKED_ABOVE);
+    auto left = filterOf(flow);
+    expectSameImage(left, given);
+    const std::vector<double> blocked = valuesOf(left, "BlockedFraction");
+    EXPECT_EQ(blocked, valuesOf(given, "BlockedFraction"));
+    const double* pixel = vtkImageData::SafeDownCast(left->GetOutputDataObject(0))->GetSpacing();
+    EXPECT_NEAR(std::accumulate(blocked.begin(), blocked.end(), 0.) * pixel[0] * pixel[1],
+      pi * radius * radius, 0.05);
+    EXPECT_EQ(left->GetArraysUsed(), "Density: 'rho'; Mask: '" + std::string(name) + "'.");
+    given->SetMaskedSide(Medium::MASKED_AUTO);
+    expectSameImage(left, given);
+    choose(left, Medium::MASK, "None");
+    left->Update();
+    EXPECT_EQ(largest(valuesOf(left, "BlockedFraction")), 0);
+  }
 }
 
 TEST(ArrayChoice, TheGridFilterTakesTheSame)

@@ -307,22 +307,23 @@ TEST(FlowDefaults, NothingToChooseFrom)
 
 TEST(FlowDefaults, MasksByTheirNames)
 {
-  const FlowArray density = scalar("rho", 1, 2);
-  const FlowDefaults solid = flowDefaults({ scalar("solid", 0, 1, FlowArray::Cells), density });
+  const FlowArray density = scalar("rho", 1, 2), body = scalar("solid", 0, 1, FlowArray::Cells);
+  EXPECT_EQ(flowMask({ density, body }).array, "solid");
+  EXPECT_EQ(flowMask({ density, body }).association, FlowArray::Cells);
+  EXPECT_FALSE(marksGas("solid"));
+  const FlowDefaults solid = flowDefaults({ body, density });
   EXPECT_EQ(solid.arrays, (Arrays{ { "Density", "rho" } }));
-  EXPECT_EQ(solid.mask, "solid");
-  EXPECT_EQ(solid.maskAssociation, FlowArray::Cells);
-  EXPECT_FALSE(solid.isMaskOfGas);
   EXPECT_NE(solid.message.find("No gas where 'solid' is 0.5 or more."), std::string::npos);
   for (const char* name : { "iblank", "IBlank", "vfrac", "Vol_Frac" })
   {
-    const FlowDefaults gas = flowDefaults({ density, scalar(name, -2, 1) });
-    EXPECT_EQ(gas.mask, name);
-    EXPECT_TRUE(gas.isMaskOfGas) << name;
+    EXPECT_EQ(flowMask({ density, scalar(name, -2, 1) }).array, name);
+    EXPECT_TRUE(marksGas(name)) << name;
   }
   // Nothing is masked; not a mask; and a mask is no density.
-  EXPECT_EQ(flowDefaults({ density, scalar("solid", 0, 0) }).mask, "");
-  EXPECT_EQ(flowDefaults({ density, scalar("solid stress", 0, 1) }).mask, "");
+  EXPECT_EQ(flowMask({ density, scalar("solid", 0, 0) }).array, "");
+  EXPECT_EQ(flowMask({ density, scalar("solid", 0, 0.3) }).array, "");
+  EXPECT_EQ(flowMask({ density, scalar("solid", 0, 0.3) }, 0.2).array, "solid");
+  EXPECT_EQ(flowMask({ density, scalar("solid stress", 0, 1) }).array, "");
   EXPECT_TRUE(isNoDensity(scalar("solid", 0, 1)));
 }
 

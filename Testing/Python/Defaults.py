@@ -59,6 +59,21 @@ for arrays, density in (
         assert not is_empty(proxy)
         assert used(proxy) == f"Density: '{density[1]}'.", used(proxy)
 
+# A mask by its name, of points or cells, where it marks anything.
+for arrays, mask in ((("solid", 0, 1),), ["POINTS", "solid"]), ((("vfrac", 0, 1, "CELLS"),), ["CELLS", "vfrac"]), \
+        ((("solid", 0, 0),), ["POINTS", "None"]):
+    for kind in (Schlieren, RefractiveIndex):
+        proxy = kind(Input=flow(("rho", 1, 1.2), *arrays))
+        assert list(proxy.Mask) == mask, (arrays, list(proxy.Mask))
+        proxy.UpdatePipeline()
+        assert used(proxy) == "Density: 'rho'" + (f"; Mask: '{mask[1]}'." if mask[1] != "None" else "."), used(proxy)
+gas, body = flow(("rho", 1, 1.2)), flow(("rho", 1, 1.2), ("solid", 0, 1))
+changed = Schlieren(Input=gas)
+changed.Input = body
+assert list(changed.Mask) == ["POINTS", "solid"], list(changed.Mask)
+changed.Mask = ["POINTS", "None"]
+assert image_array(changed, "BlockedFraction").max() == 0
+
 # Not those of the active source, of which ParaView thinks first; of a second filter, too.
 one, other = flow(("rho", 1, 1.2)), flow(("dens", 1, 1.2))
 for _ in range(2):

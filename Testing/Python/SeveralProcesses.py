@@ -48,7 +48,7 @@ for block in range(2):
         if block % number != rank:
             continue
     x, y = np.linspace(block - 1.0, block, n + 1), np.linspace(-1, 1, n + 1)[j[0]:j[1] + 1]
-    z = np.linspace(-0.5, 0.5, 9) if DIMENSION == 3 else np.zeros(1)
+    z = {"3-D": np.linspace(-0.5, 0.5, 9), "one layer": np.array([-0.5, 0.5]), "2-D": np.zeros(1)}[DIMENSION]
     X, Y, Z = np.meshgrid(x, y, z, indexing="ij")
     places = np.stack([a.ravel(order="F") for a in (X, Y, Z)], axis=1)
     grid = vtkStructuredGrid()
@@ -73,11 +73,11 @@ def sources():
         yield (kind, ball(kind), ["CELLS" if kind == "cell data" else "POINTS", "rho"],
                body if kind in ("image", "hexahedra") else None, True, {})
     yield "amr", ball("amr"), ["CELLS", "rho"], body, False, {}
-    for dimension in (2, 3):
+    for dimension in ("2-D", "one layer", "3-D"):
         for how in ("slabs", "whole"):
             blocks = ProgrammableSource(OutputDataSetType="vtkMultiblockDataSet",
-                                        Script=BLOCKS.replace("HOW", repr(how)).replace("DIMENSION", str(dimension)))
-            yield f"{how} of blocks in {dimension}-D", blocks, ["POINTS", "rho"], None, dimension == 3, {}
+                                        Script=BLOCKS.replace("HOW", repr(how)).replace("DIMENSION", repr(dimension)))
+            yield f"{how} of blocks in {dimension}", blocks, ["POINTS", "rho"], None, dimension == "3-D", {}
     # Each rank gets what it requests.
     wavelet = Wavelet(WholeExtent=[-12, 14, -10, 10, -9, 9])
     settings = {"GladstoneDaleConstant": 1e-6}
@@ -114,7 +114,7 @@ def images():
         for limit in (0, 10000000) if name in ("image", "hexahedra") else (0,):
             kind = f"{name}, gathered" if limit else f"{name}, in pieces"
             seen = Schlieren(Input=source, Density=density, Bodies=bodies, ImageSize=[60, 60], GatherLimit=limit,
-                             ViewDirection=[0, 0, -1] if "2-D" in name else [0.2, -0.6, -0.8],
+                             ViewDirection=[0, 0, -1] if "2-D" in name or "layer" in name else [0.2, -0.6, -0.8],
                              **({"MediumTolerance": 1e-2} | settings))
             for array in ARRAYS:
                 found[f"{kind}: {array}"] = image_array(seen, array)

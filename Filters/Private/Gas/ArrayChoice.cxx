@@ -70,6 +70,11 @@ std::string inWords(const MediumSettings& settings)
   {
     text += (i > 0 ? ", '" : "; fractions: '") + settings.MixtureArrays[i] + "'";
   }
+  if (settings.Arrays[S::MaskArray].isNamed())
+  {
+    text += (text.empty() ? "" : "; ") + std::string("Mask: '") +
+      settings.Arrays[S::MaskArray].name + "'";
+  }
   return text.empty() ? text : text + ".";
 }
 
@@ -191,7 +196,8 @@ std::vector<std::size_t> arraysOfModel(int model)
 bool isOpen(const MediumSettings& settings)
 {
   return settings.IndexModel == S::Auto ||
-    (settings.IndexModel == S::Mixture && settings.MixtureArrays.empty()) || lacksArrays(settings);
+    (settings.IndexModel == S::Mixture && settings.MixtureArrays.empty()) ||
+    lacksArrays(settings) || !settings.Arrays[S::MaskArray].isChosen();
 }
 
 //------------------------------------------------------------------------------
@@ -277,6 +283,16 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
   else if (settings.IndexModel == S::GladstoneDale || settings.IndexModel == S::Mixture)
   {
     settings.DensityScale = scaleOf(S::DensityArray, given.DensityScale);
+  }
+  ArraySelection& mask = settings.Arrays[S::MaskArray];
+  if (!mask.isChosen())
+  {
+    const MaskDefault found = flowMask(known, settings.MaskThreshold);
+    mask = { found.array, -1, found.association == FlowArray::Cells };
+  }
+  if (settings.MaskedSide < 0)
+  {
+    settings.MaskedSide = marksGas(mask.name) ? 1 : 0;
   }
   // Clears the selections that the model does not read, so that they do not affect comparisons.
   const std::vector<std::size_t> read = arraysOfModel(settings.IndexModel);

@@ -451,26 +451,6 @@ private:
   std::vector<FlowArray> Arrays;
 };
 
-/// Chooses a mask, if its array marks any body.
-void chooseMask(const std::vector<FlowArray>& arrays, FlowDefaults& defaults)
-{
-  constexpr double threshold = 0.5; // default of MaskThreshold
-  for (const FlowArray& array : arrays)
-  {
-    const std::string name = ArrayName(array.name).Joined();
-    const bool isOfGas = gases.count(name) > 0;
-    if (defaults.mask.empty() && array.components == 1 && (isOfGas || solids.count(name)) &&
-      array.range[0] < threshold && array.range[1] >= threshold)
-    {
-      defaults.mask = array.name;
-      defaults.maskAssociation = array.association;
-      defaults.isMaskOfGas = isOfGas;
-      defaults.message += " No gas where " + quoted(array.name) + " is " +
-        (isOfGas ? "less than 0.5." : "0.5 or more.");
-    }
-  }
-}
-
 /// Returns what a chooser has found, or a message about what is missing.
 FlowDefaults resultOf(Chooser& chooser, bool isFound, const std::vector<FlowArray>& arrays,
   const std::string& isMissing)
@@ -480,7 +460,10 @@ FlowDefaults resultOf(Chooser& chooser, bool isFound, const std::vector<FlowArra
     chooser.Result.message = chooser.Note + chooser.Result.message;
     chooser.Result.isSure = chooser.Note.empty();
     chooser.Result.note = chooser.Note;
-    chooseMask(arrays, chooser.Result);
+    const std::string mask = flowMask(arrays).array;
+    chooser.Result.message += mask.empty() ? ""
+                                           : " No gas where " + quoted(mask) + " is " +
+        (marksGas(mask) ? "less than 0.5." : "0.5 or more.");
     return chooser.Result;
   }
   FlowDefaults none;
@@ -551,6 +534,22 @@ FlowDefaults flowSpecies(const std::vector<FlowArray>& arrays, FlowArray::Associ
   chooser.chooseSpecies(association);
   return chooser.Result;
 }
+
+//------------------------------------------------------------------------------
+MaskDefault flowMask(const std::vector<FlowArray>& arrays, double threshold)
+{
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+    [threshold](const FlowArray& array)
+    {
+      const bool isMask = marksGas(array.name) || solids.count(ArrayName(array.name).Joined()) > 0;
+      return array.components == 1 && isMask && array.range[0] < threshold &&
+        array.range[1] >= threshold;
+    });
+  return found == arrays.end() ? MaskDefault() : MaskDefault{ found->name, found->association };
+}
+
+//------------------------------------------------------------------------------
+bool marksGas(const std::string& array) { return gases.count(ArrayName(array).Joined()) > 0; }
 
 //------------------------------------------------------------------------------
 bool dependsOnRange(const std::string& text)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/ImageOutput.h"
 
+#include "Image/ImageStatus.h"
+
 #include "Common/AvailableMemory.h"
 
 #include "vtkDataArray.h"
@@ -174,6 +176,15 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
     addFieldValue(output, "SkippingBound", image.skippingBound, "rad");
   }
   addFieldValue<vtkDoubleArray>(output, "MomentumDrift", image.momentumDrift);
+  if (image.accuracy.target > 0)
+  {
+    addFieldValue<vtkDoubleArray>(output, "TargetError", image.accuracy.target);
+    addFieldValue<vtkDoubleArray>(output, "ErrorReached", image.accuracy.reached);
+    addFieldValue<vtkDoubleArray>(output, "ErrorLargest", image.accuracy.largest);
+    addFieldValue<vtkStringArray>(output, "ErrorLimit", limitInWords(image.accuracy));
+    addFieldValue<vtkDoubleArray>(output, "StepSize", image.stepSize);
+    addFieldValue<vtkIntArray>(output, "SamplesPerPixel", image.samplesPerPixel);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -22,12 +22,12 @@ std::string textOf(const char* format, double value)
 std::string textOf(double value) { return textOf("%.2g", value); }
 
 /// Returns a text such as "2 of 4 samples per pixel".
-std::string samplesInWords(const schlieren::Image& image, const schlieren::Scene& scene)
+std::string samplesInWords(const schlieren::Image& image)
 {
-  const std::string wanted = std::to_string(scene.samplesPerPixel);
-  const bool isWhole = image.samples == scene.samplesPerPixel;
+  const std::string wanted = std::to_string(image.samplesPerPixel);
+  const bool isWhole = image.samples == image.samplesPerPixel;
   return (isWhole ? wanted : std::to_string(image.samples) + " of " + wanted) +
-    (scene.samplesPerPixel == 1 ? " sample per pixel" : " samples per pixel");
+    (image.samplesPerPixel == 1 ? " sample per pixel" : " samples per pixel");
 }
 
 /// Returns a text such as "85 million rays/s".
@@ -70,18 +70,54 @@ std::string accuracyInWords(const schlieren::Image& image, const schlieren::Scen
                         : "straight rays, displaced by up to " + textOf(pixels) + " pixels";
 }
 
+/// Returns a text such as ", error 0.0031 of full scale (target 0.0039), limited by rays per pixel".
+std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::Scene& scene)
+{
+  if (!(accuracy.target > 0))
+  {
+    return "";
+  }
+  const schlieren::Technique& technique = schlieren::techniqueOf(scene.cutoff);
+  const char* unit = technique.hasFringes                     ? " fringes"
+    : technique.plane == schlieren::RecordedPlane::Background ? " pixels of displacement"
+    : technique.plane == schlieren::RecordedPlane::Screen     ? " of the undisturbed light"
+                                                              : " of full scale";
+  return (accuracy.isKept() ? ", error " : ", target error not kept: ") + textOf(accuracy.reached) +
+    unit + " (target " + textOf(accuracy.target) + "), limited by " + limitInWords(accuracy);
+}
+
 } // namespace
+
+//------------------------------------------------------------------------------
+std::string limitInWords(const schlieren::Accuracy& accuracy)
+{
+  switch (accuracy.limit)
+  {
+    case schlieren::ErrorSource::Steps:
+      return "the length of steps";
+    case schlieren::ErrorSource::RaysPerPixel:
+      return "rays per pixel";
+    case schlieren::ErrorSource::Voxels:
+      return "the size of voxels";
+    case schlieren::ErrorSource::Rounding:
+      return "rounding";
+    case schlieren::ErrorSource::None:
+      break;
+  }
+  return "nothing";
+}
 
 //------------------------------------------------------------------------------
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond)
 {
-  std::string words = samplesInWords(image, scene) + ", ";
+  std::string words = samplesInWords(image) + ", ";
   if (raysPerSecond > 0)
   {
     words += speedInWords(raysPerSecond) + " on ";
   }
-  return words + deviceInWords(image) + ", " + accuracyInWords(image, scene);
+  return words + deviceInWords(image) + ", " + accuracyInWords(image, scene) +
+    errorInWords(image.accuracy, scene);
 }
 
 } // namespace filters

@@ -6,6 +6,7 @@
 
 namespace schlieren
 {
+struct Accuracy;
 struct Image;
 struct Scene;
 } // namespace schlieren
@@ -13,7 +14,10 @@ struct Scene;
 namespace filters
 {
 
-/// Describes an image in one line: samples, speed, device and accuracy of its rays.
+/// Names what contributes most to an image's error, such as "rays per pixel".
+std::string limitInWords(const schlieren::Accuracy& accuracy);
+
+/// Describes an image in one line: samples, speed, device and accuracy of its rays, and the error that a target has led to.
 /// `raysPerSecond`: 0 if unknown.
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond);

@@ -100,6 +100,10 @@ void MeanImage::Add(schlieren::Image&& image)
   mean.displacementWithin = std::max(mean.displacementWithin, image.displacementWithin);
   mean.skippingBound = std::max(mean.skippingBound, image.skippingBound);
   mean.momentumDrift = std::max(mean.momentumDrift, image.momentumDrift);
+  if (image.accuracy.reached > mean.accuracy.reached)
+  {
+    mean.accuracy = image.accuracy;
+  }
   if (image.steepestChange > mean.steepestChange)
   {
     mean.steepestChange = image.steepestChange;

@@ -5,6 +5,7 @@
 #include "Image/MeanImage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace filters
@@ -38,6 +39,8 @@ schlieren::Image differenceOf(
   subtract(image.blockedFraction, straight.blockedFraction);
   image.undisturbedLevel = middle;
   addRays(image, straight);
+  image.accuracy.reached = 0.5 * std::hypot(image.accuracy.reached, straight.accuracy.reached);
+  image.accuracy.largest = 0.5 * std::hypot(image.accuracy.largest, straight.accuracy.largest);
   image.samples = std::min(image.samples, straight.samples);
   image.finished = image.finished && straight.finished;
   return image;

@@ -54,6 +54,7 @@ void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int red
       std::max(pixelsPerPeriod, fewestPerPeriod * reduction) * frame.pixelSize;
   }
   scene.view = previewView(scene.view, frame, reduction);
+  scene.targetError = 0;
   scene.samplesPerPixel = std::min(scene.samplesPerPixel, 1); // keeps invalid values
   scene.stepSize = std::max(scene.stepSize, interactiveStepSize());
   scene.noiseFilterRadius /= reduction;

@@ -489,6 +489,49 @@ void flattenLayer(Source& source, const Source* like)
   }
 }
 
+LayerBounds layerBoundsOf(vtkDataSet* data)
+{
+  LayerBounds layer{};
+  data->GetBounds(layer.bounds.data());
+  const double tolerance = planeTolerance * vtkBoundingBox(layer.bounds.data()).GetMaxLength();
+  layer.isAtBounds.fill(true);
+  const auto isAtAny = [&]
+  { return layer.isAtBounds[0] || layer.isAtBounds[1] || layer.isAtBounds[2]; };
+  for (vtkIdType point = 0; point < data->GetNumberOfPoints() && isAtAny(); ++point)
+  {
+    const Place place = placeOf(data, point);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double toLow = place[axis] - layer.bounds[2 * axis],
+                   toHigh = layer.bounds[2 * axis + 1] - place[axis];
+      layer.isAtBounds[axis] = layer.isAtBounds[axis] && std::min(toLow, toHigh) <= tolerance;
+    }
+  }
+  return layer;
+}
+
+bool areOneLayer(const std::vector<LayerBounds>& pieces)
+{
+  vtkBoundingBox box;
+  for (const LayerBounds& piece : pieces)
+  {
+    box.AddBounds(piece.bounds.data());
+  }
+  const double tolerance = planeTolerance * box.GetMaxLength();
+  const auto isLayerAlong = [&](std::size_t axis)
+  {
+    const int low = 2 * static_cast<int>(axis);
+    return std::all_of(pieces.begin(), pieces.end(),
+      [&](const LayerBounds& piece)
+      {
+        return piece.isAtBounds[axis] &&
+          std::abs(piece.bounds[2 * axis] - box.GetBound(low)) <= tolerance &&
+          std::abs(piece.bounds[2 * axis + 1] - box.GetBound(low + 1)) <= tolerance;
+      });
+  };
+  return !pieces.empty() && (isLayerAlong(0) || isLayerAlong(1) || isLayerAlong(2));
+}
+
 namespace
 {
 

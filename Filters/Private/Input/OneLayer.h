@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 /// Flattens meshes of one layer of cells, in which 3-D solvers compute 2-D and axisymmetric flows.
 namespace filters
@@ -15,6 +16,16 @@ namespace filters
 /// with its depth unless one is given. Keeps other data, and layers whose point values differ
 /// between the planes. `like`: the source of other arrays of the input, which decides; may be null.
 void flattenLayer(Source& source, const Source* like);
+
+/// The bounds of data, and along which axes all points lie at one of the two.
+struct LayerBounds
+{
+  std::array<double, 6> bounds;
+  std::array<bool, 3> isAtBounds;
+};
+LayerBounds layerBoundsOf(vtkDataSet* data);
+/// Returns whether data with these bounds are one layer together, between the same two planes.
+bool areOneLayer(const std::vector<LayerBounds>& pieces);
 
 /// A layer between two planes that meet in an axis.
 struct Wedge

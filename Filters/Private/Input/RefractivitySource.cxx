@@ -236,9 +236,10 @@ vtkDataArray* computedBefore(
   return leaves.empty() || leaves[0].arrays[0] == computed ? computed : nullptr;
 }
 
-/// Applies the mask, if one is chosen. Datasets without its array are all gas, unless all lack it.
-void applyMask(
-  const MediumSettings& settings, const std::vector<vtkDataSet*>& dataSets, Source& source)
+/// Applies the mask, if there is one. Datasets without its array are all gas; it is an error if all
+/// lack one that the user has chosen (`isChosen`).
+void applyMask(const MediumSettings& settings, bool isChosen,
+  const std::vector<vtkDataSet*>& dataSets, Source& source)
 {
   if (!settings.Arrays[MediumSettings::MaskArray].isNamed())
   {
@@ -270,7 +271,7 @@ void applyMask(
     leaf.data = masked;
     source.made.emplace_back(masked);
   }
-  if (!isFound)
+  if (!isFound && isChosen)
   {
     throwNotFound({ selection }, dataSets);
   }
@@ -358,7 +359,7 @@ Source chooseSource(
     requireScalars(leaf, selections, dataSets);
   }
   source.label = labelOf(source.leaves[0].arrays, selections);
-  applyMask(settings, dataSets, source);
+  applyMask(settings, given.Arrays[MediumSettings::MaskArray].isChosen(), dataSets, source);
   flattenLayers(settings, source, like);
   return source;
 }

@@ -6,6 +6,7 @@
 #include "Common/AvailableMemory.h"
 #include "Input/FlatData.h"
 #include "Input/GatheredData.h"
+#include "Input/OneLayer.h"
 #include "Sources/ImagePiece.h"
 
 #include "vtkCellData.h"
@@ -116,6 +117,7 @@ struct PiecesOfRanks::Facts
     vtkIdType cells;
     std::uint64_t places;
     PointExtent extent;
+    LayerBounds layer;
   } numbers;
 };
 
@@ -124,7 +126,7 @@ PiecesOfRanks::Facts PiecesOfRanks::factsOf(const DatasetPiece& piece)
   Facts facts{ piece.slot, arraysIn(piece.data),
     { piece.data->GetDataObjectType(), dimensionOf(piece.data),
       hasCellValues(piece.data) ? layersForCells : layersForPoints, piece.data->GetNumberOfCells(),
-      placesOf(piece.data), noPoints } };
+      placesOf(piece.data), noPoints, layerBoundsOf(piece.data) } };
   if (isGrid(piece.data))
   {
     facts.numbers.extent = extentOf(piece.data, false);
@@ -183,6 +185,7 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
 {
   std::map<Slot, Dataset> datasets;
   std::map<Slot, std::string> arrays;
+  std::vector<LayerBounds> layers; // of all pieces with 3-D cells
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
     for (const Facts& facts : all[rank])
@@ -202,6 +205,10 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
         throw std::runtime_error(
           "The pieces of the input on several ranks have not the same arrays. Check the reader or "
           "filter that has made them.");
+      }
+      if (numbers.dimension == 3)
+      {
+        layers.push_back(numbers.layer);
       }
       dataset.type = dataset.type == numbers.type ? dataset.type : -1;
       dataset.dimension = std::max(dataset.dimension, numbers.dimension);
@@ -227,6 +234,7 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
   {
     this->Datasets.push_back(std::move(entry.second));
   }
+  this->IsOneLayer = areOneLayer(layers);
 }
 
 double PiecesOfRanks::cells() const
@@ -256,9 +264,10 @@ PiecesOfRanks::Kind PiecesOfRanks::kind() const
     dimension = std::max(dimension, dataset.dimension);
   }
   const bool isOneImage = areImages && this->Datasets.size() == 1 && this->Datasets[0].slot.empty();
-  return !areDivisible || dimension < 3 || (areImages && !isOneImage) ? Kind::Gathered
-    : isOneImage                                                      ? Kind::Image
-                                                                      : Kind::Meshes;
+  return !areDivisible || dimension < 3 || this->IsOneLayer || (areImages && !isOneImage)
+    ? Kind::Gathered
+    : isOneImage ? Kind::Image
+                 : Kind::Meshes;
 }
 
 vtkSmartPointer<vtkDataObject> PiecesOfRanks::gather()

@@ -34,7 +34,7 @@ public:
   /// Kinds of three-dimensional data that need not be gathered.
   enum class Kind
   {
-    Gathered, // others: adaptive blocks, surfaces, planes
+    Gathered, // others: adaptive blocks, surfaces, planes, data that are one cell thick
     Meshes,
     Image
   };
@@ -77,7 +77,7 @@ private:
   vtkSmartPointer<vtkDataSet> ownOf(const Dataset& dataset) const;
 
   std::vector<Dataset> Datasets;
-  bool IsAmr = false;
+  bool IsAmr = false, IsOneLayer = false;
 };
 
 } // namespace filters

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bench/TargetError.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr double coarsestTolerance = 0.01, finestTolerance = 3e-4;
+
+constexpr double longestStepAtWalls = 1, shortestStep = 0.25; // voxels
+constexpr std::array<int, 4> raysPerPixel{ 1, 4, 16, 64 };
+
+/// The error of a step by its difference to half of it: 4/3 of it for an order of 2. Beside walls the order is below 1.
+constexpr double errorByHalving = 1.5;
+/// The error of n rays by their difference to 4 n: it falls as 1 / n, about.
+constexpr double errorByFourfold = 1.33;
+/// By how much it falls from n to 4 n, at least.
+constexpr double leastGain = 3.5;
+/// For what the blocks have not seen.
+constexpr double margin = 1.2;
+
+double sumOf(double a, double b, double c = 0, double d = 0)
+{
+  return std::sqrt(a * a + b * b + c * c + d * d);
+}
+
+/// Finds errors of steps and rays per pixel when they are requested.
+template <class Real>
+class Ladder
+{
+public:
+  using Blocks = typename Pilot<Real>::Blocks;
+
+  Ladder(Pilot<Real>& pilot, double longest, bool hasFilm, const Monitor& monitor)
+    : pilot_(pilot)
+    , longest_(longest)
+    , hasFilm_(hasFilm)
+    , monitor_(monitor)
+  {
+  }
+
+  double longest() const { return longest_; }
+
+  double ofStep(double step)
+  {
+    if (step <= shortestStep) // not traced any finer
+    {
+      return 0.5 * ofStep(2 * step);
+    }
+    return errorByHalving *
+      percentile99(pilot_.compare(Blocks::ToChoose, { step, 1 }, { 0.5 * step, 1 }, monitor_));
+  }
+
+  /// `allowed`: where the error of 16 rays is less than that by what 4 gain, it is not measured.
+  double ofRays(int samples, double allowed)
+  {
+    constexpr int cheap = 4, mostCompared = 16;
+    constexpr double trust = 0.7, most = 16;
+    if (!hasFilm_)
+    {
+      return 0;
+    }
+    if (samples > mostCompared)
+    {
+      return ofRays(samples / 4, 0) / leastGain;
+    }
+    if (samples > cheap)
+    {
+      const double before = ofRays(cheap, allowed);
+      const double gain =
+        before > 0 ? std::clamp(trust * ofRays(1, allowed) / before, leastGain, most) : leastGain;
+      if (before / gain <= allowed)
+      {
+        return before / gain;
+      }
+    }
+    return errorByFourfold *
+      percentile99(pilot_.compare(
+        Blocks::ToChoose, { longest_, samples }, { longest_, 4 * samples }, monitor_));
+  }
+
+private:
+  Pilot<Real>& pilot_;
+  double longest_;
+  bool hasFilm_;
+  const Monitor& monitor_;
+};
+
+ErrorSource limitOf(double ofSteps, double ofRays, const KnownErrors& known)
+{
+  const std::array<std::pair<double, ErrorSource>, 4> all{ {
+    { ofSteps, ErrorSource::Steps },
+    { ofRays, ErrorSource::RaysPerPixel },
+    { known.voxels, ErrorSource::Voxels },
+    { known.rounding, ErrorSource::Rounding },
+  } };
+  const auto most = std::max_element(
+    all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return most->first > 0 ? most->second : ErrorSource::None;
+}
+
+/// The fewest rays, and then the longest steps, whose errors keep the target together.
+template <class Real>
+AccurateSettings cheapest(double target, Ladder<Real>& ladder, const KnownErrors& known)
+{
+  const double fixed = sumOf(known.voxels, known.rounding);
+  // Where nothing can keep the target, the rest shall not add to that.
+  const double allowed = std::sqrt(std::max(target * target / (margin * margin) - fixed * fixed,
+    0.25 * target * target / (margin * margin)));
+  constexpr double shareOfRays = 0.9; // steps need something, too
+  AccurateSettings settings{ ladder.longest(), raysPerPixel.front(), {} };
+  double ofRays = 0, ofSteps = 0;
+  for (const int samples : raysPerPixel)
+  {
+    settings.samples = samples;
+    ofRays = ladder.ofRays(samples, shareOfRays * allowed);
+    if (ofRays <= shareOfRays * allowed)
+    {
+      break;
+    }
+  }
+  const double rest = std::max(allowed * allowed - ofRays * ofRays, 0.19 * allowed * allowed);
+  for (double step = ladder.longest(); step >= shortestStep; step *= 0.5)
+  {
+    settings.step = step;
+    ofSteps = ladder.ofStep(step);
+    if (ofSteps * ofSteps <= rest)
+    {
+      break;
+    }
+  }
+  settings.accuracy = { target, margin * sumOf(ofRays, ofSteps, known.voxels, known.rounding), 0,
+    limitOf(ofSteps, ofRays, known) };
+  return settings;
+}
+
+} // namespace
+
+double toleranceForTarget(const Field& field, const Scene& scene)
+{
+  double tolerance = 0.003;
+  if (techniqueOf(scene.cutoff).hasFringes)
+  {
+    const Box all = field.source->bounds();
+    const MediumSource::Content content = field.source->contentOf(all);
+    double square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      square += (all.high[axis] - all.low[axis]) * (all.high[axis] - all.low[axis]);
+    }
+    // A third of the most fringes, each of which is wrong by half of the tolerance.
+    const double fringes =
+      (content.highest - content.lowest) * std::sqrt(square) * field.lengthScale / scene.wavelength;
+    tolerance = fringes > 0 ? 6 * scene.targetError / fringes : coarsestTolerance;
+  }
+  return std::clamp(tolerance, finestTolerance, coarsestTolerance);
+}
+
+template <class Real>
+KnownErrors knownErrors(
+  const PilotBench<Real>& bench, const PilotView& view, double deflectionError, double k)
+{
+  constexpr double roundingOfPath = 1.7e-7; // of itself, in single precision
+  constexpr double typicalByLargest = 0.5;  // of a ray's error and the largest sum of its leaves'
+  const Scene& scene = bench.scene;
+  const Technique& technique = techniqueOf(scene.cutoff);
+  const double eps = typicalByLargest * deflectionError;
+  KnownErrors known;
+  if (technique.hasFringes)
+  {
+    const double fringes = view.path / scene.wavelength;
+    known.rounding = scene.precision == Precision::Single ? roundingOfPath * fringes : 0;
+    known.voxels = deflectionError > 0 ? typicalByLargest * scene.mediumTolerance * fringes : 0;
+  }
+  else if (technique.plane == RecordedPlane::Background)
+  {
+    known.voxels = eps * std::abs(bench.projection.distance) * bench.projection.perDataUnit;
+  }
+  else if (technique.hasK())
+  {
+    constexpr double steepestNumerical = 5; // exp(-5 k |eps|)
+    known.voxels = (scene.cutoff == Cutoff::NumericalSchlieren ? steepestNumerical : 1) * k * eps;
+  }
+  else
+  {
+    known.voxels =
+      view.largestDeflection > 0 ? typicalByLargest * deflectionError / view.largestDeflection : 0;
+  }
+  return known;
+}
+
+bool changeMedium(const KnownErrors& known, bool isMemoryShort, Scene& scene)
+{
+  const double allowed = scene.targetError / margin;
+  constexpr double shareOfRounding = 0.25, shareOfVoxels = 0.7;
+  if (scene.precision == Precision::Single && known.rounding > shareOfRounding * allowed)
+  {
+    scene.precision = Precision::Double;
+    return true;
+  }
+  if (known.voxels > shareOfVoxels * allowed && scene.mediumTolerance > finestTolerance &&
+    !isMemoryShort)
+  {
+    scene.mediumTolerance =
+      std::max(finestTolerance, scene.mediumTolerance * 0.5 * allowed / known.voxels);
+    return true;
+  }
+  return false;
+}
+
+/// Finds what other blocks say of settings, and writes it into them. Nothing if aborted.
+template <class Real>
+void verify(
+  AccurateSettings& settings, Pilot<Real>& pilot, const KnownErrors& known, const Monitor& monitor)
+{
+  const Scene& scene = pilot.bench().scene;
+  const int more = isOfCamera(scene.cutoff) ? 1 : settings.samples <= 4 ? 4 : 2;
+  const Differences differences = pilot.compare(Pilot<Real>::Blocks::ToVerify,
+    { settings.step, settings.samples }, { 0.5 * settings.step, more * settings.samples }, monitor);
+  Accuracy& accuracy = settings.accuracy;
+  accuracy.target = scene.targetError;
+  accuracy.reached =
+    sumOf(errorByFourfold * percentile99(differences), known.voxels, known.rounding);
+  accuracy.largest = sumOf(errorByFourfold * largestOf(differences), known.voxels, known.rounding);
+}
+
+template <class Real>
+AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors& known,
+  const AccurateSettings* before, const Monitor& monitor)
+{
+  const Scene& scene = pilot.bench().scene;
+  const double target = scene.targetError;
+  const double longest = hasWalls ? longestStepAtWalls : longestStep;
+  const auto isAborted = [&] { return monitor.aborted && monitor.aborted(); };
+  AccurateSettings settings{};
+  if (before)
+  {
+    constexpr double wasteful = 0.2;
+    settings = *before;
+    verify(settings, pilot, known, monitor);
+    const bool isCheapest = settings.samples == raysPerPixel.front() && settings.step >= longest;
+    if (isAborted() ||
+      (settings.accuracy.isKept() && (isCheapest || settings.accuracy.reached > wasteful * target)))
+    {
+      return settings;
+    }
+  }
+  Ladder<Real> ladder(pilot, longest, !isOfCamera(scene.cutoff), monitor);
+  double aim = target;
+  for (int tries = 0; tries < 3 && !isAborted(); ++tries)
+  {
+    settings = cheapest(aim, ladder, known);
+    verify(settings, pilot, known, monitor);
+    const bool isFinest = settings.step <= shortestStep && settings.samples == raysPerPixel.back();
+    if (settings.accuracy.isKept() || isFinest)
+    {
+      break;
+    }
+    aim *= std::clamp(0.8 * target / settings.accuracy.reached, 0.25, 0.8);
+  }
+  return settings;
+}
+
+template KnownErrors knownErrors(
+  const PilotBench<float>&, const PilotView&, double deflectionError, double k);
+template KnownErrors knownErrors(
+  const PilotBench<double>&, const PilotView&, double deflectionError, double k);
+template AccurateSettings chooseFor(
+  Pilot<float>&, bool hasWalls, const KnownErrors&, const AccurateSettings* before, const Monitor&);
+template AccurateSettings chooseFor(Pilot<double>&, bool hasWalls, const KnownErrors&,
+  const AccurateSettings* before, const Monitor&);
+
+} // namespace schlieren

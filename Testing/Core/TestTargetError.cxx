@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// Scene::targetError: whether the error that an image is said to have is the one that it has.
+#include "AnalyticSources.h"
+#include "Fields.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace schlieren
+{
+
+namespace
+{
+
+double ball(double x, double y, double z) { return 1e-3 * std::exp(-6 * (x * x + y * y + z * z)); }
+
+/// A shock of three voxels across, oblique to all axes, before a ball.
+double shock(double x, double y, double z)
+{
+  const double across = 0.8 * x + 0.5 * y + 0.33 * z - 0.1;
+  return 1e-4 * std::tanh(across / 0.05) + 3e-4 * std::exp(-8 * (x * x + y * y + z * z));
+}
+
+struct Case
+{
+  const char* name;
+  Cutoff cutoff;
+  double target;
+};
+void PrintTo(const Case& of, std::ostream* out) { *out << of.name; }
+
+Scene sceneOf(const Case& of)
+{
+  Scene scene;
+  scene.device = Device::Cpu;
+  scene.cutoff = of.cutoff;
+  scene.view.width = scene.view.height = 96;
+  scene.view.viewDirection = { 0.3, -0.4, -1 };
+  scene.wavelength = 1e-4; // ten fringes
+  scene.screenDistance = 4;
+  scene.background.distance = 4;
+  return scene;
+}
+
+/// What settings beyond those that can be chosen make.
+Image finest(const Field& field, Scene scene, double k)
+{
+  scene.targetError = 0;
+  scene.interpolation = Interpolation::Cubic;
+
+  scene.stepSize = 0.5;
+  scene.mediumTolerance = 1e-4;
+  scene.pathModel = PathModel::Refracted;
+  scene.samplesPerPixel = isOfCamera(scene.cutoff) ? 1 : 64;
+  if (k > 0)
+  {
+    scene.kScale = k;
+  }
+  return Bench().render(field, scene);
+}
+
+/// The largest difference to a neighbour.
+double slopeAt(const Image& image, int column, int row)
+{
+  const auto light = [&](int i, int j)
+  {
+    return static_cast<double>(image.intensity[pixelOf(
+      image, std::clamp(i, 0, image.width - 1), std::clamp(j, 0, image.height - 1))]);
+  };
+  double slope = 0;
+  for (const int step : { -1, 1 })
+  {
+    slope = std::max({ slope, std::abs(light(column + step, row) - light(column, row)),
+      std::abs(light(column, row + step) - light(column, row)) });
+  }
+  return slope;
+}
+
+/// The error of 99 % of the pixels whose light has crossed the data, by the definition of Scene::targetError.
+double trueError(const Image& image, const Image& truth, const Scene& scene)
+{
+  std::vector<double> errors;
+  for (std::size_t pixel = 0; pixel < truth.intensity.size(); ++pixel)
+  {
+    if (truth.opticalPathDifference[pixel] == 0)
+    {
+      continue;
+    }
+    const double ofLight = std::abs(
+      static_cast<double>(image.intensity[pixel]) - static_cast<double>(truth.intensity[pixel]));
+    if (scene.cutoff == Cutoff::Background)
+    {
+      const auto off = [&](std::size_t axis)
+      {
+        return static_cast<double>(image.backgroundDisplacement[2 * pixel + axis]) -
+          static_cast<double>(truth.backgroundDisplacement[2 * pixel + axis]);
+      };
+      errors.push_back(std::hypot(off(0), off(1)) / image.frame.pixelSize);
+    }
+    else if (scene.cutoff == Cutoff::Interferogram)
+    {
+      errors.push_back(std::max(ofLight / pi,
+        std::abs(image.opticalPathDifference[pixel] - truth.opticalPathDifference[pixel]) /
+          scene.wavelength));
+    }
+    else if (scene.cutoff == Cutoff::Shadowgraph)
+    {
+      const int column = static_cast<int>(pixel) % truth.width;
+      const int row = static_cast<int>(pixel) / truth.width;
+      errors.push_back(std::max(0., ofLight - 0.05 * slopeAt(truth, column, row)));
+    }
+    else
+    {
+      errors.push_back(ofLight);
+    }
+  }
+  const auto rank = static_cast<std::size_t>(0.99 * static_cast<double>(errors.size()));
+  std::nth_element(
+    errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(rank), errors.end());
+  return errors.at(rank);
+}
+
+class TargetError : public testing::TestWithParam<Case>
+{
+protected:
+  /// Targets from what can be seen to a tenth of what cannot.
+  void expectKept(const Field& field) const
+  {
+    Scene scene = sceneOf(GetParam());
+    double before = std::numeric_limits<double>::infinity();
+    Image truth;
+    for (const double share : { 8., 1., 0.125 })
+    {
+      scene.targetError = share * GetParam().target;
+      SCOPED_TRACE(scene.targetError);
+      Bench bench;
+      const Image image = bench.render(field, scene);
+      if (truth.intensity.empty())
+      {
+        truth = finest(field, scene, image.kScale);
+        scene.kScale = image.kScale > 0 ? std::optional<double>(image.kScale) : std::nullopt;
+      }
+      const double error = trueError(image, truth, scene);
+      EXPECT_EQ(image.accuracy.target, scene.targetError);
+      EXPECT_NE(image.accuracy.limit, ErrorSource::None);
+      if (image.accuracy.isKept())
+      {
+        EXPECT_LE(error, scene.targetError);
+      }
+      EXPECT_LE(error, 1.05 * before + 1e-6);
+      // Below a tenth of the target it need not be known.
+      EXPECT_GT(image.accuracy.reached, 0.5 * error - 0.1 * scene.targetError);
+      EXPECT_LT(image.accuracy.reached, 3 * error + 0.5 * scene.targetError);
+      before = error;
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Techniques, TargetError,
+  testing::Values(Case{ "KnifeEdge", Cutoff::KnifeEdge, 1. / 256 },
+    Case{ "Circular", Cutoff::Circular, 1. / 256 },
+    Case{ "Shadowgraph", Cutoff::Shadowgraph, 1. / 256 },
+    Case{ "Interferogram", Cutoff::Interferogram, 0.02 },
+    Case{ "Background", Cutoff::Background, 0.02 }),
+  [](const testing::TestParamInfo<Case>& test) { return test.param.name; });
+
+TEST_P(TargetError, IsKeptBySmoothFlow)
+{
+  const SampledField<float> field(cube(48, 1), ball);
+  expectKept(field.field);
+}
+
+TEST_P(TargetError, IsKeptAtAShock)
+{
+  const SampledField<float> field(cube(48, 1), shock);
+  expectKept(field.field);
+}
+
+TEST_P(TargetError, IsKeptInATree)
+{
+  expectKept(fieldOf(
+    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.4, 1e-3 } }, 1., 0.1)));
+}
+
+/// What nothing can keep is said.
+TEST(TargetErrors, ThatCannotBeKeptAreSaid)
+{
+  const SampledField<float> field(cube(24, 1), shock);
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  scene.view.width = scene.view.height = 12;
+  scene.targetError = 1e-12;
+  const Image image = Bench().render(field.field, scene);
+  EXPECT_FALSE(image.accuracy.isKept());
+  EXPECT_GT(image.accuracy.reached, 1e-12);
+  EXPECT_GE(image.accuracy.largest, image.accuracy.reached);
+}
+
+/// Single precision has an error of 0.02 fringes in 10^5.
+TEST(TargetErrors, TakeDoublePrecisionForManyFringes)
+{
+  const SampledField<double> field(cube(32, 1), ball);
+  Scene scene = sceneOf({ "", Cutoff::Interferogram, 0 });
+  scene.view.width = scene.view.height = 8;
+  scene.samplesPerPixel = 1;
+  scene.wavelength = 1e-8;
+  scene.targetError = 0.02;
+  Bench bench;
+  EXPECT_EQ(bench.render(field.field, scene).width, 8);
+  EXPECT_EQ(bench.work().mediumBuilds, 2);
+}
+
+/// A new view, or another knife edge, needs no new medium.
+TEST(TargetErrors, KeepTheMedium)
+{
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  scene.view.width = scene.view.height = 64;
+  scene.targetError = 1. / 256;
+  const Field field = fieldOf(
+    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.4, 1e-3 } }, 1., 0.1));
+  Bench bench;
+  bench.render(field, scene);
+  const std::int64_t builds = bench.work().mediumBuilds;
+  scene.knifeEdgeAngle = 30;
+  EXPECT_TRUE(bench.render(field, scene).accuracy.isKept());
+  EXPECT_EQ(bench.work().raySets, 1);
+  scene.view.viewDirection = { 1, 0.1, 0.2 };
+  EXPECT_TRUE(bench.render(field, scene).accuracy.isKept());
+  EXPECT_EQ(bench.work().mediumBuilds, builds);
+}
+
+TEST(TargetErrors, AbortedEndsThem)
+{
+  const SampledField<float> field(cube(32, 1), shock);
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  scene.targetError = 1. / 256;
+  Bench bench;
+  EXPECT_TRUE(bench.render(field.field, scene, { {}, [] { return true; } }).aborted);
+  EXPECT_FALSE(bench.render(field.field, scene).aborted);
+}
+
+TEST(TargetErrors, AreRefusedWhereTheyAreNone)
+{
+  const SampledField<float> field(cube(8, 1), shock);
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  for (const double bad : { -1., std::numeric_limits<double>::quiet_NaN() })
+  {
+    scene.targetError = bad;
+    EXPECT_THROW(Bench().render(field.field, scene), Error);
+  }
+}
+
+/// Where no light crosses the data there is nothing to keep.
+TEST(TargetErrors, NeedLight)
+{
+  const SampledField<float> field(cube(8, 1), shock);
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  scene.view.focalPoint = Vector{ 100, 0, 0 };
+  scene.view.parallelScale = 1;
+  scene.targetError = 1. / 256;
+  const Image image = Bench().render(field.field, scene);
+  EXPECT_TRUE(image.accuracy.isKept());
+  EXPECT_EQ(image.accuracy.reached, 0);
+}
+
+} // namespace
+
+} // namespace schlieren
