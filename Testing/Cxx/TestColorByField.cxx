@@ -4,6 +4,8 @@
 // Images tinted by the colours of the fields whose gradients light crosses (ColorByField).
 #include "BallOnLevels.h"
 #include "Fixtures.h"
+#include "Sources/MediumMaker.h"
+#include "Surfaces.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkMultiBlockDataSet.h"
@@ -242,6 +244,47 @@ TEST(ColorByField, OfAMesh)
   toMesh->Update();
   auto filter = tinted(toMesh->GetOutput());
   EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue)), 1.01);
+}
+
+// What a field is inside of a body does not matter, of any data.
+TEST(ColorByField, FieldsEndWithTheGas)
+{
+  const auto image = flow();
+  vtkNew<vtkAppendFilter> toMesh;
+  toMesh->AddInputData(image);
+  toMesh->Update();
+  const auto cells = cube(17);
+  addCellArray(cells, "N", [](const Vec& x) { return 1e-6 * x[0] * x[1]; });
+  addCellArray(cells, "A", acrossX);
+  vtkNew<vtkMultiBlockDataSet> amr; // of one level
+  amr->SetBlock(0, cells);
+  const auto body = box({ 0.8, 0.8, 0.8 });
+  for (vtkDataObject* data :
+    std::initializer_list<vtkDataObject*>{ image, toMesh->GetOutputDataObject(0), amr })
+  {
+    SCOPED_TRACE(data->GetClassName());
+    filters::MediumMaker maker;
+    maker.settings.IndexModel = MediumSettings::Refractivity;
+    maker.settings.Arrays[MediumSettings::IndexArray].name = "N";
+    maker.settings.Fields = { "A" };
+    std::string warning;
+    const auto source = maker.makeSource(data, body, warning, true);
+    ASSERT_EQ(source->fields(), 1);
+    const schlieren::Lattice lattice{ { -0.9, -0.9, -0.9 }, { 0.1, 0.1, 0.1 }, { 19, 19, 19 } };
+    const auto size = static_cast<std::size_t>(lattice.size());
+    std::vector<double> refractivity(size), field(size);
+    std::vector<schlieren::Place> places(size);
+    source->sampleWithFields(lattice, refractivity.data(), places.data(), nullptr, field.data());
+    int inside = 0, wrong = 0;
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const bool isGas = places[i] == schlieren::Place::Gas;
+      inside += isGas ? 0 : 1;
+      wrong += std::isfinite(field[i]) == isGas ? 0 : 1;
+    }
+    EXPECT_GE(inside, 7 * 7 * 7);
+    EXPECT_EQ(wrong, 0);
+  }
 }
 
 // In the leaves of a tree, against an image of voxels of 0.03. A grid over all of the mesh would have voxels that are

@@ -10,7 +10,6 @@
 
 #include "Input/InputDescription.h"
 #include "Schlieren.h"
-#include "Sources/MeshSource.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -133,6 +132,15 @@ Source sourceOf(vtkRefractiveIndex* filter, vtkDataObject* input, vtkDataObject*
 {
   std::string warning;
   return filter->GetMaker().makeSource(input, bodies, warning);
+}
+
+/// The source of prepared meshes.
+std::shared_ptr<const filters::PieceSource> stepOf(
+  const filters::PreparedLeaves& prepared, std::shared_ptr<filters::KeptMesh>& kept)
+{
+  return filters::sourceOfMeshes(prepared,
+    { filters::CellTree::Reconstruction::Smooth, filters::Outside::Auto, -1 }, nullptr,
+    filters::WorkProgress(), kept);
 }
 
 /// Values may differ in curved cells, where places are found by an iteration.
@@ -479,12 +487,12 @@ TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
       mesh->GetPointData()->SetActiveScalars("N");
       return std::vector<vtkSmartPointer<vtkDataSet>>{ mesh };
     };
-    using filters::WorkProgress;
     const schlieren::Lattice lattice{ { -0.2, 0.1, 0.1 }, { 0.07, 0.06, 0.05 }, { 20, 20, 20 } };
-    const auto check = [&](filters::MeshSource& source, double time)
+    auto kept = std::make_shared<filters::KeptMesh>();
+    for (const double time : { 0., 3. })
     {
-      source.addField(leavesAt(time));
-      source.addField(leavesAt(time + 1));
+      const auto made = stepOf({ leavesAt(time), { leavesAt(time), leavesAt(time + 1) } }, kept);
+      const filters::PieceSource& source = *made;
       ASSERT_EQ(source.fields(), 2);
       const auto size = static_cast<std::size_t>(lattice.size());
       std::vector<double> alone(size), values(size), ofFields(2 * size);
@@ -506,16 +514,23 @@ TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
         EXPECT_FALSE(std::equal(
           ofFields.begin() + static_cast<std::ptrdiff_t>(size), ofFields.end(), ofFields.begin()));
       }
+      // Of more points than numbers of 16 bits count.
+      const schlieren::Lattice large{ lattice.first, lattice.spacing, { 20, 20, 170 } };
+      const auto largeSize = static_cast<std::size_t>(large.size());
+      std::vector<double> ofLarge(largeSize), fieldsOfLarge(2 * largeSize);
+      std::vector<schlieren::Place> placesOfLarge(largeSize);
+      source.sampleWithFields(
+        large, ofLarge.data(), placesOfLarge.data(), nullptr, fieldsOfLarge.data());
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        ASSERT_EQ(std::isnan(fieldsOfLarge[i]), std::isnan(ofFields[i])) << i;
+        EXPECT_FALSE(std::abs(fieldsOfLarge[i] - ofFields[i]) > 1e-15) << i;
+      }
       const auto range = source.rangeOfField(0, source.bounds());
       const auto content = source.contentOf(source.bounds());
       EXPECT_EQ(range.lowest, content.lowest);
       EXPECT_EQ(range.highest, content.highest);
-    };
-    filters::MeshSource first(leavesAt(0), nullptr, filters::Outside::Auto,
-      filters::CellTree::Reconstruction::Smooth, WorkProgress());
-    check(first, 0);
-    filters::MeshSource second(leavesAt(3), first.mesh(), WorkProgress());
-    check(second, 3);
+    }
   }
 }
 
@@ -530,7 +545,7 @@ TEST(MeshSteps, LatticesAreKeptAsLongAsTheyAreNeeded)
     mesh->GetPointData()->SetActiveScalars("N");
     return std::vector<vtkSmartPointer<vtkDataSet>>{ mesh };
   };
-  const auto sample = [](const filters::MeshSource& source, double at, bool hasDistances)
+  const auto sample = [](const filters::PieceSource& source, double at, bool hasDistances)
   {
     const schlieren::Lattice lattice{ { at, at, at }, { 0.03, 0.03, 0.03 }, { 20, 20, 20 } };
     std::vector<double> values(20 * 20 * 20);
@@ -538,20 +553,16 @@ TEST(MeshSteps, LatticesAreKeptAsLongAsTheyAreNeeded)
     std::vector<float> distances(values.size());
     source.sample(lattice, values.data(), places.data(), hasDistances ? distances.data() : nullptr);
   };
-  using filters::WorkProgress;
-  const filters::MeshSource first(leavesAt(0), nullptr, filters::Outside::Auto,
-    filters::CellTree::Reconstruction::Smooth, WorkProgress());
-  sample(first, 0.1, false);
-  EXPECT_EQ(first.mesh().lattices, nullptr);
-  filters::SourceMesh mesh = first.mesh();
+  auto kept = std::make_shared<filters::KeptMesh>();
+  sample(*stepOf({ leavesAt(0), {} }, kept), 0.1, false);
+  EXPECT_EQ(kept->lattices, nullptr);
   std::vector<std::size_t> bytes;
   for (int step = 1; step < 9; ++step)
   {
-    const filters::MeshSource next(leavesAt(step), mesh, WorkProgress());
-    mesh = next.mesh();
-    sample(next, 0.1, true);
-    sample(next, step < 4 ? 0.2 : 0.2 + step, false); // from then on a new one with each step
-    bytes.push_back(mesh.lattices->bytes());
+    const auto next = stepOf({ leavesAt(step), {} }, kept);
+    sample(*next, 0.1, true);
+    sample(*next, step < 4 ? 0.2 : 0.2 + step, false); // from then on a new one with each step
+    bytes.push_back(kept->lattices->bytes());
   }
   constexpr std::size_t points = 20 * 20 * 20;
   EXPECT_GT(bytes[0], points * 5); // places and distances of the first lattice, and cells of both

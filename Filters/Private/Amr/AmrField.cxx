@@ -365,36 +365,27 @@ CellTree::Content AmrField::contentOf(const schlieren::Box& box) const
   return content;
 }
 
-void AmrField::sample(
-  const schlieren::Lattice& lattice, const CellBox& points, double* values) const
+void AmrField::sample(const schlieren::Lattice& lattice, double* values) const
 {
   const std::size_t number = this->levelFor(lattice);
   const Level& level = this->Levels[number];
-  schlieren::Box all{}, part{};
+  schlieren::Box places{};
   std::array<std::vector<double>, 3> middles; // in cells of the level from the domain's corner
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    // Clamps points outside of the domain to its border.
-    const auto middleOf = [&](int point)
+    for (int i = 0; i < lattice.points[axis]; ++i)
     {
-      const double at = lattice.first[axis] + point * lattice.spacing[axis] - this->Origin[axis];
-      return std::clamp(
-        onFaces(at / level.spacing[axis]) - 0.5, -atBorder, level.cells[axis] - 1 + atBorder);
-    };
-    const auto placeOf = [&](int point)
-    { return this->Origin[axis] + (middleOf(point) + 0.5) * level.spacing[axis]; };
-    for (int i = points.begin[axis]; i < points.end[axis]; ++i)
-    {
-      middles[axis].push_back(middleOf(i));
+      // Clamps points outside of the domain to its border.
+      const double at = lattice.first[axis] + i * lattice.spacing[axis] - this->Origin[axis];
+      middles[axis].push_back(std::clamp(
+        onFaces(at / level.spacing[axis]) - 0.5, -atBorder, level.cells[axis] - 1 + atBorder));
     }
-    all.low[axis] = placeOf(0);
-    all.high[axis] = placeOf(lattice.points[axis] - 1);
-    part.low[axis] = placeOf(points.begin[axis]);
-    part.high[axis] = placeOf(points.end[axis] - 1);
+    const auto placeOf = [&](double middle)
+    { return this->Origin[axis] + (middle + 0.5) * level.spacing[axis]; };
+    places.low[axis] = placeOf(middles[axis].front());
+    places.high[axis] = placeOf(middles[axis].back());
   }
-  // Reads the cells that the points depend on, but none that the whole lattice would not read.
-  const CellBox box =
-    intersection(this->cellsIn(level, all, reach), this->cellsIn(level, part, cellsOfSpline));
+  const CellBox box = this->cellsIn(level, places, reach);
   std::vector<double> found = this->valuesIn(number, box);
   Counts cells = box.size();
   for (std::size_t axis = 0; axis < this->axes(); ++axis)

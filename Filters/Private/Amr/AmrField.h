@@ -54,14 +54,10 @@ public:
   bool hasGasAt(const Point& place) const;
   /// Returns hasGasAt() for all points of a lattice.
   std::vector<unsigned char> gasAt(const schlieren::Lattice& lattice) const;
-  /// Samples the points of a lattice whose indices are in `points`; NaN in solids.
-  void sample(const schlieren::Lattice& lattice, const CellBox& points, double* values) const;
+  /// Samples the points of a lattice; NaN in solids.
+  void sample(const schlieren::Lattice& lattice, double* values) const;
 
 private:
-  /// Maximum distance, in cells of the lattice's level, of the cells that a value depends on: two
-  /// coefficients, which read two more cells. Coarser levels are read less far.
-  static constexpr int cellsOfSpline = 4;
-
   /// Known cells of a level: those of a block, or means of a finer block's cells.
   struct Block
   {

@@ -27,18 +27,18 @@ schlieren::MediumSource::FieldRange FieldsOfMesh::rangeOf(
 }
 
 void FieldsOfMesh::sample(
-  const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const
+  const schlieren::Lattice& lattice, const CellsOfLattice* cells, double* values) const
 {
   const auto size = static_cast<std::size_t>(lattice.size());
   std::vector<unsigned char> isFound(size, 0);
-  for (const std::uint16_t point : cells.points)
+  for (const std::uint16_t point : cells ? cells->points : std::vector<std::uint16_t>())
   {
     isFound[point] = 1;
   }
   for (const auto& field : this->Fields)
   {
     const CellSampler sampler(field->cells);
-    if (!sampler.sample(lattice, cells, values))
+    if (!cells || !sampler.sample(lattice, *cells, values))
     {
       sampler.sample(lattice, values, isFound.data());
     }

@@ -32,7 +32,8 @@ public:
   /// Returns the range of a field; see MediumSource.
   schlieren::MediumSource::FieldRange rangeOf(int field, const schlieren::Box& box) const;
   /// Interpolates in the lattice's cells, field after field; NaN where a field has no value.
-  void sample(const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const;
+  /// `cells`: null: to be searched.
+  void sample(const schlieren::Lattice& lattice, const CellsOfLattice* cells, double* values) const;
 
 private:
   struct Field

@@ -86,6 +86,14 @@ public:
     return values;
   }
 
+  /// Appends what putAll() has written to more of the same.
+  template <class Values>
+  void AddAll(Values& values)
+  {
+    const auto more = this->GetAll<Values>();
+    values.insert(values.end(), more.begin(), more.end());
+  }
+
   /// Appends the unread bytes to another message.
   void GetRest(std::vector<char>& bytes)
   {

@@ -52,15 +52,16 @@ private:
   double From = 0, To = 1;
 };
 
-/// Length of a chunk of forChunks().
+/// Default length of a chunk of forChunks().
 constexpr vtkIdType chunkSize = 4096;
 
 /// Calls work(begin, end) in several threads for chunks of 0 to `count`, which begin at multiples
-/// of chunkSize. Cancels between groups of chunks that are short enough to end soon.
+/// of `size`. Cancels between groups of chunks that are short enough to end soon.
 template <class Work>
-void forChunks(vtkIdType count, const WorkProgress& progress, const Work& work)
+void forChunks(
+  vtkIdType count, const WorkProgress& progress, const Work& work, vtkIdType size = chunkSize)
 {
-  const vtkIdType chunks = (count + chunkSize - 1) / chunkSize;
+  const vtkIdType chunks = (count + size - 1) / size;
   const vtkIdType atOnce = vtkIdType{ 8 } * vtkSMPTools::GetEstimatedNumberOfThreads();
   for (vtkIdType first = 0; first < chunks; first += atOnce)
   {
@@ -70,7 +71,7 @@ void forChunks(vtkIdType count, const WorkProgress& progress, const Work& work)
       {
         for (vtkIdType chunk = begin; chunk < end; ++chunk)
         {
-          work(chunk * chunkSize, std::min(count, (chunk + 1) * chunkSize));
+          work(chunk * size, std::min(count, (chunk + 1) * size));
         }
       });
     progress.reach(static_cast<double>(last) / static_cast<double>(chunks));

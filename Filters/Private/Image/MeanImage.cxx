@@ -59,6 +59,16 @@ void add(schlieren::Histogram& sum, schlieren::Histogram&& histogram)
 } // namespace
 
 //------------------------------------------------------------------------------
+void addRays(schlieren::Image& sum, const schlieren::Image& image)
+{
+  sum.raysTraced += image.raysTraced;
+  sum.stepsTaken += image.stepsTaken;
+  sum.raysBlocked += image.raysBlocked;
+  sum.raysLost += image.raysLost;
+  sum.traceSeconds += image.traceSeconds;
+}
+
+//------------------------------------------------------------------------------
 void MeanImage::Add(schlieren::Image&& image)
 {
   schlieren::Image& mean = this->Mean;
@@ -81,12 +91,7 @@ void MeanImage::Add(schlieren::Image&& image)
   approach(mean.light.onFilm, image.light.onFilm, n);
   approach(mean.light.outside, image.light.outside, n);
   add(mean.histogram, std::move(image.histogram));
-
-  mean.raysTraced += image.raysTraced;
-  mean.stepsTaken += image.stepsTaken;
-  mean.raysBlocked += image.raysBlocked;
-  mean.raysLost += image.raysLost;
-  mean.traceSeconds += image.traceSeconds;
+  addRays(mean, image);
 
   // Keeps the worst value.
   mean.pathModel = std::max(mean.pathModel, image.pathModel);

@@ -19,4 +19,7 @@ private:
   int Images = 0;
 };
 
+/// Adds the numbers of rays and steps, and the time.
+void addRays(schlieren::Image& sum, const schlieren::Image& image);
+
 } // namespace filters

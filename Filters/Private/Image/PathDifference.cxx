@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/PathDifference.h"
 
+#include "Image/MeanImage.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -36,11 +38,7 @@ schlieren::Image differenceOf(
   subtract(image.displacement, straight.displacement);
   subtract(image.blockedFraction, straight.blockedFraction);
   image.undisturbedLevel = middle;
-  image.raysTraced += straight.raysTraced;
-  image.stepsTaken += straight.stepsTaken;
-  image.raysBlocked += straight.raysBlocked;
-  image.raysLost += straight.raysLost;
-  image.traceSeconds += straight.traceSeconds;
+  addRays(image, straight);
   image.accuracy.reached = 0.5 * std::hypot(image.accuracy.reached, straight.accuracy.reached);
   image.accuracy.largest = 0.5 * std::hypot(image.accuracy.largest, straight.accuracy.largest);
   image.samples = std::min(image.samples, straight.samples);

@@ -262,13 +262,14 @@ void applyMask(const MediumSettings& settings, bool isChosen,
     }
     isFound = true;
     requireScalars(found[0], { selection }, dataSets);
-    source.made.push_back(hideMasked(leaf,
-      { found[0].arrays[0], found[0].ofCells, settings.MaskThreshold, settings.MaskedSide == 0 }));
+    const vtkSmartPointer<vtkDataSet> masked = hideMasked(leaf,
+      { found[0].arrays[0], found[0].ofCells, settings.MaskThreshold, settings.MaskedSide == 0 });
     if (source.image == leaf.data)
     {
-      source.image = vtkImageData::SafeDownCast(source.made.back());
+      source.image = vtkImageData::SafeDownCast(masked);
     }
-    leaf.data = source.made.back();
+    leaf.data = masked;
+    source.made.emplace_back(masked);
   }
   if (!isFound && isChosen)
   {

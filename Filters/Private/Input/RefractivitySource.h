@@ -15,6 +15,7 @@
 class vtkDataObject;
 class vtkDataSet;
 class vtkImageData;
+class vtkObject;
 
 /// Selects what is read of an input. User errors are thrown as std::runtime_error whose message has
 /// the problem, its cause and a remedy.
@@ -24,9 +25,9 @@ namespace filters
 /// The data and arrays to read of an input.
 struct Source
 {
-  std::vector<Leaf> leaves;                      // at least one
-  std::vector<vtkSmartPointer<vtkDataSet>> made; // modified data: masked, extruded
-  vtkImageData* image = nullptr;                 // data of the only leaf if its own grid is used
+  std::vector<Leaf> leaves;                     // at least one
+  std::vector<vtkSmartPointer<vtkObject>> made; // modified data and arrays: masked, extruded
+  vtkImageData* image = nullptr;                // data of the only leaf if its own grid is used
   Model model;
   double depth = 0;            // depth of flat data, see depthOf(); 0: to be chosen
   bool isDepthGiven = false;   // by the user

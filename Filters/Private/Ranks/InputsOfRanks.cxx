@@ -220,12 +220,13 @@ std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
   Source source;
   source.model = modelFrom(settings);
   source.noteOnGases = noteOnGases(settings);
-  if (!this->Made.hasGas)
+  if (!this->Made.source)
   {
     throw std::runtime_error(noGas(this->Made.label));
   }
   this->Made.source->use(&this->All);
-  warning = this->Maker->warningOf(source, this->Made.tally, bodies && !this->Made.meetsBodies);
+  warning =
+    this->Maker->warningOf(source, this->Made.tally, bodies && !this->Made.source->meetsBodies());
   return this->Made.source;
 }
 
@@ -265,18 +266,14 @@ void InputsOfRanks::release()
 void InputsOfRanks::answerArrays()
 {
   std::vector<FlowArray> all;
-  const auto ofRanks = this->All.all().allGather(
+  this->All.all().allGather(
     [&]
     {
       std::vector<char> bytes;
       putArrays(flowArraysOf(dataSetsOf(this->Own[0]), true), bytes);
       return bytes;
-    });
-  for (const std::vector<char>& bytes : ofRanks)
-  {
-    Reader reader(bytes);
-    addArrays(all, getArrays(reader));
-  }
+    },
+    [&](Reader& reader) { addArrays(all, getArrays(reader)); });
   this->Maker->known().SetOfRanks(std::move(all));
 }
 
@@ -339,7 +336,7 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
     case Release:
       this->Held = nullptr;
       this->Made = {};
-      this->Kept = {};
+      this->Kept.release();
       break;
     case SamplesOverRanks::requestOfBricks:
       if (!this->Held || this->Held->number() != reader.Get<std::uint64_t>())

@@ -4,6 +4,7 @@
 
 #include "Ranks/Ranks.h"
 #include "Ranks/SourceOverRanks.h"
+#include "Sources/KeptMesh.h"
 
 #include "vtkSmartPointer.h"
 
@@ -98,7 +99,7 @@ private:
   bool InPieces = false;
   double GatheredVersion = -1, GatheredMost = -1; // of the gathered data
   std::vector<std::string> GatheredArrays;
-  KeptOverRanks Kept;
+  KeptMesh Kept;
   MadeOverRanks Made;
   std::shared_ptr<const SamplesOverRanks> Held; // on all ranks
 };

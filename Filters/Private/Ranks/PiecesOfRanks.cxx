@@ -12,17 +12,11 @@
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkGhostCellsGenerator.h"
 #include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkRectilinearGrid.h"
-#include "vtkStructuredGrid.h"
 #include "vtkUniformGridAMR.h"
-#include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <map>
@@ -40,8 +34,6 @@ namespace
 /// it, and of the next ones if these are few; point values found from cells need twice as many.
 constexpr int layersForPoints = 2;
 constexpr int layersForCells = 4;
-
-constexpr const char* hiddenName = "SchlierenHidden";
 
 /// Returns whether cells have values.
 bool hasCellValues(vtkDataSet* mesh)
@@ -112,151 +104,6 @@ std::string arraysIn(vtkDataSet* data)
   return text;
 }
 
-vtkSmartPointer<vtkDataSet> emptyOf(int type)
-{
-  switch (type)
-  {
-    case VTK_IMAGE_DATA:
-      return vtkSmartPointer<vtkImageData>::New();
-    case VTK_RECTILINEAR_GRID:
-      return vtkSmartPointer<vtkRectilinearGrid>::New();
-    case VTK_STRUCTURED_GRID:
-      return vtkSmartPointer<vtkStructuredGrid>::New();
-    default:
-      return vtkSmartPointer<vtkUnstructuredGrid>::New();
-  }
-}
-
-bool canHaveGhostCells(int type)
-{
-  return type == VTK_IMAGE_DATA || type == VTK_RECTILINEAR_GRID || type == VTK_STRUCTURED_GRID ||
-    type == VTK_UNSTRUCTURED_GRID;
-}
-
-/// Makes point numbers that are equal on all ranks, from positions and from the count of earlier
-/// points at the same one. VTK 9.2 would compare rounded positions.
-vtkSmartPointer<vtkIdTypeArray> globalIdsOf(vtkDataSet* mesh)
-{
-  const vtkIdType count = mesh->GetNumberOfPoints();
-  std::vector<std::pair<std::uint64_t, vtkIdType>> places;
-  places.reserve(static_cast<std::size_t>(count));
-  for (vtkIdType id = 0; id < count; ++id)
-  {
-    double at[3];
-    mesh->GetPoint(id, at);
-    for (double& x : at)
-    {
-      x += 0.; // makes -0 equal 0
-    }
-    Hash hash;
-    hash.add(at, 3);
-    places.emplace_back(hash.value(), id);
-  }
-  std::sort(places.begin(), places.end());
-  auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
-  ids->SetName("SchlierenPoints");
-  ids->SetNumberOfValues(count);
-  std::uint64_t before = 0;
-  for (std::size_t n = 0; n < places.size(); ++n)
-  {
-    before = n > 0 && places[n].first == places[n - 1].first ? before + 1 : 0;
-    Hash hash;
-    hash.add(places[n].first);
-    hash.add(before);
-    ids->SetValue(places[n].second, static_cast<vtkIdType>(hash.value() >> 1));
-  }
-  return ids;
-}
-
-/// Copies the hidden flags of a ghost array to an array that VTK passes on like any other.
-void setAsideHidden(vtkDataSet* mesh, int kind)
-{
-  vtkUnsignedCharArray* ghosts = mesh->GetGhostArray(kind);
-  vtkNew<vtkUnsignedCharArray> hidden;
-  hidden->SetName(hiddenName);
-  hidden->SetNumberOfValues(mesh->GetNumberOfElements(kind));
-  for (vtkIdType i = 0; i < hidden->GetNumberOfValues(); ++i)
-  {
-    hidden->SetValue(i, ghosts ? static_cast<unsigned char>(ghosts->GetValue(i) & ~1) : 0);
-  }
-  mesh->GetAttributes(kind)->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-  mesh->GetAttributes(kind)->AddArray(hidden);
-}
-
-/// Restores the flags of copies and of hidden cells and points.
-void restoreHidden(vtkDataSet* mesh, int kind)
-{
-  vtkDataSetAttributes* attributes = mesh->GetAttributes(kind);
-  vtkUnsignedCharArray* ghosts = mesh->GetGhostArray(kind);
-  auto* hidden = vtkUnsignedCharArray::SafeDownCast(attributes->GetArray(hiddenName));
-  const int kept = kind == vtkDataObject::CELL ? 0xff : 0xfe;
-  vtkNew<vtkUnsignedCharArray> flags;
-  flags->SetName(vtkDataSetAttributes::GhostArrayName());
-  flags->SetNumberOfValues(mesh->GetNumberOfElements(kind));
-  for (vtkIdType i = 0; i < flags->GetNumberOfValues(); ++i)
-  {
-    const int own = (ghosts ? ghosts->GetValue(i) : 0) | (hidden ? hidden->GetValue(i) : 0);
-    flags->SetValue(i, static_cast<unsigned char>(own & kept));
-  }
-  attributes->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-  attributes->RemoveArray(hiddenName);
-  attributes->AddArray(flags);
-}
-
-/// Returns a rank's extent without that of ranks before it, because readers may give grids with
-/// copies of others' cells. Ranks whose extents contain each other number their points separately.
-PiecesOfRanks::Extent withoutOverlap(const std::vector<PiecesOfRanks::Extent>& extents,
-  const std::vector<std::size_t>& ranks, std::size_t rank)
-{
-  const auto at =
-    static_cast<std::size_t>(std::find(ranks.begin(), ranks.end(), rank) - ranks.begin());
-  PiecesOfRanks::Extent own = extents[at];
-  for (std::size_t n = 0; n < at; ++n)
-  {
-    const PiecesOfRanks::Extent& other = extents[n];
-    bool overlap = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      overlap = overlap &&
-        (own[2 * axis] == own[2 * axis + 1] ||
-          std::max(own[2 * axis], other[2 * axis]) <
-            std::min(own[2 * axis + 1], other[2 * axis + 1]));
-    }
-    for (std::size_t axis = 0; overlap && axis < 3; ++axis)
-    {
-      int& low = own[2 * axis];
-      int& high = own[2 * axis + 1];
-      if (other[2 * axis] < low && other[2 * axis + 1] < high)
-      {
-        low = other[2 * axis + 1];
-        overlap = false;
-      }
-      else if (low < other[2 * axis] && high < other[2 * axis + 1])
-      {
-        high = other[2 * axis];
-        overlap = false;
-      }
-    }
-  }
-  return own;
-}
-
-void crop(vtkDataSet* grid, const PiecesOfRanks::Extent& extent)
-{
-  if (auto* image = vtkImageData::SafeDownCast(grid))
-  {
-    image->Crop(extent.data());
-  }
-  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(grid))
-  {
-    rectilinear->Crop(extent.data());
-  }
-  else if (auto* structured = vtkStructuredGrid::SafeDownCast(grid))
-  {
-    structured->Crop(extent.data());
-  }
-}
-
 } // namespace
 
 /// The description of a piece that is sent to all ranks.
@@ -269,7 +116,7 @@ struct PiecesOfRanks::Facts
     int type, dimension, layers;
     vtkIdType cells;
     std::uint64_t places;
-    Extent extent;
+    PointExtent extent;
     LayerBounds layer;
   } numbers;
 };
@@ -279,7 +126,7 @@ PiecesOfRanks::Facts PiecesOfRanks::factsOf(const DatasetPiece& piece)
   Facts facts{ piece.slot, arraysIn(piece.data),
     { piece.data->GetDataObjectType(), dimensionOf(piece.data),
       hasCellValues(piece.data) ? layersForCells : layersForPoints, piece.data->GetNumberOfCells(),
-      placesOf(piece.data), { 0, -1, 0, -1, 0, -1 }, layerBoundsOf(piece.data) } };
+      placesOf(piece.data), noPoints, layerBoundsOf(piece.data) } };
   if (isGrid(piece.data))
   {
     facts.numbers.extent = extentOf(piece.data, false);
@@ -291,7 +138,10 @@ PiecesOfRanks::PiecesOfRanks(
   const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays)
   : All(ranks)
 {
-  const std::vector<Ranks::Bytes> ofRanks = ranks.allGather(
+  std::vector<std::vector<Facts>> all;
+  std::set<std::pair<Slot, std::uint64_t>> known;
+  std::vector<DatasetPiece> kept;
+  ranks.allGather(
     [&]
     {
       this->Own = own ? piecesOf(own, arrays) : std::vector<DatasetPiece>();
@@ -305,32 +155,28 @@ PiecesOfRanks::PiecesOfRanks(
         put(facts.numbers, bytes);
       }
       return bytes;
-    });
-  std::vector<std::vector<Facts>> all;
-  std::set<std::pair<Slot, std::uint64_t>> known;
-  std::vector<DatasetPiece> kept;
-  for (const Ranks::Bytes& bytes : ofRanks)
-  {
-    const std::size_t rank = all.size();
-    all.emplace_back();
-    Reader reader(bytes);
-    this->IsAmr = reader.Get<bool>() || this->IsAmr;
-    for (std::size_t n = 0; !reader.IsAtEnd(); ++n)
+    },
+    [&](Reader& reader)
     {
-      Facts facts;
-      facts.slot = reader.GetAll<Slot>();
-      facts.arrays = reader.GetAll<std::string>();
-      facts.numbers = reader.Get<Facts::Numbers>();
-      if (known.emplace(facts.slot, facts.numbers.places).second)
+      const std::size_t rank = all.size();
+      all.emplace_back();
+      this->IsAmr = reader.Get<bool>() || this->IsAmr;
+      for (std::size_t n = 0; !reader.IsAtEnd(); ++n)
       {
-        all.back().push_back(std::move(facts));
-        if (rank == ranks.rank())
+        Facts facts;
+        facts.slot = reader.GetAll<Slot>();
+        facts.arrays = reader.GetAll<std::string>();
+        facts.numbers = reader.Get<Facts::Numbers>();
+        if (known.emplace(facts.slot, facts.numbers.places).second)
         {
-          kept.push_back(this->Own[n]);
+          all.back().push_back(std::move(facts));
+          if (rank == ranks.rank())
+          {
+            kept.push_back(this->Own[n]);
+          }
         }
       }
-    }
-  }
+    });
   this->Own = std::move(kept);
   this->findDatasets(all);
 }
@@ -439,18 +285,15 @@ vtkSmartPointer<vtkDataObject> PiecesOfRanks::gather()
         pack(piece, own);
       }
     });
-  const auto sizes = this->All.allGather(
+  double bytes = 0;
+  this->All.allGather(
     [&]
     {
       Ranks::Bytes size;
       put(static_cast<double>(own.size()), size);
       return size;
-    });
-  double bytes = 0;
-  for (const Ranks::Bytes& size : sizes)
-  {
-    bytes += Reader(size).Get<double>();
-  }
+    },
+    [&](Reader& reader) { bytes += reader.Get<double>(); });
   this->All.agree(
     [&]
     {
@@ -464,6 +307,32 @@ vtkSmartPointer<vtkDataObject> PiecesOfRanks::gather()
   return this->All.rank() == 0 ? gatheredData(all) : nullptr;
 }
 
+/// Returns this rank's piece of a dataset; null if it has none. All ranks call it.
+vtkSmartPointer<vtkDataSet> PiecesOfRanks::ownOf(const Dataset& dataset) const
+{
+  vtkSmartPointer<vtkDataSet> own;
+  this->All.agree(
+    [&]
+    {
+      std::vector<vtkSmartPointer<vtkDataSet>> pieces;
+      for (const DatasetPiece& piece : this->Own)
+      {
+        if (piece.slot == dataset.slot)
+        {
+          pieces.push_back(piece.data);
+        }
+      }
+      pieces = pieces.size() > 1 ? joined(pieces) : pieces;
+      if (pieces.size() > 1)
+      {
+        throw std::runtime_error("A rank has several pieces of one dataset of the input, which "
+                                 "are no dataset together. Make them blocks of their own.");
+      }
+      own = pieces.empty() ? nullptr : pieces[0];
+    });
+  return own;
+}
+
 std::vector<PiecesOfRanks::Piece> PiecesOfRanks::withGhostCells()
 {
   const bool isImage = this->kind() == Kind::Image;
@@ -471,70 +340,19 @@ std::vector<PiecesOfRanks::Piece> PiecesOfRanks::withGhostCells()
   for (std::size_t n = 0; n < this->Datasets.size(); ++n)
   {
     const Dataset& dataset = this->Datasets[n];
-    vtkSmartPointer<vtkDataSet> own;
-    this->All.agree(
-      [&]
-      {
-        std::vector<vtkSmartPointer<vtkDataSet>> pieces;
-        for (const DatasetPiece& piece : this->Own)
-        {
-          if (piece.slot == dataset.slot)
-          {
-            pieces.push_back(piece.data);
-          }
-        }
-        pieces = pieces.size() > 1 ? joined(pieces) : pieces;
-        if (pieces.size() > 1)
-        {
-          throw std::runtime_error("A rank has several pieces of one dataset of the input, which "
-                                   "are no dataset together. Make them blocks of their own.");
-        }
-        own = pieces.empty() ? nullptr : pieces[0];
-      });
-    Extent extent{ 0, -1, 0, -1, 0, -1 };
-    if (own && isGrid(own))
+    vtkSmartPointer<vtkDataSet> own = this->ownOf(dataset);
+    PointExtent extent = own && isGrid(own) ? extentOf(own, false) : noPoints;
+    if (dataset.ranks.size() > 1)
     {
-      extent = extentOf(own, false);
-    }
-    const bool hasGhosts = dataset.ranks.size() > 1;
-    if (hasGhosts)
-    {
-      const vtkSmartPointer<vtkDataSet> given = emptyOf(dataset.type);
-      if (own)
-      {
-        given->ShallowCopy(own);
-      }
-      if (own)
-      {
-        setAsideHidden(given, vtkDataObject::POINT);
-        setAsideHidden(given, vtkDataObject::CELL);
-      }
       if (own && isGrid(own))
       {
-        extent = withoutOverlap(dataset.extents, dataset.ranks, this->All.rank());
-        crop(given, extent);
+        const auto before = std::find(dataset.ranks.begin(), dataset.ranks.end(), this->All.rank());
+        extent =
+          withoutOverlap(dataset.extents, static_cast<std::size_t>(before - dataset.ranks.begin()));
       }
-      else if (own)
-      {
-        given->GetPointData()->SetGlobalIds(globalIdsOf(given));
-      }
-      vtkNew<vtkGhostCellsGenerator> generator;
-      generator->SetInputData(given);
-      generator->BuildIfRequiredOff();
       // Limits the layers, because VTK 9.2 reads beyond thinner grids.
-      generator->SetNumberOfGhostLayers(
+      own = filters::withGhostCells(own, dataset.type, extent,
         std::min(isImage ? ImagePiece::layers : dataset.layers, dataset.thinnest));
-      generator->Update();
-      auto* made = vtkDataSet::SafeDownCast(generator->GetOutputDataObject(0));
-      if (own)
-      {
-        own = vtkSmartPointer<vtkDataSet>::Take(made->NewInstance());
-        own->ShallowCopy(made);
-        own->GetPointData()->SetGlobalIds(nullptr);
-        own->GetPointData()->RemoveArray("SchlierenPoints");
-        restoreHidden(own, vtkDataObject::POINT);
-        restoreHidden(own, vtkDataObject::CELL);
-      }
     }
     if (own)
     {

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "Input/DatasetPieces.h"
+#include "Ranks/GhostCells.h"
 #include "Ranks/Ranks.h"
 
 #include "vtkSmartPointer.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -25,8 +25,6 @@ namespace filters
 class PiecesOfRanks
 {
 public:
-  using Extent = std::array<int, 6>;
-
   /// Describes the named arrays of `own`, which may be null. Throws std::runtime_error, as all
   /// functions do.
   PiecesOfRanks(const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays);
@@ -50,10 +48,10 @@ public:
   struct Piece
   {
     vtkSmartPointer<vtkDataSet> data;
-    std::uint32_t dataset; ///< equal on all ranks
-    Extent own, whole;     ///< points of an image or grid, without copies, and on all ranks
+    std::uint32_t dataset;  ///< equal on all ranks
+    PointExtent own, whole; ///< points of an image or grid, without copies, and on all ranks
   };
-  /// Adds ghost cells by vtkGhostCellsGenerator. Different datasets are not neighbours.
+  /// Adds ghost cells. Different datasets are not neighbours.
   std::vector<Piece> withGhostCells();
 
 private:
@@ -71,11 +69,13 @@ private:
     int dimension = 0;
     int layers = 0; ///< cells around a piece that its values depend on
     int thinnest = std::numeric_limits<int>::max(); ///< cells along any edge of a grid's pieces
-    std::vector<Extent> extents{};                  ///< pieces, in the order of ranks
+    std::vector<PointExtent> extents{};             ///< pieces, in the order of ranks
     double cells = 0;
-    Extent whole{};
+    PointExtent whole{};
     std::vector<std::size_t> ranks{}; ///< that have a piece
   };
+  vtkSmartPointer<vtkDataSet> ownOf(const Dataset& dataset) const;
+
   std::vector<Dataset> Datasets;
   bool IsAmr = false, IsOneLayer = false;
 };

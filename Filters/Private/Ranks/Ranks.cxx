@@ -196,6 +196,16 @@ std::vector<Ranks::Bytes> Ranks::allGather(const std::function<Bytes()>& make) c
   return resultsOf(std::move(all));
 }
 
+void Ranks::allGather(
+  const std::function<Bytes()>& make, const std::function<void(Reader&)>& read) const
+{
+  for (const Bytes& bytes : this->allGather(make))
+  {
+    Reader reader(bytes);
+    read(reader);
+  }
+}
+
 void Ranks::agree(const std::function<void()>& work) const
 {
   this->allGather(

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Common/Message.h"
+
 #include "Schlieren.h"
 
 #include <cstdint>
@@ -51,6 +53,9 @@ public:
   using Bytes = std::vector<char>;
   /// Collects the results of all ranks on all ranks.
   std::vector<Bytes> allGather(const std::function<Bytes()>& make) const;
+  /// Reads the results of all ranks, in turn, on all ranks.
+  void allGather(
+    const std::function<Bytes()>& make, const std::function<void(Reader&)>& read) const;
   /// Throws on all ranks if `work` throws on one.
   void agree(const std::function<void()>& work) const;
   /// Returns the data of all ranks on `root`, nothing on others. Does not fail.

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/SamplesOverRanks.h"
 
-#include "Cells/LatticeDistances.h"
 #include "Common/ForEach.h"
-#include "Input/DatasetPieces.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,8 +15,18 @@ namespace filters
 namespace
 {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr schlieren::MediumSource::FieldRange nowhere{ 1, 0 };
+
+/// Returns whether two boxes have a point in common.
+bool meet(const schlieren::Box& a, const schlieren::Box& b)
+{
+  bool meet = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    meet = meet && a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
+  }
+  return meet;
+}
 
 } // namespace
 
@@ -28,20 +36,6 @@ void extend(schlieren::Box& box, const schlieren::Box& by)
   {
     box.low[axis] = std::min(box.low[axis], by.low[axis]);
     box.high[axis] = std::max(box.high[axis], by.high[axis]);
-  }
-}
-
-void extend(CellTree::Content& content, const CellTree::Content& by)
-{
-  if (by.lowest <= by.highest)
-  {
-    const bool isFirst = content.lowest > content.highest;
-    content.lowest = isFirst ? by.lowest : std::min(content.lowest, by.lowest);
-    content.highest = isFirst ? by.highest : std::max(content.highest, by.highest);
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    content.cellSize[axis] = std::min(content.cellSize[axis], by.cellSize[axis]);
   }
 }
 
@@ -56,20 +50,30 @@ void extend(
   }
 }
 
-SamplesOverRanks::SamplesOverRanks(const Ranks& ranks, std::uint64_t number, Facts facts,
-  std::unique_ptr<const DataPiece> piece, std::shared_ptr<const GasBoundary> boundary,
-  std::shared_ptr<LatticesOfMesh> lattices, int threads)
-  : AllRanks(ranks)
-  , Number(number)
-  , All(std::move(facts))
-  , Piece(std::move(piece))
-  , Boundary(std::move(boundary))
-  , Lattices(std::move(lattices))
-  , Threads(threads)
+void extend(CellTree::Content& content, const CellTree::Content& by)
 {
-  OwnContent all{ this->All.content, {} };
-  all.holds.fill(1);
-  this->Whole = this->contentFrom(this->All.bounds, all);
+  schlieren::MediumSource::FieldRange range{ content.lowest, content.highest };
+  extend(range, { by.lowest, by.highest });
+  content.lowest = range.lowest;
+  content.highest = range.highest;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    content.cellSize[axis] = std::min(content.cellSize[axis], by.cellSize[axis]);
+  }
+}
+
+SamplesOverRanks::SamplesOverRanks(const Ranks& ranks, std::uint64_t number,
+  std::unique_ptr<const DataPiece> piece, const DataPiece::Facts& facts,
+  std::vector<FieldRange> fields, std::shared_ptr<const GasBoundary> boundary, double ambient,
+  std::shared_ptr<LatticesOfMesh> lattices, int threads)
+  : PieceSource(std::move(piece), std::move(boundary), ambient, std::move(lattices), facts)
+  , AllRanks(ranks)
+  , Number(number)
+  , Own(this->piece().facts())
+  , Ranges(std::move(fields))
+  , Threads(threads)
+  , Whole(this->contentWith(facts.bounds, { facts.content, { 1, 1, 1, 1, 1, 1, 1, 1, 1 } }))
+{
 }
 
 SamplesOverRanks::BoxKey SamplesOverRanks::keyOf(const schlieren::Box& box)
@@ -85,89 +89,83 @@ SamplesOverRanks::LatticeKey SamplesOverRanks::keyOf(const schlieren::Lattice& l
     static_cast<double>(points[2]) };
 }
 
-/// Combines kinds of points, by the boundary, with the cells that have gas.
-schlieren::MediumSource::Content SamplesOverRanks::contentFrom(
+schlieren::MediumSource::Content SamplesOverRanks::contentWith(
   const schlieren::Box& box, const OwnContent& found) const
 {
-  Content content{ 1, 0, { infinity, infinity, infinity }, false, false, false };
   const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
-  this->Boundary->findPlaces(
-    box,
-    [&](const Point& place)
-    {
-      const auto at = std::find(tested.begin(), tested.end(), place);
-      return at != tested.end() && found.holds[static_cast<std::size_t>(at - tested.begin())] != 0;
-    },
-    content);
-  if (content.hasGas)
+  const auto holds = [&](const Point& place)
   {
-    content.lowest = found.cells.lowest;
-    content.highest = found.cells.highest;
-    content.cellSize = found.cells.cellSize;
-  }
-  return content;
+    const auto at = std::find(tested.begin(), tested.end(), place);
+    return at != tested.end() && found.holds[static_cast<std::size_t>(at - tested.begin())] != 0;
+  };
+  return this->contentFrom(box, holds, [&] { return found.cells; });
 }
 
 SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box& box) const
 {
-  OwnContent own{ { 1, 0, { infinity, infinity, infinity } }, {} };
-  const DataPiece::Summary summary = this->Piece->summary();
-  if (summary.cells > 0 && meet(box, summary.bounds))
+  OwnContent own;
+  if (this->Own.cells > 0 && meet(box, this->Own.bounds))
   {
-    own.cells = this->Piece->contentOf(box);
+    own.cells = this->piece().contentOf(box);
     const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
     for (std::size_t n = 0; n < tested.size(); ++n)
     {
-      own.holds[n] = this->Piece->holds(tested[n]) ? 1 : 0;
+      own.holds[n] = this->piece().holds(tested[n]) ? 1 : 0;
     }
   }
   return own;
 }
 
+void SamplesOverRanks::OwnContent::add(const OwnContent& other)
+{
+  extend(this->cells, other.cells);
+  for (std::size_t place = 0; place < this->holds.size(); ++place)
+  {
+    this->holds[place] = this->holds[place] | other.holds[place];
+  }
+}
+
+/// Writes contents and ranges of fields, of each box.
+std::vector<char> SamplesOverRanks::ownContentsOf(const std::vector<schlieren::Box>& boxes) const
+{
+  const std::size_t fields = this->Ranges.size();
+  std::vector<OwnContent> own(boxes.size());
+  std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
+  forEach(boxes.size(), this->Threads,
+    [&](std::size_t n)
+    {
+      own[n] = this->ownContentOf(boxes[n]);
+      const bool has = own[n].cells.lowest <= own[n].cells.highest;
+      for (std::size_t field = 0; has && field < fields; ++field)
+      {
+        ranges[n * fields + field] = this->piece().rangeOfField(static_cast<int>(field), boxes[n]);
+      }
+    });
+  std::vector<char> bytes;
+  putAll(own, bytes);
+  putAll(ranges, bytes);
+  return bytes;
+}
+
 void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes) const
 {
-  const std::size_t fields = this->All.fields.size();
-  const std::vector<Ranks::Bytes> ofRanks = this->AllRanks.allGather(
-    [&]
-    {
-      std::vector<OwnContent> own(boxes.size());
-      std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
-      forEach(boxes.size(), this->Threads,
-        [&](std::size_t n)
-        {
-          own[n] = this->ownContentOf(boxes[n]);
-          const bool has = own[n].cells.lowest <= own[n].cells.highest;
-          for (std::size_t field = 0; has && field < fields; ++field)
-          {
-            ranges[n * fields + field] =
-              this->Piece->rangeOfField(static_cast<int>(field), boxes[n]);
-          }
-        });
-      Ranks::Bytes bytes;
-      putAll(own, bytes);
-      putAll(ranges, bytes);
-      return bytes;
-    });
-  std::vector<OwnContent> all(boxes.size(), { { 1, 0, { infinity, infinity, infinity } }, {} });
+  const std::size_t fields = this->Ranges.size();
+  std::vector<OwnContent> all(boxes.size());
   std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
-  for (const Ranks::Bytes& bytes : ofRanks)
-  {
-    Reader reader(bytes);
-    const auto own = reader.GetAll<std::vector<OwnContent>>();
-    const auto ownRanges = reader.GetAll<std::vector<FieldRange>>();
-    for (std::size_t n = 0; n < all.size(); ++n)
+  this->AllRanks.allGather([&] { return this->ownContentsOf(boxes); },
+    [&](Reader& reader)
     {
-      extend(all[n].cells, own.at(n).cells);
-      for (std::size_t place = 0; place < all[n].holds.size(); ++place)
+      const auto own = reader.GetAll<std::vector<OwnContent>>();
+      const auto ownRanges = reader.GetAll<std::vector<FieldRange>>();
+      for (std::size_t n = 0; n < all.size(); ++n)
       {
-        all[n].holds[place] = all[n].holds[place] | own[n].holds[place];
+        all[n].add(own.at(n));
       }
-    }
-    for (std::size_t n = 0; n < ranges.size(); ++n)
-    {
-      extend(ranges[n], ownRanges.at(n));
-    }
-  }
+      for (std::size_t n = 0; n < ranges.size(); ++n)
+      {
+        extend(ranges[n], ownRanges.at(n));
+      }
+    });
   this->Boxes.clear();
   std::vector<KnownBox*> known;
   for (const schlieren::Box& box : boxes)
@@ -178,39 +176,42 @@ void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes)
     [&](std::size_t n)
     {
       const auto first = ranges.begin() + static_cast<std::ptrdiff_t>(n * fields);
-      *known[n] = { this->contentFrom(boxes[n], all[n]),
+      *known[n] = { this->contentWith(boxes[n], all[n]),
         { first, first + static_cast<std::ptrdiff_t>(fields) } };
     });
+}
+
+/// Writes, for each rank, the samples of its lattices.
+std::vector<std::vector<char>> SamplesOverRanks::ownSamplesOn(
+  const std::vector<schlieren::Lattice>& lattices) const
+{
+  std::vector<std::vector<char>> ofLattices(lattices.size()), forRanks(this->AllRanks.count());
+  forEach(lattices.size(), this->Threads,
+    [&](std::size_t n)
+    {
+      if (this->Own.cells > 0)
+      {
+        PieceSamples::Of(this->piece(), lattices[n]).Put(ofLattices[n]);
+      }
+    });
+  for (std::size_t n = 0; n < lattices.size(); ++n)
+  {
+    putAll(ofLattices[n], forRanks[n % forRanks.size()]);
+  }
+  return forRanks;
 }
 
 void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lattices) const
 {
   const std::size_t ranks = this->AllRanks.count();
-  std::vector<Ranks::Bytes> packed(ranks); // for each rank
-  this->AllRanks.agree(
-    [&]
-    {
-      std::vector<Ranks::Bytes> ofLattices(lattices.size());
-      forEach(lattices.size(), this->Threads,
-        [&](std::size_t n)
-        {
-          const DataPiece::Summary summary = this->Piece->summary();
-          if (summary.cells > 0)
-          {
-            this->Piece->sample(lattices[n]).Put(ofLattices[n]);
-          }
-        });
-      for (std::size_t n = 0; n < lattices.size(); ++n)
-      {
-        putAll(ofLattices[n], packed[n % ranks]);
-      }
-    });
+  std::vector<Ranks::Bytes> forRanks;
+  this->AllRanks.agree([&] { forRanks = this->ownSamplesOn(lattices); });
   // Defers errors until the last collective, at which others would wait.
   std::vector<Ranks::Bytes> ofRanks;
   for (std::size_t root = 0; root < ranks; ++root)
   {
-    std::vector<Ranks::Bytes> gathered = this->AllRanks.gather(packed[root], root);
-    Ranks::Bytes().swap(packed[root]);
+    std::vector<Ranks::Bytes> gathered = this->AllRanks.gather(forRanks[root], root);
+    Ranks::Bytes().swap(forRanks[root]);
     if (root == this->AllRanks.rank())
     {
       ofRanks = std::move(gathered);
@@ -223,12 +224,12 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
     for (std::size_t n = this->AllRanks.rank(); n < lattices.size(); n += ranks)
     {
       const auto ofLattice = reader.GetAll<Ranks::Bytes>();
-      DataPiece::Samples& samples = this->Samples[keyOf(lattices[n])];
+      PieceSamples& samples = this->Samples[keyOf(lattices[n])];
       if (!ofLattice.empty())
       {
         Reader own(ofLattice);
-        samples.Add(DataPiece::Samples::Get(
-          own, static_cast<std::size_t>(lattices[n].size()), this->All.fields.size()));
+        samples.Add(PieceSamples::Get(
+          own, static_cast<std::size_t>(lattices[n].size()), this->Ranges.size()));
       }
     }
   }
@@ -236,34 +237,32 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
 
 schlieren::MediumSource::Content SamplesOverRanks::contentOf(const schlieren::Box& box) const
 {
-  const bool isAll = box.low == this->All.bounds.low && box.high == this->All.bounds.high;
+  const bool isAll = box.low == this->bounds().low && box.high == this->bounds().high;
   return isAll ? this->Whole : this->Boxes.at(keyOf(box)).content;
 }
 
-const DataPiece::Samples& SamplesOverRanks::samplesOn(const schlieren::Lattice& lattice) const
+/// Copies what has been prepared. `found`: may be null.
+void SamplesOverRanks::sampleGas(const schlieren::Lattice& lattice, double* refractivity,
+  unsigned char* found, double* values, CellsOfLattice*) const
 {
-  return this->Samples.at(keyOf(lattice));
+  const PieceSamples& samples = this->Samples.at(keyOf(lattice));
+  std::fill_n(refractivity, static_cast<std::size_t>(lattice.size()), 0.);
+  std::copy(samples.values.begin(), samples.values.end(), refractivity);
+  if (found)
+  {
+    std::copy(samples.found.begin(), samples.found.end(), found);
+  }
+  if (values)
+  {
+    std::copy(samples.fields.begin(), samples.fields.end(), values);
+  }
 }
 
-void SamplesOverRanks::sample(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances) const
+bool SamplesOverRanks::sampleGasIn(const CellsOfLattice&, const schlieren::Lattice& lattice,
+  double* refractivity, double* values) const
 {
-  const DataPiece::Samples& samples = this->samplesOn(lattice);
-  const auto size = static_cast<std::size_t>(lattice.size());
-  std::fill_n(refractivity, size, 0.);
-  std::copy(samples.values.begin(), samples.values.end(), refractivity);
-  if (const auto known = this->Lattices ? this->Lattices->find(lattice, distances) : nullptr)
-  {
-    known->copyTo(places, distances, size);
-    return;
-  }
-  const std::vector<unsigned char> none(samples.found.empty() ? size : 0, 0);
-  this->Boundary->sample(
-    lattice, none.empty() ? samples.found.data() : none.data(), places, distances);
-  if (this->Lattices && this->Lattices->hasRoomFor(lattice))
-  {
-    this->Lattices->keep(lattice, knownLattice({}, places, distances, size));
-  }
+  this->sampleGas(lattice, refractivity, nullptr, values, nullptr);
+  return true;
 }
 
 schlieren::MediumSource::FieldRange SamplesOverRanks::rangeOfField(
@@ -271,17 +270,7 @@ schlieren::MediumSource::FieldRange SamplesOverRanks::rangeOfField(
 {
   const auto number = static_cast<std::size_t>(field);
   const auto found = this->Boxes.find(keyOf(box));
-  return found == this->Boxes.end() ? this->All.fields[number] : found->second.fields[number];
-}
-
-void SamplesOverRanks::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances, double* values) const
-{
-  this->sample(lattice, refractivity, places, distances);
-  const std::vector<double>& fields = this->samplesOn(lattice).fields;
-  std::fill_n(values, static_cast<std::size_t>(lattice.size()) * this->All.fields.size(),
-    std::numeric_limits<double>::quiet_NaN());
-  std::copy(fields.begin(), fields.end(), values);
+  return found == this->Boxes.end() ? this->Ranges[number] : found->second.fields[number];
 }
 
 std::vector<std::vector<char>> SamplesOverRanks::makeShare(

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Cells/LatticesOfMesh.h"
+#include "Ranks/PieceSamples.h"
 #include "Ranks/Ranks.h"
-#include "Sources/DataPiece.h"
-#include "Walls/GasBoundary.h"
+#include "Sources/PieceSource.h"
 
 #include "Schlieren.h"
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <vector>
@@ -26,22 +26,14 @@ namespace filters
  *
  * Rank 0 has the tree, and requests bricks of the ranks of the filter that uses it, see use().
  */
-class SamplesOverRanks : public schlieren::MediumSource, public schlieren::BrickMakers
+class SamplesOverRanks : public PieceSource, public schlieren::BrickMakers
 {
 public:
-  /// Properties of the whole data.
-  struct Facts
-  {
-    schlieren::Box bounds{};
-    double ambient = 0;
-    std::array<double, 3> voxelShape{ 1, 1, 1 };
-    std::array<double, 9> direction{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-    CellTree::Content content{};
-    std::vector<FieldRange> fields{};
-  };
-  /// `number`: identifies the source on all ranks. `lattices`: of earlier time steps; may be null.
-  SamplesOverRanks(const Ranks& ranks, std::uint64_t number, Facts facts,
-    std::unique_ptr<const DataPiece> piece, std::shared_ptr<const GasBoundary> boundary,
+  /// `number`: identifies the source on all ranks. `facts`, `fields`: of all data, and the ranges of
+  /// their fields. For the others see PieceSource.
+  SamplesOverRanks(const Ranks& ranks, std::uint64_t number, std::unique_ptr<const DataPiece> piece,
+    const DataPiece::Facts& facts, std::vector<FieldRange> fields,
+    std::shared_ptr<const GasBoundary> boundary, double ambient,
     std::shared_ptr<LatticesOfMesh> lattices, int threads);
 
   /// The first bytes of a request for bricks, which other ranks answer by answerBricks().
@@ -53,20 +45,10 @@ public:
   /// Answers a request, from behind its first bytes and number.
   std::vector<char> answerBricks(Reader& request) const;
 
-  schlieren::Box bounds() const override { return this->All.bounds; }
-  double ambient() const override { return this->All.ambient; }
-  std::array<double, 3> voxelShape() const override { return this->All.voxelShape; }
-  std::array<double, 9> direction() const override { return this->All.direction; }
   Content contentOf(const schlieren::Box& box) const override;
-  void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
-    float* distances) const override;
   bool dependsOnLattice() const override { return true; }
-
-  int fields() const override { return static_cast<int>(this->All.fields.size()); }
   /// Returns the range in a prepared box, or that of all data.
   FieldRange rangeOfField(int field, const schlieren::Box& box) const override;
-  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
-    schlieren::Place* places, float* distances, double* values) const override;
 
   const schlieren::BrickMakers* makers() const override { return this; }
   void prepareContents(const std::vector<schlieren::Box>& boxes) const override;
@@ -75,6 +57,12 @@ public:
   int count() const override { return static_cast<int>(this->AllRanks.count()); }
   std::vector<std::vector<char>> make(const schlieren::BrickRules& rules,
     const std::vector<schlieren::BrickRequest>& requests) const override;
+
+protected:
+  void sampleGas(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
+    double* values, CellsOfLattice* cells) const override;
+  bool sampleGasIn(const CellsOfLattice& cells, const schlieren::Lattice& lattice,
+    double* refractivity, double* values) const override;
 
 private:
   struct KnownBox
@@ -85,29 +73,32 @@ private:
   /// Content of a rank in a box: its cells, and which of GasBoundary::testedPlaces() they contain.
   struct OwnContent
   {
-    CellTree::Content cells;
-    std::array<unsigned char, 9> holds;
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    CellTree::Content cells{ 1, 0, { infinity, infinity, infinity } };
+    std::array<unsigned char, 9> holds{};
+
+    void add(const OwnContent& other);
   };
   using BoxKey = std::array<double, 6>;
   using LatticeKey = std::array<double, 9>;
   static BoxKey keyOf(const schlieren::Box& box);
   static LatticeKey keyOf(const schlieren::Lattice& lattice);
-  const DataPiece::Samples& samplesOn(const schlieren::Lattice& lattice) const;
-  Content contentFrom(const schlieren::Box& box, const OwnContent& found) const;
+  Content contentWith(const schlieren::Box& box, const OwnContent& found) const;
   OwnContent ownContentOf(const schlieren::Box& box) const;
+  std::vector<char> ownContentsOf(const std::vector<schlieren::Box>& boxes) const;
+  std::vector<std::vector<char>> ownSamplesOn(
+    const std::vector<schlieren::Lattice>& lattices) const;
   std::vector<std::vector<char>> makeShare(
     const schlieren::BrickRules& rules, const std::vector<schlieren::BrickRequest>& requests) const;
 
   const Ranks AllRanks;
   const std::uint64_t Number;
-  const Facts All;
-  const std::unique_ptr<const DataPiece> Piece;
-  const std::shared_ptr<const GasBoundary> Boundary;
-  const std::shared_ptr<LatticesOfMesh> Lattices;
+  const DataPiece::Facts Own;           // of its piece
+  const std::vector<FieldRange> Ranges; // of the fields of all data
   const int Threads;
-  Content Whole; // of bounds()
+  const Content Whole; // of bounds()
   mutable std::map<BoxKey, KnownBox> Boxes;
-  mutable std::map<LatticeKey, DataPiece::Samples> Samples;
+  mutable std::map<LatticeKey, PieceSamples> Samples;
   mutable FilterRanks* Used = nullptr;
 };
 

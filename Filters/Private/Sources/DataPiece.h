@@ -2,26 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Cells/CellSampler.h"
 #include "Cells/CellTree.h"
 #include "Common/Vectors.h"
 
 #include "Schlieren.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace filters
 {
 
-class Reader;
-
-/// Returns whether two boxes have a point in common.
-bool meet(const schlieren::Box& a, const schlieren::Box& b);
-
-/// A rank's piece of data, and the points that it answers for. Thread-safe.
+/// All data of a process, or a rank's piece of them and the points that it answers for.
+/// Thread-safe.
 class DataPiece
 {
 public:
@@ -31,28 +25,17 @@ public:
   virtual ~DataPiece() = default;
 
   /// Describes the whole piece.
-  struct Summary
+  struct Facts
   {
     std::int64_t cells; ///< or points; 0: no gas
     schlieren::Box bounds;
     CellTree::Content content;
+    std::array<double, 3> voxelShape; ///< see MediumSource, as the others
+    std::array<double, 9> direction;
+    bool isFlat;
   };
-  virtual Summary summary() const = 0;
-
-  /// Returns a number that is equal for two pieces only if their boundaries are equal, apart from
-  /// values; 0: unknown.
-  virtual std::uint64_t meshKey() const { return 0; }
-
-  /// Writes the boundary of its gas for a source of all ranks, preceded by its kind. `cellsOfAll`:
-  /// number of cells of all pieces.
-  enum class BoundaryKind : std::uint32_t
-  {
-    OfMesh, ///< see MeshPiece::putBoundary()
-    OfImage ///< see ImagePiece::putBoundary()
-  };
-  virtual void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const = 0;
-  /// Writes the values at the boundary alone, for pieces with a meshKey().
-  virtual void putBoundaryValues(std::vector<char>&) const {}
+  virtual Facts facts() const = 0;
+  virtual bool dependsOnLattice() const { return true; } ///< see MediumSource
 
   /// Returns the content of a box; see CellTree::content().
   virtual CellTree::Content contentOf(const schlieren::Box& box) const = 0;
@@ -61,29 +44,23 @@ public:
   virtual bool holds(const Point& place) const = 0;
 
   /// Return the number of further fields, and the range of one in a box; see MediumSource.
-  virtual int fields() const { return 0; }
+  virtual int fields() const = 0;
   virtual schlieren::MediumSource::FieldRange rangeOfField(
-    int /*field*/, const schlieren::Box& /*box*/) const
+    int field, const schlieren::Box& box) const = 0;
+
+  /// Sets `found`, 1 or 0, at all points of a lattice that the piece holds(), and there N and fields
+  /// (may be null; field after field; NaN: no value). Of meshes, fills `cells`, if not null.
+  virtual void sample(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
+    double* fields, CellsOfLattice* cells = nullptr) const = 0;
+  /// Samples in cells of an earlier call on the same mesh. Returns false if that is not possible.
+  virtual bool sampleIn(const CellsOfLattice& /*cells*/, const schlieren::Lattice& /*lattice*/,
+    double* /*refractivity*/, double* /*fields*/) const
   {
-    return { 1, 0 };
+    return false;
   }
 
-  /// N at the lattice points that the piece contains, and fields, field after field, NaN where one
-  /// has no value. `found`: empty if it contains no point.
-  struct Samples
-  {
-    std::vector<unsigned char> found;
-    std::vector<double> values;
-    std::vector<double> fields{};
-
-    /// Adds the samples of another piece; of points in both, these have priority.
-    void Add(Samples other);
-
-    void Put(std::vector<char>& message) const;
-    /// Reads what Put() has written for so many points and fields; else throws std::runtime_error.
-    static Samples Get(Reader& message, std::size_t points, std::size_t fields);
-  };
-  virtual Samples sample(const schlieren::Lattice& lattice) const = 0;
+  /// Returns a number that is equal for two pieces only if their meshes are equal; 0: unknown.
+  virtual std::uint64_t meshKey() const { return 0; }
 };
 
 } // namespace filters

@@ -123,16 +123,16 @@ void probe(vtkImageData* image, vtkImageData* grid)
 }
 
 /// Does forFieldImages() for data other than images.
-void forSampledFields(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
-  int threads, const std::function<void(std::size_t, vtkImageData*)>& take)
+void forSampledFields(MediumMaker& maker, vtkDataObject* input, const Source& source,
+  vtkImageData* refractivity, const std::function<void(std::size_t, vtkImageData*)>& take)
 {
   std::string reportedBefore;
-  const auto source = maker.makeSourceOfCells(input, nullptr, reportedBefore, true);
+  const auto made = maker.makeSourceOfCells(source, input, nullptr, reportedBefore, true);
   std::vector<float> all;
   vtkSMPTools::LocalScope(
-    loopsWith(threads), [&] { all = fieldsAtGrid(*source, WorkProgress(), refractivity); });
+    loopsWith(maker.threads()), [&] { all = fieldsAtGrid(*made, WorkProgress(), refractivity); });
   const vtkIdType points = refractivity->GetNumberOfPoints();
-  for (int field = 0; field < source->fields(); ++field)
+  for (int field = 0; field < made->fields(); ++field)
   {
     vtkNew<vtkFloatArray> values;
     values->SetName(arrayName);
@@ -178,21 +178,21 @@ std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataOb
   return ranges;
 }
 
-std::vector<FieldValues> fieldValues(const MediumSettings& medium, vtkDataObject* input,
+std::vector<Source> fieldSources(const MediumSettings& medium, vtkDataObject* input,
   const Source& ofMedium, const std::vector<FieldMean::Range>& ranges)
 {
   requireFields(medium);
-  std::vector<FieldValues> fields(medium.Fields.size());
+  std::vector<Source> fields(medium.Fields.size());
   for (std::size_t number = 0; number < fields.size(); ++number)
   {
     const MediumSettings settings = settingsOfField(medium, number, ranges);
-    FieldValues& field = fields[number];
+    Source& field = fields[number];
     try
     {
-      field.source = sourceOfField(settings, input, &ofMedium);
+      field = sourceOfField(settings, input, &ofMedium);
       if (ranges.empty())
       {
-        std::get<FieldMean>(field.source.model).findRanges(field.source.leaves);
+        std::get<FieldMean>(field.model).findRanges(field.leaves);
       }
     }
     catch (const ArraysMissing&)
@@ -201,37 +201,37 @@ std::vector<FieldValues> fieldValues(const MediumSettings& medium, vtkDataObject
       {
         throw;
       }
-      field.source.model = modelFrom(settings); // a block of another rank has it
+      field.model = modelFrom(settings); // a block of another rank has it
     }
     if (!ranges.empty())
     {
-      std::get<FieldMean>(field.source.model).setRanges({ ranges[number] });
+      std::get<FieldMean>(field.model).setRanges({ ranges[number] });
     }
-    const std::vector<Leaf> found = std::move(field.source.leaves);
-    field.source.leaves.clear();
+    const std::vector<Leaf> found = std::move(field.leaves);
+    field.leaves.clear();
     for (const Leaf& leaf : ofMedium.leaves)
     {
       const auto same = std::find_if(
         found.begin(), found.end(), [&](const Leaf& other) { return other.input == leaf.input; });
       if (same != found.end())
       {
-        field.source.leaves.push_back({ leaf.data, same->arrays, same->ofCells, leaf.input });
+        field.leaves.push_back({ leaf.data, same->arrays, same->ofCells, leaf.input });
         continue;
       }
       auto nowhere = vtkSmartPointer<vtkDoubleArray>::New();
       setTuples(
         nowhere, leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints());
       nowhere->FillValue(std::numeric_limits<double>::quiet_NaN());
-      field.source.leaves.push_back({ leaf.data, { nowhere }, leaf.ofCells, leaf.input });
+      field.leaves.push_back({ leaf.data, { nowhere }, leaf.ofCells, leaf.input });
       field.made.push_back(nowhere);
     }
   }
   return fields;
 }
 
-void bringToCells(FieldValues& field)
+void bringToCells(Source& field)
 {
-  for (Leaf& leaf : field.source.leaves)
+  for (Leaf& leaf : field.leaves)
   {
     if (leaf.ofCells)
     {
@@ -250,16 +250,16 @@ void bringToCells(FieldValues& field)
   }
 }
 
-void forFieldImages(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
-  int threads, const std::function<void(std::size_t, vtkImageData*)>& take,
+void forFieldImages(MediumMaker& maker, vtkDataObject* input, const Source& source,
+  vtkImageData* refractivity, const std::function<void(std::size_t, vtkImageData*)>& take,
   const std::vector<FieldMean::Range>& ranges)
 {
   const MediumSettings& medium = maker.settings;
   requireFields(medium);
   const schlieren::Grid grid = gridFrom(refractivity);
-  if (!maker.keepsGrid(input))
+  if (!maker.keepsGrid(source))
   {
-    forSampledFields(maker, input, refractivity, threads, take);
+    forSampledFields(maker, input, source, refractivity, take);
     return;
   }
   for (std::size_t field = 0; field < medium.Fields.size(); ++field)
@@ -267,7 +267,7 @@ void forFieldImages(MediumMaker& maker, vtkDataObject* input, vtkImageData* refr
     MediumMaker reader;
     reader.settings = settingsOfField(medium, field, ranges);
     std::copy_n(medium.SamplingBounds, 6, reader.settings.SamplingBounds);
-    reader.numberOfThreads = threads;
+    reader.numberOfThreads = maker.threads();
     vtkNew<vtkImageData> values;
     reader.convert(input, values, nullptr, Numbers::Singles);
     if (!isSameGrid(grid, gridFrom(values)))
@@ -291,7 +291,7 @@ std::vector<float> fieldGradients(
     "The fields that color the image, on a grid of " + std::to_string(points) + " points,",
     "Give fewer Fields or smaller SamplingDimensions.");
   std::vector<float> gradients(count * points, 0);
-  forFieldImages(maker, input, refractivity, threads,
+  forFieldImages(maker, input, maker.choose(input), refractivity,
     [&](std::size_t field, vtkImageData* values)
     {
       schlieren::gradientMagnitudes(grid,

@@ -26,13 +26,6 @@ class MediumMaker;
 /// the medium is made with these; else it is relative to its range. User errors are thrown as
 /// std::runtime_error with a message for the user.
 
-/// A field in the form of a refractivity.
-struct FieldValues
-{
-  filters::Source source; // leaves in the order of the medium's; NaN where a leaf lacks the field
-  std::vector<vtkSmartPointer<vtkDataArray>> made; // arrays that are not the input's
-};
-
 /// The range of a field in the data of a rank.
 struct RangeOfField
 {
@@ -42,19 +35,20 @@ struct RangeOfField
 /// Finds the ranges of the fields of `medium`.
 std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataObject* input);
 
-/// Returns the fields of `medium`, which is made by `ofMedium` from `input`. `ranges`: those of all
+/// Returns the fields of `medium` in the form of refractivities, with the leaves of `ofMedium`, by
+/// which the medium is made from `input`; NaN where a leaf lacks the field. `ranges`: those of all
 /// ranks, as a piece may lack fields; empty: there is one rank.
-std::vector<FieldValues> fieldValues(const MediumSettings& medium, vtkDataObject* input,
-  const filters::Source& ofMedium, const std::vector<FieldMean::Range>& ranges = {});
+std::vector<Source> fieldSources(const MediumSettings& medium, vtkDataObject* input,
+  const Source& ofMedium, const std::vector<FieldMean::Range>& ranges = {});
 
 /// Averages point values over cells.
-void bringToCells(FieldValues& field);
+void bringToCells(Source& field);
 
 /// Calls take(number, image) for each field in the form of a refractivity, on the grid of
-/// `refractivity`, which `maker` has made from `input`. `ranges`: those of all ranks; empty: there
-/// is one.
-void forFieldImages(MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity,
-  int threads, const std::function<void(std::size_t, vtkImageData*)>& take,
+/// `refractivity`, which `maker` has made of `source` from `input`. `ranges`: those of all ranks;
+/// empty: there is one.
+void forFieldImages(MediumMaker& maker, vtkDataObject* input, const Source& source,
+  vtkImageData* refractivity, const std::function<void(std::size_t, vtkImageData*)>& take,
   const std::vector<FieldMean::Range>& ranges = {});
 
 /// Returns the gradients of the fields on the grid of `refractivity`, which `maker` has made from

@@ -96,26 +96,16 @@ struct LatticeOfGrid
   template <class Work>
   void forChunks(const WorkProgress& progress, const Work& work) const
   {
-    const int layers = this->lattice.points[this->slow];
-    const int parts = (layers + layersAtATime - 1) / layersAtATime;
-    const int atOnce = 4 * vtkSMPTools::GetEstimatedNumberOfThreads();
-    for (int begin = 0; begin < parts; begin += atOnce)
-    {
-      const int end = std::min(parts, begin + atOnce);
-      vtkSMPTools::For(begin, end, 1,
-        [&](vtkIdType from, vtkIdType to)
-        {
-          for (vtkIdType part = from; part < to; ++part)
-          {
-            const int layer = static_cast<int>(part) * layersAtATime;
-            schlieren::Lattice some = this->lattice;
-            some.points[this->slow] = std::min(layersAtATime, layers - layer);
-            some.first[this->slow] += layer * some.spacing[this->slow];
-            work(some, this->first + layer * this->strides[this->slow]);
-          }
-        });
-      progress.reach(static_cast<double>(end) / parts);
-    }
+    filters::forChunks(
+      this->lattice.points[this->slow], progress,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        schlieren::Lattice some = this->lattice;
+        some.points[this->slow] = static_cast<int>(end - begin);
+        some.first[this->slow] += static_cast<double>(begin) * some.spacing[this->slow];
+        work(some, this->first + begin * this->strides[this->slow]);
+      },
+      layersAtATime);
   }
 
   /// Calls set(point of the chunk, point of the grid) for all of them.

@@ -4,8 +4,8 @@
 
 #include "Amr/AmrFaces.h"
 #include "Common/FieldFromImage.h"
+#include "Common/Message.h"
 #include "Common/WeightedMedian.h"
-#include "Input/DatasetPieces.h"
 #include "Input/FlatData.h"
 #include "Schlieren.h"
 #include "Walls/BodySurfaces.h"
@@ -27,10 +27,7 @@ namespace filters
 namespace
 {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Cell size in spacings: the spline has more detail than voxels of one spacing, as in AmrSource.
+/// Cell size in spacings: the spline has more detail than voxels of one spacing, as in AmrField.
 constexpr double cellBySpacing = 0.5;
 
 /// Tolerance of indices, so that points halfway between two ranks are not missed.
@@ -57,25 +54,6 @@ Point turnedBack(const double* place, const std::array<double, 9>& direction)
       direction[axis] * place[0] + direction[3 + axis] * place[1] + direction[6 + axis] * place[2];
   }
   return result;
-}
-
-double medianOf(std::vector<double> values)
-{
-  if (values.empty())
-  {
-    return nan;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-ImagePiece::Extents extentsOf(vtkImageData* whole)
-{
-  ImagePiece::Extents extents{};
-  whole->GetExtent(extents.whole.data());
-  extents.own = extents.whole;
-  return extents;
 }
 
 } // namespace
@@ -105,14 +83,16 @@ vtkSmartPointer<vtkDataObject> turnedBack(
     });
 }
 
-ImagePiece::ImagePiece(vtkImageData* refractivity, vtkDataObject* bodies, int threads)
-  : ImagePiece(refractivity, extentsOf(refractivity), bodies, threads)
+ImagePiece::Extents ImagePiece::extentsOf(vtkImageData* whole)
 {
+  Extents extents{};
+  whole->GetExtent(extents.whole.data());
+  extents.own = extents.whole;
+  return extents;
 }
 
 ImagePiece::ImagePiece(
   vtkImageData* refractivity, const Extents& extents, vtkDataObject* bodies, int threads)
-  : Median(nan)
 {
   const schlieren::Field field = fieldFrom(refractivity);
   this->Spacing = field.grid.spacing;
@@ -153,6 +133,14 @@ ImagePiece::ImagePiece(
       this->IsKnown[at] = this->IsKnown[at] && !isInBody[at] ? 1 : 0;
     }
   }
+  this->findOuter(field);
+  this->Splines.push_back(
+    std::make_unique<const ImageSpline>(field, this->IsKnown, this->Points, this->First, threads));
+}
+
+/// Counts its known points, and finds those on the faces of the whole image.
+void ImagePiece::findOuter(const schlieren::Field& field)
+{
   forCells(this->Own.begin, this->Own.size(),
     [&](int i, int j, int k)
     {
@@ -175,20 +163,6 @@ ImagePiece::ImagePiece(
         }
       }
     });
-  if (this->Outer.empty())
-  {
-    std::vector<double> known;
-    for (std::size_t at = 0; at < this->IsKnown.size(); ++at)
-    {
-      if (this->IsKnown[at])
-      {
-        known.push_back(valueAt(field, at));
-      }
-    }
-    this->Median = medianOf(std::move(known));
-  }
-  this->Splines.push_back(
-    std::make_unique<const ImageSpline>(field, this->IsKnown, this->Points, this->First, threads));
 }
 
 /// Returns whether the field has a value at each point.
@@ -237,17 +211,14 @@ double ImagePiece::ambientOf(std::vector<OuterValue> values)
   values.erase(std::unique(values.begin(), values.end(),
                  [](const OuterValue& a, const OuterValue& b) { return a.point == b.point; }),
     values.end());
-  std::vector<double> all;
-  for (const OuterValue& one : values)
+  if (values.empty())
   {
-    all.push_back(one.value);
+    return std::numeric_limits<double>::quiet_NaN();
   }
-  return medianOf(std::move(all));
-}
-
-double ImagePiece::ambient() const
-{
-  return this->Outer.empty() ? this->Median : ambientOf(this->Outer);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end(),
+    [](const OuterValue& a, const OuterValue& b) { return a.value < b.value; });
+  return middle->value;
 }
 
 schlieren::Place ImagePiece::kindOf(const Counts& point) const
@@ -324,12 +295,7 @@ Counts ImagePiece::nearestPoint(const Point& place) const
   return nearest;
 }
 
-bool ImagePiece::isGasAt(const Point& place) const
-{
-  return this->kindOf(this->nearestPoint(place)) == schlieren::Place::Gas;
-}
-
-ImageSpline::Range ImagePiece::rangeOf(std::size_t field, const schlieren::Box& box) const
+ImageSpline::Range ImagePiece::rangeOf(std::size_t spline, const schlieren::Box& box) const
 {
   Counts first, last;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -337,51 +303,59 @@ ImageSpline::Range ImagePiece::rangeOf(std::size_t field, const schlieren::Box& 
     first[axis] = static_cast<int>(std::floor(this->indexWithin(box.low[axis], axis)));
     last[axis] = static_cast<int>(std::ceil(this->indexWithin(box.high[axis], axis)));
   }
-  return this->Splines[field]->rangeIn(first, last);
+  return this->Splines[spline]->rangeIn(first, last);
 }
 
-void ImagePiece::sample(
-  std::size_t field, const schlieren::Lattice& lattice, double* values, unsigned char* hasGas) const
+void ImagePiece::sample(const schlieren::Lattice& lattice, double* refractivity,
+  unsigned char* found, double* fields, CellsOfLattice*) const
 {
+  constexpr int ofOthers = -1;
   std::array<std::vector<double>, 3> indices;
   std::array<std::vector<int>, 3> nearest;
+  bool hasOwn = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     for (int i = 0; i < lattice.points[axis]; ++i)
     {
       const double place = lattice.first[axis] + i * lattice.spacing[axis];
-      indices[axis].push_back(this->indexWithin(place, axis));
-      nearest[axis].push_back(static_cast<int>(std::lround(indices[axis].back())));
+      const double index = this->indexAt(place, axis);
+      const bool isOwn =
+        index >= this->Own.begin[axis] - 0.5 && index < this->Own.end[axis] - 0.5 + rounding;
+      indices[axis].push_back(std::clamp(index, 0., this->Points[axis] - 1.));
+      nearest[axis].push_back(
+        isOwn ? static_cast<int>(std::lround(indices[axis].back())) : ofOthers);
     }
+    hasOwn = hasOwn && *std::max_element(nearest[axis].begin(), nearest[axis].end()) != ofOthers;
   }
-  this->Splines[field]->sample(indices, values);
-  if (!hasGas)
+  forCells({ 0, 0, 0 }, lattice.points,
+    [&](int i, int j, int k)
+    {
+      const Counts point{ nearest[0][static_cast<std::size_t>(i)],
+        nearest[1][static_cast<std::size_t>(j)], nearest[2][static_cast<std::size_t>(k)] };
+      const bool isOwn = *std::min_element(point.begin(), point.end()) != ofOthers;
+      *found++ = isOwn && this->kindOf(point) == schlieren::Place::Gas ? 1 : 0;
+    });
+  if (!hasOwn)
   {
     return;
   }
-  std::size_t point = 0;
-  for (const int k : nearest[2])
+  this->Splines[0]->sample(indices, refractivity);
+  for (std::size_t field = 1; fields && field < this->Splines.size(); ++field)
   {
-    for (const int j : nearest[1])
-    {
-      for (const int i : nearest[0])
-      {
-        hasGas[point++] = this->kindOf({ i, j, k }) == schlieren::Place::Gas ? 1 : 0;
-      }
-    }
+    this->Splines[field]->sample(indices, fields);
+    fields += lattice.size();
   }
 }
 
-DataPiece::Summary ImagePiece::summary() const
+DataPiece::Facts ImagePiece::facts() const
 {
   const schlieren::Box box = this->bounds();
-  return { this->KnownPoints, box, this->contentOf(box) };
+  return { this->KnownPoints, box, this->contentOf(box), this->Spacing, this->Direction, false };
 }
 
-void ImagePiece::putBoundary(std::int64_t, std::vector<char>& message) const
+void ImagePiece::putBoundary(std::vector<char>& message) const
 {
   const BoundaryFaces faces = this->faces();
-  put(BoundaryKind::OfImage, message);
   put(this->Origin, message);
   put(this->Spacing, message);
   put(this->Direction, message);
@@ -436,66 +410,16 @@ bool ImagePiece::holds(const Point& place) const
   return isOwn && this->kindOf(nearest) == schlieren::Place::Gas;
 }
 
-DataPiece::Samples ImagePiece::sample(const schlieren::Lattice& lattice) const
-{
-  // Selects the points of the lattice that are nearest to its own points.
-  schlieren::Lattice part = lattice;
-  Counts begin{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const auto isBefore = [&](int point, double end)
-    { return this->indexAt(lattice.first[axis] + point * lattice.spacing[axis], axis) < end; };
-    int& first = begin[axis];
-    while (first < lattice.points[axis] && isBefore(first, this->Own.begin[axis] - 0.5))
-    {
-      ++first;
-    }
-    int end = first;
-    while (end < lattice.points[axis] && isBefore(end, this->Own.end[axis] - 0.5 + rounding))
-    {
-      ++end;
-    }
-    part.first[axis] += first * lattice.spacing[axis];
-    part.points[axis] = end - first;
-    if (part.points[axis] == 0)
-    {
-      return {};
-    }
-  }
-  const auto size = static_cast<std::size_t>(lattice.size());
-  Samples samples{ std::vector<unsigned char>(size, 0), std::vector<double>(size, 0.) };
-  std::vector<double> values(static_cast<std::size_t>(part.size()));
-  std::vector<unsigned char> hasGas(values.size());
-  this->sample(0, part, values.data(), hasGas.data());
-  const CellBox of{ { 0, 0, 0 }, lattice.points };
-  const auto forOwn = [&](const auto& visit)
-  {
-    std::size_t from = 0;
-    forCells(begin, part.points, [&](int i, int j, int k) { visit(from++, of.index(i, j, k)); });
-  };
-  forOwn(
-    [&](std::size_t from, std::size_t to)
-    {
-      samples.found[to] = hasGas[from];
-      samples.values[to] = values[from];
-    });
-  for (int field = 1; field <= this->fields(); ++field)
-  {
-    const std::size_t first = samples.fields.size();
-    samples.fields.resize(first + size, nan);
-    this->sample(static_cast<std::size_t>(field), part, values.data(), nullptr);
-    forOwn([&](std::size_t from, std::size_t to)
-      { samples.fields[first + to] = hasGas[from] ? values[from] : nan; });
-  }
-  return samples;
-}
-
 void BoundaryOfImage::add(Reader& reader)
 {
+  if (reader.IsAtEnd())
+  {
+    return;
+  }
   const auto from = reader.Get<Point>();
   const auto edges = reader.Get<std::array<double, 3>>();
   const auto axes = reader.Get<std::array<double, 9>>();
-  if (this->parts++ > 0 &&
+  if (!std::exchange(this->isEmpty, false) &&
     (from != this->origin || edges != this->spacing || axes != this->direction))
   {
     throw std::runtime_error(
@@ -507,16 +431,13 @@ void BoundaryOfImage::add(Reader& reader)
   this->direction = axes;
   Triangles& surface = this->faces.surface;
   const auto first = static_cast<std::int32_t>(surface.points.size());
-  const auto points = reader.GetAll<std::vector<Point>>();
-  surface.points.insert(surface.points.end(), points.begin(), points.end());
+  reader.AddAll(surface.points);
   for (const Triangles::Corners& corners : reader.GetAll<std::vector<Triangles::Corners>>())
   {
     surface.corners.push_back({ first + corners[0], first + corners[1], first + corners[2] });
   }
-  const auto hides = reader.GetAll<std::vector<unsigned char>>();
-  this->faces.hidesBehind.insert(this->faces.hidesBehind.end(), hides.begin(), hides.end());
-  const auto values = reader.GetAll<std::vector<ImagePiece::OuterValue>>();
-  this->outer.insert(this->outer.end(), values.begin(), values.end());
+  reader.AddAll(this->faces.hidesBehind);
+  reader.AddAll(this->outer);
 }
 
 } // namespace filters

@@ -45,23 +45,16 @@ public:
     Extent whole;
     Extent own; // without points of other ranks
   };
+  static Extents extentsOf(vtkImageData* whole);
 
   /// `refractivity`: three-dimensional, with the arrays of vtkRefractiveIndex. `bodies`: in the
   /// image's axes, see turnedBack(); may be null. Throws std::runtime_error if they are no
   /// surfaces.
   ImagePiece(
     vtkImageData* refractivity, const Extents& extents, vtkDataObject* bodies, int threads);
-  /// Makes a piece of a whole image.
-  ImagePiece(vtkImageData* refractivity, vtkDataObject* bodies, int threads);
 
   /// Adds a field at the same points, with the next number, from 1 on.
   void addField(vtkImageData* values, int threads);
-  int fields() const override { return static_cast<int>(this->Splines.size()) - 1; }
-
-  bool hasGas() const { return this->KnownPoints > 0; }
-  schlieren::Box bounds() const;
-  std::array<double, 3> spacing() const { return this->Spacing; }
-  std::array<double, 9> direction() const { return this->Direction; } // to the data's axes
 
   /// N at a known point of its own on the faces of the whole image.
   struct OuterValue
@@ -71,35 +64,33 @@ public:
   };
   /// Returns the ambient N, the median over the faces with each point once. NaN: no points.
   static double ambientOf(std::vector<OuterValue> values);
-  /// Returns the ambient N of a whole image: over all points if none on the faces is known.
-  double ambient() const;
+  const std::vector<OuterValue>& outer() const { return this->Outer; }
 
   /// Returns the faces around its own points without gas.
   BoundaryFaces faces() const;
 
-  bool isGasAt(const Point& place) const;
-  /// Returns the range of field 0, which is N, or of another one.
-  ImageSpline::Range rangeOf(std::size_t field, const schlieren::Box& box) const;
-  /// Samples all points of a lattice, also those of other pieces. `hasGas`: may be null.
-  void sample(std::size_t field, const schlieren::Lattice& lattice, double* values,
-    unsigned char* hasGas) const;
-
-  Summary summary() const override;
-  /// Writes its axes, the triangles of faces(), which of them hide something, and N on the faces of
-  /// the whole image: at each point, or of more than a million at each nth.
-  void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const override;
+  Facts facts() const override;
+  bool dependsOnLattice() const override { return false; }
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
+  int fields() const override { return static_cast<int>(this->Splines.size()) - 1; }
   schlieren::MediumSource::FieldRange rangeOfField(
     int field, const schlieren::Box& box) const override
   {
-    const ImageSpline::Range range = this->rangeOf(static_cast<std::size_t>(field) + 1, box);
-    return { range.lowest, range.highest };
+    return this->rangeOf(static_cast<std::size_t>(field) + 1, box);
   }
-  Samples sample(const schlieren::Lattice& lattice) const override;
+  void sample(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
+    double* fields, CellsOfLattice* cells) const override;
+
+  /// For BoundaryOfImage, writes its axes, the triangles of faces(), which of them hide something, and N on the faces of
+  /// the whole image: at each point, or of more than a million at each nth.
+  void putBoundary(std::vector<char>& message) const;
 
 private:
   std::vector<unsigned char> knownOf(const schlieren::Field& field) const;
+  void findOuter(const schlieren::Field& field);
+  schlieren::Box bounds() const;
+  ImageSpline::Range rangeOf(std::size_t spline, const schlieren::Box& box) const;
   /// Returns the index of the nearest point of the whole image, from its first one.
   double indexAt(double place, std::size_t axis) const;
   double indexWithin(double place, std::size_t axis) const; // clamped to the points that it has
@@ -117,21 +108,20 @@ private:
   std::vector<unsigned char> IsKnown;  // of each point: gas outside of bodies
   std::int64_t KnownPoints = 0;        // of its own
   std::vector<OuterValue> Outer;
-  double Median; // of all known points, if there is no outer value
-  std::vector<std::unique_ptr<const ImageSpline>> Splines;
+  std::vector<std::unique_ptr<const ImageSpline>> Splines; // of N, and of each field
 };
 
 /// What all ranks make of ImagePiece::putBoundary().
 struct BoundaryOfImage
 {
-  std::size_t parts = 0;
+  bool isEmpty = true;
   Point origin{};
   std::array<double, 3> spacing{};
   std::array<double, 9> direction{};
   BoundaryFaces faces;
   std::vector<ImagePiece::OuterValue> outer;
 
-  /// Another rank's. Throws std::runtime_error where it has other axes.
+  /// Adds a rank's. Throws std::runtime_error if it has other axes.
   void add(Reader& reader);
 };
 

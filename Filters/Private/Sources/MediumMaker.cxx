@@ -10,10 +10,9 @@
 #include "Input/OneLayer.h"
 #include "Input/RefractivityOfImage.h"
 #include "Input/SamplingBox.h"
-#include "Sources/AmrSource.h"
+#include "Sources/AmrPiece.h"
 #include "Sources/FieldTints.h"
 #include "Sources/GridOfSource.h"
-#include "Sources/ImageSource.h"
 #include "Sources/PreparedLeaves.h"
 #include "Sources/Revolution.h"
 #include "Sources/RevolvedSource.h"
@@ -33,7 +32,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -65,6 +63,26 @@ int planeOf(const Source& source)
 {
   return source.image && !source.image->GetDirectionMatrix()->IsIdentity() ? -1
                                                                            : flatAxisOf(source);
+}
+
+/// Makes the source of an image. `bodies`: in its axes; may be null.
+std::shared_ptr<const PieceSource> sourceOf(
+  std::unique_ptr<const ImagePiece> piece, vtkDataObject* bodies)
+{
+  const double ambient = ImagePiece::ambientOf(piece->outer());
+  auto boundary = std::make_shared<const GasBoundary>(piece->faces(), bodies, Outside::Passes);
+  return std::make_shared<PieceSource>(std::move(piece), std::move(boundary), ambient);
+}
+
+/// Makes the source of adaptive meshes, with walls at the edges of solid cells.
+std::shared_ptr<const PieceSource> sourceOf(
+  std::unique_ptr<const AmrPiece> piece, vtkDataObject* bodies, Outside outside)
+{
+  const double ambient = weightedMedian(piece->refractivity().outerValues());
+  BoundaryFaces faces = piece->refractivity().faces();
+  sortTriangles(faces);
+  auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
+  return std::make_shared<PieceSource>(std::move(piece), std::move(boundary), ambient);
 }
 
 /// Returns a note on 3-D data that are a wedge; else empty.
@@ -129,12 +147,6 @@ Source MediumMaker::choose(vtkDataObject* input, const Source* like)
 }
 
 //------------------------------------------------------------------------------
-bool MediumMaker::keepsGrid(vtkDataObject* input)
-{
-  return !this->settings.isAxisymmetric() && this->choose(input).image != nullptr;
-}
-
-//------------------------------------------------------------------------------
 bool MediumMaker::willReadCells(vtkDataObject* image)
 {
   try
@@ -148,23 +160,11 @@ bool MediumMaker::willReadCells(vtkDataObject* image)
 }
 
 //------------------------------------------------------------------------------
-void MediumMaker::leaveMesh()
-{
-  if (this->Mesh.use_count() > 1)
-  {
-    const vtkTypeInt64 builds = this->Mesh->builds;
-    this->Mesh = std::make_shared<KeptMesh>();
-    this->Mesh->builds = builds;
-  }
-  this->Mesh->release();
-}
-
-//------------------------------------------------------------------------------
 void MediumMaker::forgetLast()
 {
   this->Grid.clear();
   this->FlatAxis = -1;
-  this->leaveMesh();
+  leave(this->Mesh);
 }
 
 //------------------------------------------------------------------------------
@@ -250,11 +250,10 @@ const MediumMaker::GridPlan& MediumMaker::planGrid(const Source& source, vtkData
 }
 
 //------------------------------------------------------------------------------
-void MediumMaker::fillFromImage(const Source& given, Numbers numbers, vtkDataObject* bodies,
-  vtkImageData* output, std::string& warning)
+void MediumMaker::fillFromImage(
+  Source source, Numbers numbers, vtkDataObject* bodies, vtkImageData* output, std::string& warning)
 {
-  Source source = given;
-  this->leaveMesh();
+  leave(this->Mesh);
   if (auto* fields = std::get_if<FieldMean>(&source.model))
   {
     fields->findRanges(source.leaves);
@@ -269,10 +268,13 @@ void MediumMaker::fillFromImage(const Source& given, Numbers numbers, vtkDataObj
     vtkNew<vtkImageData> refractivity;
     refractivity->ShallowCopy(output);
     mergeMasks(refractivity);
-    const ImageSource withBodies(
-      refractivity, bodies, vtkSMPTools::GetEstimatedNumberOfThreads(), this->progressOf(0.5, 0.7));
+    const auto own = turnedBack(bodies, gridFrom(output).direction);
+    const auto withBodies = sourceOf(std::make_unique<const ImagePiece>(refractivity,
+                                       ImagePiece::extentsOf(output), own, this->threads()),
+      own);
+    this->progressOf(0.5, 1).reach(0.4);
     bodiesMissed =
-      !withBodies.meetsBodies() || !maskWalls(withBodies, this->progressOf(0.7, 1), output);
+      !withBodies->meetsBodies() || !maskWalls(*withBodies, this->progressOf(0.7, 1), output);
   }
   warning = this->warningOf(source, tally, bodiesMissed);
   const int flat = flatAxisOf(source);
@@ -297,7 +299,7 @@ void MediumMaker::fillFromSource(const Source& source, vtkDataObject* input, Num
   }
   constexpr std::size_t bytesToFill = sizeof(double) + 3;
   requireMemoryFor(output, this->settings.DoublePrecision, bytesToFill, fewerPoints);
-  const auto made = this->makeSourceOfCells(input, bodies, warning);
+  const auto made = this->makeSourceOfCells(source, input, bodies, warning, false);
   fillGrid(*made, numbers, bodies != nullptr, this->progressOf(0.5, 1), output);
 }
 
@@ -307,7 +309,13 @@ std::string MediumMaker::convert(
 {
   output->Initialize();
   this->Grid.clear();
-  const Source source = this->choose(input);
+  return this->convert(this->choose(input), input, output, bodies, numbers);
+}
+
+//------------------------------------------------------------------------------
+std::string MediumMaker::convert(const Source& source, vtkDataObject* input, vtkImageData* output,
+  vtkDataObject* bodies, Numbers numbers)
+{
   this->progressOf(0, 1).reach(0.05);
   numbers = this->settings.DoublePrecision ? Numbers::Doubles : numbers;
   this->FlatAxis = planeOf(source);
@@ -315,7 +323,7 @@ std::string MediumMaker::convert(
   vtkSMPTools::LocalScope(loopsWith(this->threads()),
     [&]
     {
-      source.image && !this->settings.isAxisymmetric()
+      this->keepsGrid(source)
         ? this->fillFromImage(source, numbers, bodies, output, warning)
         : this->fillFromSource(source, input, numbers, bodies, output, warning, note);
     });
@@ -381,25 +389,37 @@ bool MediumMaker::wantsGrid() const
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfImage(
+std::unique_ptr<ImagePiece> MediumMaker::makePieceOfImage(vtkImageData* refractivity,
+  const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input,
+  const Source& source, bool withFields, const std::vector<FieldMean::Range>& ranges)
+{
+  const int threads = this->threads();
+  auto piece = std::make_unique<ImagePiece>(refractivity, extents, bodies, threads);
+  if (withFields)
+  {
+    forFieldImages(
+      *this, input, source, refractivity,
+      [&](std::size_t, vtkImageData* field) { piece->addField(field, threads); }, ranges);
+  }
+  return piece;
+}
+
+//------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfImage(const Source& source,
   vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
 {
   vtkNew<vtkImageData> refractivity;
-  warning = this->convert(input, refractivity, nullptr, Numbers::Differences);
+  warning = this->convert(source, input, refractivity, nullptr, Numbers::Differences);
   this->Grid.clear();
   mergeMasks(refractivity);
-  const WorkProgress progress(this->Report);
-  std::shared_ptr<ImageSource> made;
+  std::shared_ptr<const PieceSource> made;
   const auto make = [&]
   {
-    const int threads = vtkSMPTools::GetEstimatedNumberOfThreads();
-    made = std::make_shared<ImageSource>(refractivity, bodies, threads, progress.part(0.5, 1));
-    if (withFields)
-    {
-      forFieldImages(*this, input, refractivity, threads,
-        [&](std::size_t, vtkImageData* field) { made->addField(field, threads); });
-    }
-    progress.reach(1);
+    const auto own = turnedBack(bodies, gridFrom(refractivity).direction);
+    made = sourceOf(this->makePieceOfImage(refractivity, ImagePiece::extentsOf(refractivity), own,
+                      input, source, withFields),
+      own);
+    this->progressOf(0, 1).reach(1);
   };
   vtkSMPTools::LocalScope(loopsWith(this->threads()), make);
   if (!made->hasGas())
@@ -417,106 +437,52 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfImage(
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSource(
   vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
 {
+  const Source source = this->choose(input);
   const bool isGrid =
-    !this->settings.isAxisymmetric() && (this->wantsGrid() || this->keepsGrid(input));
-  return isGrid ? this->makeSourceOfImage(input, bodies, warning, withFields)
-                : this->makeSourceOfCells(input, bodies, warning, withFields);
+    this->keepsGrid(source) || (this->wantsGrid() && !this->settings.isAxisymmetric());
+  return isGrid ? this->makeSourceOfImage(source, input, bodies, warning, withFields)
+                : this->makeSourceOfCells(source, input, bodies, warning, withFields);
 }
 
 //------------------------------------------------------------------------------
-MediumMaker::Made MediumMaker::makeOfMesh(
-  const Source& source, const std::vector<FieldValues>& fields, vtkDataObject* bodies, int flat)
-{
-  const WorkProgress progress(this->Report);
-  Made result;
-  const bool isSmooth = this->settings.isSmooth();
-  const auto cellValues = isSmooth ? CellValues::Known : CellValues::Averaged;
-  std::shared_ptr<const SharedPoints> shared;
-  std::vector<const Source*> others;
-  std::transform(fields.begin(), fields.end(), std::back_inserter(others),
-    [](const FieldValues& field) { return &field.source; });
-  const auto leaves = preparedLeaves(source, cellValues, result.tally, shared, others);
-  progress.reach(0.1);
-  const auto outside = static_cast<filters::Outside>(this->settings.Outside);
-  const auto reconstruction =
-    isSmooth ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
-  const std::uint64_t key = MeshSource::keyOf(leaves, bodies, outside, reconstruction);
-  if (this->Mesh->key != key || !MeshSource::hasSameSheets(this->Mesh->mesh, leaves))
-  {
-    this->leaveMesh();
-  }
-  KeptMesh& kept = *this->Mesh;
-  const WorkProgress ofMedium = progress.part(0.1, fields.empty() ? 1 : 0.8);
-  std::shared_ptr<MeshSource> made;
-  if (kept.key == key)
-  {
-    made = std::make_shared<MeshSource>(leaves, kept.mesh, ofMedium, flat);
-  }
-  else
-  {
-    ++kept.builds;
-    made = std::make_shared<MeshSource>(leaves, bodies, outside, reconstruction, ofMedium, flat);
-    kept.key = key;
-  }
-  kept.mesh = made->mesh();
-  const auto begunAt = [&](std::size_t number)
-  { return 0.8 + 0.2 * static_cast<double>(number) / static_cast<double>(fields.size()); };
-  for (std::size_t number = 0; number < fields.size(); ++number)
-  {
-    Tally notReported;
-    made->addField(preparedLeaves(fields[number].source, cellValues, notReported, shared),
-      progress.part(begunAt(number), begunAt(number + 1)));
-  }
-  result.hasGas = made->hasGas();
-  result.meetsBodies = made->meetsBodies();
-  result.source = made;
-  return result;
-}
-
-//------------------------------------------------------------------------------
-MediumMaker::Made MediumMaker::makeOf(
-  Source source, std::vector<FieldValues> fields, vtkDataObject* bodies, double depth)
+std::shared_ptr<const PieceSource> MediumMaker::makeOf(
+  Source source, std::vector<Source> fields, vtkDataObject* bodies, double depth, Tally& tally)
 {
   const int flat = this->FlatAxis;
   const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat, depth);
+  const auto outside = static_cast<Outside>(this->settings.Outside);
   std::optional<AmrLevels> levels = findLevels(source.leaves);
   if (!levels)
   {
     if (flat >= 0)
     {
       source = extruded(source, flat, depth);
-      for (FieldValues& field : fields)
+      for (Source& field : fields)
       {
-        field.source = extruded(field.source, flat, depth);
+        field = extruded(field, flat, depth);
       }
     }
-    return this->makeOfMesh(source, fields, ownBodies, flat);
+    const auto reconstruction = reconstructionOf(this->settings);
+    const PreparedLeaves leaves = preparedLeaves(source, fields, reconstruction, tally);
+    this->progressOf(0, 1).reach(0.1);
+    return sourceOfMeshes(
+      leaves, { reconstruction, outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
   }
   if (flat >= 0)
   {
     setDepth(*levels, depth);
     levels = turnedAcrossZ(std::move(*levels));
   }
-  Made result;
-  const auto outside = static_cast<filters::Outside>(this->settings.Outside);
-  const auto made = std::make_shared<AmrSource>(
-    *levels, source, ownBodies, outside, result.tally, this->progressOf(0.02, 1));
-  for (FieldValues& field : fields)
-  {
-    bringToCells(field);
-    made->addField(*levels, field.source);
-  }
-  result.hasGas = made->hasGas();
-  result.meetsBodies = made->meetsBodies();
-  result.source = made;
-  return result;
+  std::for_each(fields.begin(), fields.end(), bringToCells);
+  return sourceOf(
+    std::make_unique<AmrPiece>(*levels, source, fields, tally, this->progressOf(0.02, 1)),
+    ownBodies, outside);
 }
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfCells(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
+  Source source, vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
 {
-  Source source = this->choose(input);
   std::optional<Revolution> revolution;
   if (this->settings.isAxisymmetric())
   {
@@ -528,41 +494,42 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfCells(
   const std::string ofShape = revolution ? revolution->note
     : this->FlatAxis >= 0                ? warningOfExtrusion(source, this->FlatAxis)
                                          : noteOnWedge(source);
-  Made made;
+  Tally tally;
+  std::shared_ptr<const PieceSource> made;
   const auto make = [&]
   {
     if (auto* mean = std::get_if<FieldMean>(&source.model))
     {
       mean->findRanges(source.leaves);
     }
-    std::vector<FieldValues> fields;
+    std::vector<Source> fields;
     if (withFields)
     {
-      fields = fieldValues(source.choice.settings, input, source);
+      fields = fieldSources(source.choice.settings, input, source);
     }
     if (revolution)
     {
       source = mirrored(source, *revolution);
-      for (FieldValues& field : fields)
+      for (Source& field : fields)
       {
-        field.source = mirrored(field.source, *revolution);
+        field = mirrored(field, *revolution);
       }
     }
     this->progressOf(0, 1).reach(0.02);
-    made = this->makeOf(source, std::move(fields), bodies, depth);
+    made = this->makeOf(source, std::move(fields), bodies, depth, tally);
   };
   vtkSMPTools::LocalScope(loopsWith(this->threads()), make);
-  if (!made.hasGas)
+  if (!made->hasGas())
   {
     throw std::runtime_error(noGas(source.label));
   }
-  warning = this->warningOf(source, made.tally, bodies && !made.meetsBodies);
+  warning = this->warningOf(source, tally, bodies && !made->meetsBodies());
   addText(warning, ofShape);
   if (revolution)
   {
-    return std::make_shared<RevolvedSource>(made.source, *revolution);
+    return std::make_shared<RevolvedSource>(made, *revolution);
   }
-  return made.source;
+  return made;
 }
 
 } // namespace filters

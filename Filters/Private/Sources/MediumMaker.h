@@ -6,14 +6,14 @@
 #include "Input/RefractivitySource.h"
 #include "Sources/AmrGrid.h"
 #include "Sources/FieldTints.h"
-#include "Sources/MeshSource.h"
+#include "Sources/ImagePiece.h"
+#include "Sources/KeptMesh.h"
 #include "Sources/SamplingGrid.h"
 
 #include "vtkSchlierenFiltersModule.h" // for export macro
 
 #include "vtkSmartPointer.h"
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,20 +29,6 @@ class MediumSource;
 
 namespace filters
 {
-
-/// State of a mesh that is kept for the next one, and may be shared by several makers.
-struct KeptMesh
-{
-  std::optional<std::uint64_t> key; // unset: none
-  SourceMesh mesh;
-  vtkTypeInt64 builds = 0;
-
-  void release()
-  {
-    this->key.reset();
-    this->mesh = {};
-  }
-};
 
 /// Makes the medium of data: a source for the tracer, or a grid. Functions throw std::runtime_error
 /// with a message for the user, std::bad_alloc, or Stopped if cancelled.
@@ -72,8 +58,13 @@ public:
   void computeBox(vtkDataObject* input, vtkImageData* structure);
   /// Returns the coordinate axis across the plane of the last data; -1: no plane.
   int flatAxis() const { return this->FlatAxis; }
+  /// Selects what to read of data; see chooseSource().
+  Source choose(vtkDataObject* input, const Source* like = nullptr);
   /// Returns whether data are an image, whose grid is kept.
-  bool keepsGrid(vtkDataObject* input);
+  bool keepsGrid(const Source& source) const
+  {
+    return source.image && !this->settings.isAxisymmetric();
+  }
   /// Returns whether the values of an image belong to its cells: the user's choice, or else that of
   /// its data, if they are known already.
   bool willReadCells(vtkDataObject* image);
@@ -103,9 +94,15 @@ public:
   /// hides them, valid values, bodies, Outside and Reconstruction.
   std::shared_ptr<const schlieren::MediumSource> makeSource(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields = false);
-  /// Makes the source of data whose grid is not kept, whatever grid the settings have.
-  std::shared_ptr<const schlieren::MediumSource> makeSourceOfCells(
-    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields = false);
+  /// Makes the source of data whose grid is not kept, whatever grid the settings have. `source`:
+  /// chosen from `input`.
+  std::shared_ptr<const schlieren::MediumSource> makeSourceOfCells(Source source,
+    vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields);
+  /// Makes the piece of an image, or of a rank's piece of it, on whose grid `refractivity` has been
+  /// made of `source`. `bodies`: see ImagePiece. `ranges`: see forFieldImages().
+  std::unique_ptr<ImagePiece> makePieceOfImage(vtkImageData* refractivity,
+    const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input,
+    const Source& source, bool withFields, const std::vector<FieldMean::Range>& ranges = {});
 
   std::shared_ptr<KeptMesh> mesh() const { return this->Mesh; }
   void setMesh(std::shared_ptr<KeptMesh> mesh) { this->Mesh = std::move(mesh); }
@@ -129,25 +126,20 @@ private:
   const GridPlan& planGrid(const Source& source, vtkDataObject* input);
 
   WorkProgress progressOf(double from, double to) const;
-  Source choose(vtkDataObject* input, const Source* like = nullptr);
   bool hasDimensions() const;
   bool wantsGrid() const;
-  void fillFromImage(const Source& source, Numbers numbers, vtkDataObject* bodies,
-    vtkImageData* output, std::string& warning);
+  std::string convert(const Source& source, vtkDataObject* input, vtkImageData* output,
+    vtkDataObject* bodies, Numbers numbers);
+  void fillFromImage(Source source, Numbers numbers, vtkDataObject* bodies, vtkImageData* output,
+    std::string& warning);
   void fillFromSource(const Source& source, vtkDataObject* input, Numbers numbers,
     vtkDataObject* bodies, vtkImageData* output, std::string& warning, std::string& note);
-  std::shared_ptr<const schlieren::MediumSource> makeSourceOfImage(
+  std::shared_ptr<const schlieren::MediumSource> makeSourceOfImage(const Source& source,
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields);
-  /// What makeSourceOfCells() has made of a source, and of the fields beside it.
-  struct Made
-  {
-    std::shared_ptr<const schlieren::MediumSource> source;
-    bool hasGas = false, meetsBodies = false;
-    Tally tally{};
-  };
-  Made makeOf(Source source, std::vector<FieldValues> fields, vtkDataObject* bodies, double depth);
-  Made makeOfMesh(
-    const Source& source, const std::vector<FieldValues>& fields, vtkDataObject* bodies, int flat);
+  std::shared_ptr<const PieceSource> makeOf(
+    Source source, std::vector<Source> fields, vtkDataObject* bodies, double depth, Tally& tally);
+  std::shared_ptr<const PieceSource> makeOfMesh(
+    const Source& source, const std::vector<Source>& fields, vtkDataObject* bodies, Tally& tally);
   /// Frees what is kept of a mesh, or leaves it to others that have it.
   void leaveMesh();
 

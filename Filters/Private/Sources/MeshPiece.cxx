@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sources/MeshPiece.h"
 
-#include "Cells/LatticeDistances.h"
-#include "Input/DatasetPieces.h"
-#include "Sources/MeshSource.h"
+#include "Cells/MeshKey.h"
+#include "Common/Message.h"
+#include "Input/FlatData.h"
+#include "Walls/BoundaryFaces.h"
 
 #include "vtkDataSet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace filters
@@ -17,43 +19,116 @@ namespace filters
 namespace
 {
 
-/// Reuses the mesh of another piece if it is equal.
-std::shared_ptr<PieceMesh> meshOf(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-  CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept)
-{
-  const std::uint64_t key = MeshSource::keyOf(leaves, nullptr, Outside::Passes, reconstruction);
-  if (kept && kept->key == key)
-  {
-    return kept;
-  }
-  auto mesh = std::make_shared<PieceMesh>();
-  mesh->key = key;
-  return mesh;
-}
+constexpr double ofTree = 0.7; // of the progress; the rest is of fields
 
 } // namespace
 
-MeshPiece::MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-  CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept,
-  std::vector<std::uint32_t> datasets)
-  : Leaves(leaves)
-  , Datasets(std::move(datasets))
-  , Mesh(meshOf(leaves, reconstruction, kept))
-  , Cells(this->Mesh->cells
-        ? CellTree(pointersTo(leaves), this->Mesh->cells)
-        : CellTree(pointersTo(leaves), reconstruction, WorkProgress(), Copies::Neighbours))
-  , Values(this->Cells)
+std::shared_ptr<PieceMesh> PieceMesh::of(const MeshLeaves& leaves,
+  CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept)
 {
-  if (!this->Mesh->cells)
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(reconstruction));
+  for (vtkDataSet* leaf : leaves)
   {
-    this->Mesh->cells = this->Cells.mesh();
+    addMesh(hash, leaf);
+    addGas(hash, leaf);
+  }
+  return kept && kept->key == hash.value()
+    ? kept
+    : std::make_shared<PieceMesh>(PieceMesh{ hash.value(), reconstruction, nullptr, {}, {} });
+}
+
+MeshPiece::MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
+  const WorkProgress& progress, int flatAxis)
+  : Leaves(leaves.refractivity)
+  , Mesh(std::move(mesh))
+  , Cells(this->Mesh->cells
+        ? CellTree(pointersTo(this->Leaves), this->Mesh->cells, progress.part(0, ofTree))
+        : CellTree(
+            pointersTo(this->Leaves), this->Mesh->reconstruction, progress.part(0, ofTree), copies))
+  , Values(this->Cells)
+  , FlatAxis(flatAxis)
+{
+  this->Mesh->cells = this->Cells.mesh();
+  const auto begunAt = [&](std::size_t number)
+  {
+    return ofTree +
+      (1 - ofTree) * static_cast<double>(number) / static_cast<double>(leaves.fields.size());
+  };
+  for (std::size_t number = 0; number < leaves.fields.size(); ++number)
+  {
+    this->Fields.add(leaves.fields[number], this->Cells.mesh(),
+      progress.part(begunAt(number), begunAt(number + 1)));
   }
 }
 
-DataPiece::Summary MeshPiece::summary() const
+DataPiece::Facts MeshPiece::facts() const
 {
-  return { static_cast<std::int64_t>(this->Cells.size()), boundsOf(this->Cells, this->Leaves),
-    this->Cells.content(this->Cells.bounds()) };
+  return { static_cast<std::int64_t>(this->Cells.size()), this->bounds(),
+    this->Cells.content(this->Cells.bounds()), this->Cells.voxelShape(),
+    directionAcross(this->FlatAxis), this->FlatAxis >= 0 };
+}
+
+/// Returns the bounds of visible cells; with hidden cells, which are bodies, those of all points.
+schlieren::Box MeshPiece::bounds() const
+{
+  schlieren::Box box{ this->Cells.bounds().low, this->Cells.bounds().high };
+  vtkIdType all = 0;
+  for (vtkDataSet* leaf : this->Leaves)
+  {
+    all += leaf->GetNumberOfCells();
+  }
+  const bool hidesNone = this->Cells.size() + this->Cells.copies() == static_cast<std::size_t>(all);
+  for (vtkDataSet* leaf : this->Cells.size() == 0 || hidesNone ? MeshLeaves() : this->Leaves)
+  {
+    const double* bounds = leaf->GetBounds();
+    if (std::all_of(bounds, bounds + 6, [](double x) { return std::isfinite(x); }))
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        box.low[axis] = std::min(box.low[axis], bounds[2 * axis]);
+        box.high[axis] = std::max(box.high[axis], bounds[2 * axis + 1]);
+      }
+    }
+  }
+  return box;
+}
+
+CellTree::Content MeshPiece::contentOf(const schlieren::Box& box) const
+{
+  return this->Cells.content({ box.low, box.high });
+}
+
+bool MeshPiece::holds(const Point& place) const
+{
+  unsigned char isHeld = 0;
+  double value = 0;
+  this->Values.sample({ place, { 1, 1, 1 }, { 1, 1, 1 } }, &value, &isHeld);
+  return isHeld != 0;
+}
+
+void MeshPiece::sample(const schlieren::Lattice& lattice, double* refractivity,
+  unsigned char* found, double* fields, CellsOfLattice* cells) const
+{
+  CellsOfLattice ofFields;
+  const bool isLarge = lattice.size() > CellsOfLattice::maxPoints;
+  cells = cells || !fields || isLarge ? cells : &ofFields;
+  this->Values.sample(lattice, refractivity, found, cells);
+  if (fields)
+  {
+    this->Fields.sample(lattice, cells, fields);
+  }
+}
+
+bool MeshPiece::sampleIn(const CellsOfLattice& cells, const schlieren::Lattice& lattice,
+  double* refractivity, double* fields) const
+{
+  const bool areSame = this->Values.sample(lattice, cells, refractivity);
+  if (areSame && fields)
+  {
+    this->Fields.sample(lattice, &cells, fields);
+  }
+  return areSame;
 }
 
 /// Finds the faces, and keeps their contributions.
@@ -68,7 +143,6 @@ Faces MeshPiece::findFaces() const
 void MeshPiece::putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const
 {
   const Faces faces = this->findFaces();
-  put(BoundaryKind::OfMesh, message);
   putAll(this->Cells.measuredCells(cellsOfAll), message);
   putAll(faces.points, message);
   std::vector<std::uint32_t> datasets;
@@ -85,7 +159,6 @@ void MeshPiece::putBoundary(std::int64_t cellsOfAll, std::vector<char>& message)
   putAll(faces.owners, message);
   putAll(faces.states, message);
   putAll(faces.areParts, message);
-  this->putBoundaryValues(message);
 }
 
 void MeshPiece::putBoundaryValues(std::vector<char>& message) const
@@ -99,82 +172,31 @@ void MeshPiece::putBoundaryValues(std::vector<char>& message) const
     message);
 }
 
-bool MeshPiece::meets(const schlieren::Box& box) const
-{
-  const CellTree::Bounds& bounds = this->Cells.bounds();
-  return this->Cells.size() > 0 && meet(box, { bounds.low, bounds.high });
-}
-
-CellTree::Content MeshPiece::contentOf(const schlieren::Box& box) const
-{
-  return this->Cells.content({ box.low, box.high });
-}
-
-bool MeshPiece::holds(const Point& place) const
-{
-  unsigned char isHeld = 0;
-  double value = 0;
-  if (this->meets({ place, place }))
-  {
-    this->Values.sample({ place, { 1, 1, 1 }, { 1, 1, 1 } }, &value, &isHeld);
-  }
-  return isHeld != 0;
-}
-
-DataPiece::Samples MeshPiece::sample(const schlieren::Lattice& lattice) const
-{
-  Samples samples;
-  if (!this->meets(boxAround(lattice, 0)))
-  {
-    return samples;
-  }
-  const auto size = static_cast<std::size_t>(lattice.size());
-  samples.found.resize(size);
-  samples.values.resize(size);
-  CellsOfLattice cells;
-  this->Values.sample(lattice, samples.values.data(), samples.found.data(),
-    this->Fields.count() > 0 ? &cells : nullptr);
-  if (std::none_of(
-        samples.found.begin(), samples.found.end(), [](unsigned char is) { return is != 0; }))
-  {
-    return {};
-  }
-  samples.fields.resize(static_cast<std::size_t>(this->Fields.count()) * size);
-  this->Fields.sample(lattice, cells, samples.fields.data());
-  return samples;
-}
-
 void BoundaryOfMeshes::add(Reader& reader)
 {
-  const auto measured = reader.GetAll<std::vector<CellTree::MeasuredCell>>();
-  this->cells.insert(this->cells.end(), measured.begin(), measured.end());
-  Faces more;
-  more.points = reader.GetAll<std::vector<Point>>();
+  Faces& all = this->faces;
+  const auto firstPoint = static_cast<std::int32_t>(all.points.size());
+  const std::size_t firstCorner = all.corners.size();
+  reader.AddAll(this->cells);
+  const auto points = reader.GetAll<std::vector<Point>>();
   const auto datasets = reader.GetAll<std::vector<std::uint32_t>>();
-  more.corners = reader.GetAll<std::vector<std::int32_t>>();
-  more.starts = reader.GetAll<std::vector<std::size_t>>();
-  more.owners = reader.GetAll<std::vector<Point>>();
-  more.states = reader.GetAll<std::vector<State>>();
-  more.areParts = reader.GetAll<std::vector<unsigned char>>();
-  const auto firstPoint = static_cast<std::int32_t>(faces.points.size());
-  const std::size_t firstCorner = faces.corners.size();
-  for (std::size_t n = 0; n < more.points.size(); ++n)
+  for (std::size_t n = 0; n < points.size(); ++n)
   {
-    faces.contributions.push_back(
-      { datasets.at(n), static_cast<vtkIdType>(faces.points.size()), 1 });
-    faces.addPoint(more.points[n]);
+    all.contributions.push_back({ datasets.at(n), static_cast<vtkIdType>(all.points.size()), 1 });
+    all.addPoint(points[n]);
   }
-  for (const std::int32_t corner : more.corners)
+  for (const std::int32_t corner : reader.GetAll<std::vector<std::int32_t>>())
   {
-    faces.corners.push_back(firstPoint + corner);
+    all.corners.push_back(firstPoint + corner);
   }
-  for (std::size_t face = 0; face < more.size(); ++face)
+  const auto starts = reader.GetAll<std::vector<std::size_t>>();
+  for (std::size_t face = 1; face < starts.size(); ++face)
   {
-    faces.starts.push_back(firstCorner + more.starts[face + 1]);
+    all.starts.push_back(firstCorner + starts[face]);
   }
-  faces.owners.insert(faces.owners.end(), more.owners.begin(), more.owners.end());
-  faces.states.insert(faces.states.end(), more.states.begin(), more.states.end());
-  faces.areParts.insert(faces.areParts.end(), more.areParts.begin(), more.areParts.end());
+  reader.AddAll(all.owners);
+  reader.AddAll(all.states);
+  reader.AddAll(all.areParts);
 }
 
 } // namespace filters

@@ -5,7 +5,9 @@
 #include "Cells/CellSampler.h"
 #include "Cells/CellTree.h"
 #include "Cells/FieldsOfMesh.h"
+#include "Common/WorkProgress.h"
 #include "Sources/DataPiece.h"
+#include "Sources/PreparedLeaves.h"
 #include "Walls/MeshFaces.h"
 
 #include "vtkSmartPointer.h"
@@ -13,7 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <utility>
 #include <vector>
 
 class vtkDataSet;
@@ -23,39 +25,37 @@ namespace filters
 
 class Reader;
 
-/// What of a piece depends on its mesh alone, and not on the values: it is kept from one time step to the next.
+/// The state of a piece that depends on its mesh alone, kept from one time step to the next. It
+/// needs no dataset.
 struct PieceMesh
 {
-  std::uint64_t key; // see DataPiece::meshKey()
-  std::shared_ptr<const CellTree::Mesh> cells;
+  std::uint64_t key; ///< see DataPiece::meshKey()
+  CellTree::Reconstruction reconstruction;
+  std::shared_ptr<const CellTree::Mesh> cells; ///< null: not yet made
   // Contributions to boundary values, see Faces; empty: not computed.
   std::vector<std::size_t> firstContributions;
   std::vector<Contribution> contributions;
+
+  /// Returns that of the leaves: `kept` (may be null) if it is equal, or a new one.
+  static std::shared_ptr<PieceMesh> of(const MeshLeaves& leaves,
+    CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept);
 };
 
-/// What one rank has of meshes that are spread over several: its own cells. Copies of other ranks' cells around them (see
-/// PiecesOfRanks) give the points between them the values and trends that they would have in one mesh.
+/// Meshes, or the cells that a rank has of meshes in pieces. There, copies of other ranks' cells
+/// around them (see PiecesOfRanks) give the points between them the values and trends that they
+/// would have in one mesh.
 class MeshPiece : public DataPiece
 {
 public:
-  /// `leaves`: with N at their points, see preparedLeaves(). May be none. `kept`: of another piece, which may be of the same
-  /// mesh; may be null. `datasets`: of each leaf a number that its pieces on other ranks have, too; none: these have no pieces.
-  MeshPiece(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-    CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept = nullptr,
-    std::vector<std::uint32_t> datasets = {});
-  std::shared_ptr<PieceMesh> mesh() const { return this->Mesh; }
+  /// `leaves`: may be none. `copies`: of cells, among the leaves'. `flatAxis`: the axis across which
+  /// they were flat (see extruded()), or -1.
+  MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
+    const WorkProgress& progress = WorkProgress(), int flatAxis = -1);
 
-  /// Adds a field of its cells; see FieldsOfMesh.
-  void addField(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves)
-  {
-    this->Fields.add(leaves, this->Cells.mesh());
-  }
+  /// Sets a number for each leaf, equal on all ranks that have pieces of it.
+  void setDatasets(std::vector<std::uint32_t> numbers) { this->Datasets = std::move(numbers); }
 
-  Summary summary() const override;
-  std::uint64_t meshKey() const override { return this->Mesh->key; }
-  /// Writes some cells' sizes, the faces of its own cells, and N at their points.
-  void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const override;
-  void putBoundaryValues(std::vector<char>& message) const override;
+  Facts facts() const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
   int fields() const override { return this->Fields.count(); }
@@ -64,18 +64,29 @@ public:
   {
     return this->Fields.rangeOf(field, box);
   }
-  Samples sample(const schlieren::Lattice& lattice) const override;
+  void sample(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
+    double* fields, CellsOfLattice* cells) const override;
+  bool sampleIn(const CellsOfLattice& cells, const schlieren::Lattice& lattice,
+    double* refractivity, double* fields) const override;
+
+  std::uint64_t meshKey() const override { return this->Mesh->key; }
+  /// Writes some cells' sizes and the faces of its own cells, for BoundaryOfMeshes. `cellsOfAll`:
+  /// number of cells of all pieces.
+  void putBoundary(std::int64_t cellsOfAll, std::vector<char>& message) const;
+  /// Writes N at the points of these faces.
+  void putBoundaryValues(std::vector<char>& message) const;
 
 private:
+  schlieren::Box bounds() const;
   Faces findFaces() const;
-  bool meets(const schlieren::Box& box) const;
 
-  std::vector<vtkSmartPointer<vtkDataSet>> Leaves;
+  MeshLeaves Leaves;
   std::vector<std::uint32_t> Datasets;
   std::shared_ptr<PieceMesh> Mesh;
   CellTree Cells;
   CellSampler Values;
   FieldsOfMesh Fields;
+  int FlatAxis;
 };
 
 /// What all ranks make of MeshPiece::putBoundary().

@@ -8,6 +8,7 @@
 #include "Common/AvailableMemory.h"
 #include "Input/FlatData.h"
 #include "Input/RefractivityValues.h"
+#include "Sources/SharedPoints.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -19,6 +20,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <limits>
+#include <memory>
 
 namespace filters
 {
@@ -93,7 +95,52 @@ vtkSmartPointer<vtkDataSet> withValues(
   return prepared;
 }
 
+/// Makes the meshes of a source. `shared`: their common points, found if null. `others`: sources of
+/// the same leaves, later.
+MeshLeaves leavesOf(const Source& source, const std::vector<Source>& others,
+  CellTree::Reconstruction reconstruction, Tally& tally,
+  std::shared_ptr<const SharedPoints>& shared)
+{
+  const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
+  MeshLeaves leaves;
+  std::vector<std::vector<bool>> kinds; // of each leaf, which of the others it has
+  for (std::size_t number = 0; number < source.leaves.size(); ++number)
+  {
+    const Leaf& leaf = source.leaves[number];
+    if (!hasCells(leaf.data, dimension))
+    {
+      continue;
+    }
+    leaves.push_back(withValues(leaf, dimension, source.model, tally));
+    for (const Source& other : others)
+    {
+      kinds.resize(leaves.size());
+      // Recognizes replacements of missing arrays, which have no name.
+      kinds.back().push_back(other.leaves[number].arrays[0]->GetName() != nullptr);
+    }
+  }
+  if (!shared)
+  {
+    shared = std::make_shared<SharedPoints>(leaves, dimension, kinds);
+  }
+  leaves = shared->joined(leaves);
+  for (vtkSmartPointer<vtkDataSet>& leaf : leaves)
+  {
+    if (leaf->GetCellData()->GetScalars())
+    {
+      bringToPoints(leaf, reconstruction == CellTree::Reconstruction::Smooth);
+    }
+    leaf = withoutPolyhedra(leaf);
+  }
+  return leaves;
+}
+
 } // namespace
+
+std::vector<vtkDataSet*> pointersTo(const MeshLeaves& leaves)
+{
+  return { leaves.begin(), leaves.end() };
+}
 
 bool hasCells(vtkDataSet* data, int dimension)
 {
@@ -107,42 +154,22 @@ bool hasCells(vtkDataSet* data, int dimension)
   return false;
 }
 
-std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, CellValues cellValues,
-  Tally& tally, std::shared_ptr<const SharedPoints>& shared,
-  const std::vector<const Source*>& others)
+PreparedLeaves preparedLeaves(const Source& source, const std::vector<Source>& fields,
+  CellTree::Reconstruction reconstruction, Tally& tally)
 {
-  const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
-  std::vector<vtkSmartPointer<vtkDataSet>> leaves;
-  std::vector<std::vector<bool>> kinds; // of each leaf, which of the others it has
-  for (std::size_t number = 0; number < source.leaves.size(); ++number)
+  std::shared_ptr<const SharedPoints> shared;
+  PreparedLeaves prepared{ leavesOf(source, fields, reconstruction, tally, shared), {} };
+  Tally notReported;
+  for (const Source& field : fields)
   {
-    const Leaf& leaf = source.leaves[number];
-    if (!hasCells(leaf.data, dimension))
-    {
-      continue;
-    }
-    leaves.push_back(withValues(leaf, dimension, source.model, tally));
-    for (std::size_t i = 0; i < others.size(); ++i)
-    {
-      kinds.resize(leaves.size());
-      // Recognizes replacements of missing arrays, which have no name.
-      kinds.back().push_back(others[i]->leaves[number].arrays[0]->GetName() != nullptr);
-    }
+    prepared.fields.push_back(leavesOf(field, {}, reconstruction, notReported, shared));
   }
-  if (!shared)
-  {
-    shared = std::make_shared<SharedPoints>(leaves, dimension, kinds);
-  }
-  leaves = shared->joined(leaves);
-  for (vtkSmartPointer<vtkDataSet>& leaf : leaves)
-  {
-    if (leaf->GetCellData()->GetScalars())
-    {
-      bringToPoints(leaf, cellValues == CellValues::Known);
-    }
-    leaf = withoutPolyhedra(leaf);
-  }
-  return leaves;
+  return prepared;
+}
+
+CellTree::Reconstruction reconstructionOf(const MediumSettings& settings)
+{
+  return settings.isSmooth() ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
 }
 
 } // namespace filters

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Cells/CellTree.h"
 #include "Input/RefractivitySource.h"
-#include "Sources/SharedPoints.h"
 
 #include "vtkSmartPointer.h"
 
-#include <memory>
 #include <vector>
 
 class vtkDataSet;
@@ -15,22 +14,28 @@ class vtkDataSet;
 namespace filters
 {
 
-/// Treatment of cell values: averaged at points, with or without CellsAround.
-enum class CellValues
+/// Meshes with N or a field at their points.
+using MeshLeaves = std::vector<vtkSmartPointer<vtkDataSet>>;
+std::vector<vtkDataSet*> pointersTo(const MeshLeaves& leaves);
+
+/// The same meshes with N and with each field; NaN: no value.
+struct PreparedLeaves
 {
-  Averaged,
-  Known // with CellsAround
+  MeshLeaves refractivity;
+  std::vector<MeshLeaves> fields;
 };
 
 /// Returns whether any cell has so many dimensions.
 bool hasCells(vtkDataSet* data, int dimension);
 
 /// Makes meshes of the leaves that have cells of the source's dimension, with N alone at their
-/// points (NaN if invalid), and other cells hidden. Leaves with common points are joined. `shared`:
-/// the common points, found if null, for other values of the same leaves. `others`: later sources;
-/// leaves that lack some of them are not joined with those that have them.
-std::vector<vtkSmartPointer<vtkDataSet>> preparedLeaves(const Source& source, CellValues cellValues,
-  Tally& tally, std::shared_ptr<const SharedPoints>& shared,
-  const std::vector<const Source*>& others = {});
+/// points (NaN if invalid), and other cells hidden; and the same of each field. Values of cells are
+/// averaged at points; with Smooth they get CellsAround, too. Leaves with common points are joined,
+/// but leaves that lack some of the fields not with those that have them.
+PreparedLeaves preparedLeaves(const Source& source, const std::vector<Source>& fields,
+  CellTree::Reconstruction reconstruction, Tally& tally);
+
+/// Returns the reconstruction in cells that the settings choose.
+CellTree::Reconstruction reconstructionOf(const MediumSettings& settings);
 
 } // namespace filters

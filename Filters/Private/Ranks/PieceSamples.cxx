@@ -1,28 +1,29 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Sources/DataPiece.h"
-
-#include "Input/DatasetPieces.h"
+#include "Ranks/PieceSamples.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 namespace filters
 {
 
-bool meet(const schlieren::Box& a, const schlieren::Box& b)
+PieceSamples PieceSamples::Of(const DataPiece& piece, const schlieren::Lattice& lattice)
 {
-  bool meet = true;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    meet = meet && a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
-  }
-  return meet;
+  const auto size = static_cast<std::size_t>(lattice.size());
+  const auto fields = static_cast<std::size_t>(piece.fields());
+  PieceSamples samples{ std::vector<unsigned char>(size), std::vector<double>(size),
+    std::vector<double>(fields * size) };
+  piece.sample(lattice, samples.values.data(), samples.found.data(),
+    fields > 0 ? samples.fields.data() : nullptr);
+  const bool isAny =
+    std::find(samples.found.begin(), samples.found.end(), 1) != samples.found.end();
+  return isAny ? std::move(samples) : PieceSamples();
 }
 
-void DataPiece::Samples::Add(Samples other)
+void PieceSamples::Add(PieceSamples other)
 {
   if (this->found.empty())
   {
@@ -44,7 +45,7 @@ void DataPiece::Samples::Add(Samples other)
 }
 
 // Writes a bit for each point and only values that were found: most lattice points are outside.
-void DataPiece::Samples::Put(std::vector<char>& message) const
+void PieceSamples::Put(std::vector<char>& message) const
 {
   const std::size_t size = this->found.size();
   std::vector<unsigned char> bits((size + 7) / 8);
@@ -69,12 +70,12 @@ void DataPiece::Samples::Put(std::vector<char>& message) const
   putAll(known, message);
 }
 
-DataPiece::Samples DataPiece::Samples::Get(Reader& message, std::size_t points, std::size_t fields)
+PieceSamples PieceSamples::Get(Reader& message, std::size_t points, std::size_t fields)
 {
   const auto size = static_cast<std::size_t>(message.Get<std::uint64_t>());
   const auto bits = message.GetAll<std::vector<unsigned char>>();
   const auto known = message.GetAll<std::vector<double>>();
-  Samples samples;
+  PieceSamples samples;
   if (size == 0)
   {
     return samples;

@@ -122,7 +122,7 @@ double blockedArea(vtkSchlierenFilter* filter)
 } // namespace
 
 // The edge of a box that lies aslant in the grid, from far and from so near that a voxel is fifty images wide.
-TEST(ImageSource, SilhouettesAreThoseOfTheSurfaceAtAnyZoom)
+TEST(ImageWithBodies, SilhouettesAreThoseOfTheSurfaceAtAnyZoom)
 {
   const double angle = 23.;
   vtkNew<vtkTransform> turn;
@@ -144,7 +144,7 @@ TEST(ImageSource, SilhouettesAreThoseOfTheSurfaceAtAnyZoom)
 }
 
 // Unknown values at the end of rows, of planes and of all.
-TEST(ImageSource, BodiesMayReachThroughTheFacesOfTheImage)
+TEST(ImageWithBodies, BodiesMayReachThroughTheFacesOfTheImage)
 {
   for (const Vec& centre :
     { Vec{ -1, 0, 0 }, Vec{ 1, 0, 0 }, Vec{ 0, 1, 0 }, Vec{ 0, 0, 1 }, Vec{ 1, 1, 1 } })
@@ -155,7 +155,7 @@ TEST(ImageSource, BodiesMayReachThroughTheFacesOfTheImage)
   }
 }
 
-TEST(ImageSource, ABodyInTheGasChangesNoLightBesideIt)
+TEST(ImageWithBodies, ABodyInTheGasChangesNoLightBesideIt)
 {
   const Errors alone = errorsOf(bench(ballImage(), 128));
   const auto body = sphere(0.2, { 0.3, 0.1, 0.2 });
@@ -169,7 +169,7 @@ TEST(ImageSource, ABodyInTheGasChangesNoLightBesideIt)
 }
 
 // What was there inside of the body before is no gas, whatever it is.
-TEST(ImageSource, ValuesInsideBodiesDoNotMatter)
+TEST(ImageWithBodies, ValuesInsideBodiesDoNotMatter)
 {
   auto image = cube(41);
   addPointArray(
@@ -182,7 +182,7 @@ TEST(ImageSource, ValuesInsideBodiesDoNotMatter)
 }
 
 // Two gases on the sides of a sheet: some light is bent near it, but none passes through it.
-TEST(ImageSource, SheetsLeakNoLight)
+TEST(ImageWithBodies, SheetsLeakNoLight)
 {
   auto filter = benchWith(
     ballImage(), plate({ -0.7, -0.7, 0.013 }, { 0.7, -0.7, 0.013 }, { -0.7, 0.7, 0.013 }));
@@ -195,7 +195,7 @@ TEST(ImageSource, SheetsLeakNoLight)
 }
 
 // An image in axes of its own, and values that belong to cells.
-TEST(ImageSource, ImagesMayBeTurnedAndHaveCells)
+TEST(ImageWithBodies, ImagesMayBeTurnedAndHaveCells)
 {
   const double c = std::cos(0.7), s = std::sin(0.7);
   const double rotation[9] = { c, -s, 0, s, c, 0, 0, 0, 1 };
@@ -227,7 +227,7 @@ TEST(ImageSource, ImagesMayBeTurnedAndHaveCells)
 }
 
 // Points without values are walls as they stand: the cube around each.
-TEST(ImageSource, PointsWithoutValuesAreWalls)
+TEST(ImageWithBodies, PointsWithoutValuesAreWalls)
 {
   auto image = cube(41);
   addPointArray(image, "N",
@@ -245,7 +245,7 @@ TEST(ImageSource, PointsWithoutValuesAreWalls)
   EXPECT_EQ(largest(valuesOf(filter, "Deflection")), 0);
 }
 
-TEST(ImageSource, FieldsTintAsInTheGrid)
+TEST(ImageWithBodies, FieldsTintAsInTheGrid)
 {
   const auto body = sphere(0.1, { 0.8, 0.8, 0 });
   auto image = ballImage();
@@ -285,7 +285,7 @@ TEST(ImageSource, FieldsTintAsInTheGrid)
 }
 
 // Bodies have their own silhouettes there, too.
-TEST(ImageSource, OfGridsThatAreGiven)
+TEST(ImageWithBodies, OfGridsThatAreGiven)
 {
   const auto body = sphere(0.2, { 0.3, 0.1, 0.2 });
   auto filter = benchWith(ballImage(), body);

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Ranks/ChoiceOverRanks.h"
+
+#include "Sources/FieldTints.h"
+#include "Sources/MediumMaker.h"
+
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace filters
+{
+
+namespace
+{
+
+using FieldRanges = std::vector<FieldMean::Range>;
+
+/// Keeps layers, because data may have several layers in pieces of one.
+const Source asTheyAre;
+
+void join(FieldRanges& all, const FieldRanges& more)
+{
+  all = all.empty() ? more : std::move(all);
+  for (std::size_t n = 0; n < more.size(); ++n)
+  {
+    all.at(n) = { std::min(all[n][0], more[n][0]), std::max(all[n][1], more[n][1]) };
+  }
+}
+
+vtkSmartPointer<vtkDataObject> dataOf(
+  const std::vector<PiecesOfRanks::Piece>& pieces, bool areImages)
+{
+  if (areImages && !pieces.empty())
+  {
+    return pieces[0].data;
+  }
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (const PiecesOfRanks::Piece& piece : pieces)
+  {
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), piece.data);
+  }
+  return blocks;
+}
+
+/// The part of a choice that is sent to all ranks.
+struct Sent
+{
+  FieldRanges ofModel, ofFields;
+  std::string lacks; // message about what it lacks
+};
+
+/// Chooses from a rank's own pieces.
+Sent chooseOwn(MediumMaker& maker, ChoiceOverRanks& choice, bool hasFields)
+{
+  Sent own;
+  try
+  {
+    choice.source = maker.choose(choice.data, &asTheyAre);
+  }
+  catch (const ArraysMissing& problem) // other ranks may have them
+  {
+    choice.data = nullptr;
+    own.lacks = problem.what();
+    return own;
+  }
+  if (const auto* mean = std::get_if<FieldMean>(&choice.source.model))
+  {
+    own.ofModel = mean->rangesIn(choice.source.leaves);
+  }
+  const auto fields =
+    hasFields ? rangesOfFields(maker.settings, choice.data) : std::vector<RangeOfField>();
+  for (const RangeOfField& field : fields)
+  {
+    own.lacks = own.lacks.empty() ? field.lacks : own.lacks;
+    own.ofFields.push_back(field.range);
+  }
+  return own;
+}
+
+} // namespace
+
+ChoiceOverRanks chooseOverRanks(const Ranks& ranks, MediumMaker& maker,
+  const std::vector<PiecesOfRanks::Piece>& pieces, bool areImages, bool hasFields)
+{
+  ChoiceOverRanks choice;
+  FieldRanges ofModel;
+  std::string lacking;
+  ranks.allGather(
+    [&]
+    {
+      Sent own;
+      if (!pieces.empty())
+      {
+        choice.data = dataOf(pieces, areImages);
+        own = chooseOwn(maker, choice, hasFields);
+      }
+      Ranks::Bytes bytes;
+      putAll(own.ofModel, bytes);
+      putAll(own.ofFields, bytes);
+      putAll(own.lacks, bytes);
+      putAll(choice.source.label, bytes);
+      return bytes;
+    },
+    [&](Reader& reader)
+    {
+      join(ofModel, reader.GetAll<FieldRanges>());
+      join(choice.ofFields, reader.GetAll<FieldRanges>());
+      const auto lacks = reader.GetAll<std::string>();
+      lacking = lacking.empty() ? lacks : lacking;
+      const auto label = reader.GetAll<std::string>();
+      choice.label = choice.label.empty() ? label : choice.label;
+    });
+  const bool hasAllFields = std::all_of(choice.ofFields.begin(), choice.ofFields.end(),
+    [](const FieldMean::Range& range) { return range[0] <= range[1]; });
+  if (!lacking.empty() && (choice.label.empty() || !hasAllFields))
+  {
+    throw ArraysMissing(lacking);
+  }
+  if (auto* mean = std::get_if<FieldMean>(&choice.source.model))
+  {
+    mean->setRanges(ofModel);
+  }
+  return choice;
+}
+
+} // namespace filters
