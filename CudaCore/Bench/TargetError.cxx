@@ -118,15 +118,19 @@ AccurateSettings cheapest(double target, Ladder<Real>& ladder, const KnownErrors
   constexpr double shareOfRays = 0.9; // steps need something, too
   AccurateSettings settings{ ladder.longest(), raysPerPixel.front(), {} };
   double ofRays = 0, ofSteps = 0;
-  for (const int samples : raysPerPixel)
+  const auto chooseRays = [&](double most)
   {
-    settings.samples = samples;
-    ofRays = ladder.ofRays(samples, shareOfRays * allowed);
-    if (ofRays <= shareOfRays * allowed)
+    for (const int samples : raysPerPixel)
     {
-      break;
+      settings.samples = samples;
+      ofRays = ladder.ofRays(samples, most);
+      if (ofRays <= most)
+      {
+        break;
+      }
     }
-  }
+  };
+  chooseRays(shareOfRays * allowed);
   const double rest = std::max(allowed * allowed - ofRays * ofRays, 0.19 * allowed * allowed);
   for (double step = ladder.longest(); step >= shortestStep; step *= 0.5)
   {
@@ -136,6 +140,10 @@ AccurateSettings cheapest(double target, Ladder<Real>& ladder, const KnownErrors
     {
       break;
     }
+  }
+  if (ofSteps > allowed)
+  {
+    chooseRays(0.5 * ofSteps); // more are of no use
   }
   settings.accuracy = { target, margin * sumOf(ofRays, ofSteps, known.voxels, known.rounding), 0,
     limitOf(ofSteps, ofRays, known) };
