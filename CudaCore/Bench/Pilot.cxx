@@ -21,7 +21,7 @@ namespace
 {
 
 constexpr std::int64_t scouts = 4096; ///< rays that look at the view
-/// Pixels of a set of blocks: a few thousandths of the image's.
+/// Pixels of a set of patches: a few thousandths of the image's.
 constexpr double shareOfPixels = 4e-3;
 constexpr double fewestPixels = 320, mostPixels = 1024;
 constexpr double stepOfScouts = 2; ///< voxels
@@ -165,18 +165,18 @@ void Pilot<Real>::layOut()
   margin_ = around +
     static_cast<std::int64_t>(
       std::min({ moved, static_cast<double>(bench_.margin), static_cast<double>(mostAround) }));
-  // As many rays around a block as in it, at most.
+  // As many rays around a patch as in it, at most.
   edge_ = std::max<std::int64_t>(4, margin_);
   const double pixels = shareOfPixels * static_cast<double>(view_.crossed * stride_ * stride_);
-  const auto blocks = static_cast<std::size_t>(
+  const auto patches = static_cast<std::size_t>(
     std::clamp(pixels, fewestPixels, mostPixels) / static_cast<double>(edge_ * edge_));
-  spread(within_, std::max<std::size_t>(6, blocks * 3 / 4));
-  spread(atEdges_, std::max<std::size_t>(2, blocks / 4));
+  spread(within_, std::max<std::size_t>(6, patches * 3 / 4));
+  spread(atEdges_, std::max<std::size_t>(2, patches / 4));
 }
 
-/// Puts so many blocks of each set into some of these cells, at even distances in the order of rows.
+/// Puts so many patches of each set into some of these cells, at even distances in the order of rows.
 template <class Real>
-void Pilot<Real>::spread(const BlockList& cells, std::size_t count)
+void Pilot<Real>::spread(const PatchList& cells, std::size_t count)
 {
   const View& view = bench_.scene.view;
   const auto within = [&](std::int64_t first, std::int64_t size)
@@ -187,8 +187,8 @@ void Pilot<Real>::spread(const BlockList& cells, std::size_t count)
     (0.5 * static_cast<double>(places * static_cast<std::size_t>(edge_ * edge_)));
   for (std::size_t n = 0; n < places; ++n)
   {
-    const Block& cell = cells[n * cells.size() / places];
-    blocks_[n % 2].push_back(
+    const Patch& cell = cells[n * cells.size() / places];
+    patches_[n % 2].push_back(
       { within(cell.column, view.width), within(cell.row, view.height), weight });
   }
 }
@@ -203,11 +203,11 @@ Pass Pilot<Real>::passOf(std::int64_t number) const
 
 template <class Real>
 const typename Pilot<Real>::Traced* Pilot<Real>::trace(
-  Blocks blocks, double step, int number, const Monitor& monitor)
+  Patches patches, double step, int number, const Monitor& monitor)
 {
-  const auto set = static_cast<std::size_t>(blocks);
+  const auto set = static_cast<std::size_t>(patches);
   Traced& traced = traced_[set][{ step, number }];
-  const BlockList& places = blocks_[set];
+  const PatchList& places = patches_[set];
   if (traced.size() == places.size())
   {
     return &traced;
@@ -220,13 +220,13 @@ const typename Pilot<Real>::Traced* Pilot<Real>::trace(
     {
       for (std::int64_t n = begin; n < end; ++n)
       {
-        const Block& block = places[static_cast<std::size_t>(n)];
+        const Patch& patch = places[static_cast<std::size_t>(n)];
         RayTask<Real> task = whole;
         task.light = lightOfPart(
-          bench_.light, static_cast<double>(block.column), static_cast<double>(block.row), 1);
-        TracedPass& ofBlock = rays[static_cast<std::size_t>(n)];
-        ofBlock.resize(pass, 0);
-        traceOnCpu(task, pass, ofBlock, 1, {});
+          bench_.light, static_cast<double>(patch.column), static_cast<double>(patch.row), 1);
+        TracedPass& ofPatch = rays[static_cast<std::size_t>(n)];
+        ofPatch.resize(pass, 0);
+        traceOnCpu(task, pass, ofPatch, 1, {});
       }
     },
     { {}, monitor.aborted });
@@ -240,10 +240,10 @@ const typename Pilot<Real>::Traced* Pilot<Real>::trace(
 
 template <class Real>
 typename Pilot<Real>::Values Pilot<Real>::expose(
-  const Block& block, std::size_t index, const std::vector<const Traced*>& passes) const
+  const Patch& patch, std::size_t index, const std::vector<const Traced*>& passes) const
 {
   const Projection projection = projectionOfPart(
-    bench_.projection, static_cast<double>(block.column), static_cast<double>(block.row));
+    bench_.projection, static_cast<double>(patch.column), static_cast<double>(patch.row));
   FilmSettings settings = filmSettingsOf(bench_.scene);
   settings.width = settings.height = static_cast<int>(edge_);
   settings.samplesPerPixel = static_cast<int>(passes.size());
@@ -348,14 +348,14 @@ void Pilot<Real>::addDifferences(
 
 template <class Real>
 Differences Pilot<Real>::compare(
-  Blocks blocks, const Settings& a, const Settings& b, const Monitor& monitor)
+  Patches patches, const Settings& a, const Settings& b, const Monitor& monitor)
 {
   const auto passesOf = [&](const Settings& settings)
   {
     std::vector<const Traced*> passes;
     for (int number = 0; number < settings.samples; ++number)
     {
-      passes.push_back(trace(blocks, settings.step, number, monitor));
+      passes.push_back(trace(patches, settings.step, number, monitor));
     }
     return passes;
   };
@@ -366,21 +366,21 @@ Differences Pilot<Real>::compare(
   {
     return {};
   }
-  const BlockList& places = blocks_[static_cast<std::size_t>(blocks)];
-  std::vector<Differences> ofBlocks(places.size());
+  const PatchList& places = patches_[static_cast<std::size_t>(patches)];
+  std::vector<Differences> ofPatches(places.size());
   parallelFor(static_cast<std::int64_t>(places.size()), 1, bench_.scene.threads,
     [&](std::int64_t begin, std::int64_t end)
     {
       for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
       {
         addDifferences(
-          expose(places[n], n, ofA), expose(places[n], n, ofB), places[n].weight, ofBlocks[n]);
+          expose(places[n], n, ofA), expose(places[n], n, ofB), places[n].weight, ofPatches[n]);
       }
     });
   Differences all;
-  for (const Differences& ofBlock : ofBlocks)
+  for (const Differences& ofPatch : ofPatches)
   {
-    all.insert(all.end(), ofBlock.begin(), ofBlock.end());
+    all.insert(all.end(), ofPatch.begin(), ofPatch.end());
   }
   return all;
 }

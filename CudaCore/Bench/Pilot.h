@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Small blocks of an image, made with other settings than the image, to find out how much these change it.
+// Small patches of an image, made with other settings than the image, to find out how much these change it.
 #pragma once
 
 #include "Film/Shading.h"
@@ -20,7 +20,7 @@
 namespace schlieren
 {
 
-/// What the blocks of an image are made with, apart from the settings that are tried.
+/// What the patches of an image are made with, apart from the settings that are tried.
 template <class Real>
 struct PilotBench
 {
@@ -54,13 +54,13 @@ using Differences = std::vector<Difference>;
 double percentile99(Differences differences);
 double largestOf(const Differences& differences);
 
-/// Images of blocks of pixels, spread evenly over where light crosses the data; closer together beside where it does not,
+/// Images of patches of pixels, spread evenly over where light crosses the data; closer together beside where it does not,
 /// as at bodies. Rays are traced once for each setting.
 template <class Real>
 class Pilot
 {
 public:
-  /// What a block is made with.
+  /// What a patch is made with.
   struct Settings
   {
     double step; ///< voxels
@@ -73,31 +73,32 @@ public:
   const PilotBench<Real>& bench() const { return bench_; }
   const PilotView& view() const { return view_; }
 
-  /// Exposes blocks by another cutoff of a scene with the same rays from now on. The cutoff's table stays with its owner.
+  /// Exposes patches by another cutoff of a scene with the same rays from now on. The cutoff's table stays with its owner.
   void setCutoff(const Scene& scene, const Cutoffs& cutoff)
   {
     bench_.scene = scene;
     cutoff_ = &cutoff;
   }
 
-  /// Two sets of blocks that have no pixel in common: one to choose by, one to verify the choice with.
-  enum class Blocks
+  /// Two sets of patches that have no pixel in common: one to choose by, one to verify the choice with.
+  enum class Patches
   {
     ToChoose,
     ToVerify
   };
 
   /// Compares the images of two settings. Aborted: empty.
-  Differences compare(Blocks blocks, const Settings& a, const Settings& b, const Monitor& monitor);
+  Differences compare(
+    Patches patches, const Settings& a, const Settings& b, const Monitor& monitor);
 
 private:
-  struct Block
+  struct Patch
   {
     std::int64_t column, row; ///< its lower left pixel
     double weight;            ///< how often others like it are in the image
   };
-  using BlockList = std::vector<Block>;
-  /// What of a block's image is compared.
+  using PatchList = std::vector<Patch>;
+  /// What of a patch's image is compared.
   struct Values
   {
     std::vector<float> light; ///< a value for each channel of each pixel
@@ -105,28 +106,28 @@ private:
     std::vector<float> moved; ///< two for each pixel, data units: of the background
     std::vector<unsigned char> hasCrossed;
   };
-  using Traced = std::vector<TracedPass>; ///< of each block
+  using Traced = std::vector<TracedPass>; ///< of each patch
 
   RayTask<Real> taskFor(double step) const;
   void scout(const DeflectionErrors& errors);
   void layOut();
-  void spread(const BlockList& cells, std::size_t count);
+  void spread(const PatchList& cells, std::size_t count);
   Pass passOf(std::int64_t number) const;
-  /// The rays of all blocks of a set; null if aborted.
-  const Traced* trace(Blocks blocks, double step, int number, const Monitor& monitor);
+  /// The rays of all patches of a set; null if aborted.
+  const Traced* trace(Patches patches, double step, int number, const Monitor& monitor);
   Values expose(
-    const Block& block, std::size_t index, const std::vector<const Traced*>& passes) const;
+    const Patch& patch, std::size_t index, const std::vector<const Traced*>& passes) const;
   void addDifferences(
     const Values& a, const Values& b, double weight, Differences& differences) const;
 
   PilotBench<Real> bench_;
   const Cutoffs* cutoff_ = nullptr;
   PilotView view_;
-  BlockList within_, atEdges_; ///< cells of the view where light crosses the data, row by row
+  PatchList within_, atEdges_; ///< cells of the view where light crosses the data, row by row
   std::int64_t stride_ = 1;    ///< pixels between them
-  std::int64_t edge_ = 4;      ///< pixels of a block
-  std::int64_t margin_ = 2;    ///< of a block
-  BlockList blocks_[2];
+  std::int64_t edge_ = 4;      ///< pixels of a patch
+  std::int64_t margin_ = 2;    ///< of a patch
+  PatchList patches_[2];
   std::map<std::pair<double, int>, Traced> traced_[2];
 };
 

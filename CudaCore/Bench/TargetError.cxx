@@ -24,7 +24,7 @@ constexpr double errorByHalving = 1.5;
 constexpr double errorByFourfold = 1.33;
 /// By how much it falls from n to 4 n, at least.
 constexpr double leastGain = 3.5;
-/// For what the blocks have not seen.
+/// For what the patches have not seen.
 constexpr double margin = 1.2;
 
 double sumOf(double a, double b, double c = 0, double d = 0)
@@ -37,7 +37,7 @@ template <class Real>
 class Ladder
 {
 public:
-  using Blocks = typename Pilot<Real>::Blocks;
+  using Patches = typename Pilot<Real>::Patches;
 
   Ladder(Pilot<Real>& pilot, double longest, bool hasFilm, const Monitor& monitor)
     : pilot_(pilot)
@@ -56,7 +56,7 @@ public:
       return 0.5 * ofStep(2 * step);
     }
     return errorByHalving *
-      percentile99(pilot_.compare(Blocks::ToChoose, { step, 1 }, { 0.5 * step, 1 }, monitor_));
+      percentile99(pilot_.compare(Patches::ToChoose, { step, 1 }, { 0.5 * step, 1 }, monitor_));
   }
 
   /// `allowed`: where the error of 16 rays is less than that by what 4 gain, it is not measured.
@@ -84,7 +84,7 @@ public:
     }
     return errorByFourfold *
       percentile99(pilot_.compare(
-        Blocks::ToChoose, { longest_, samples }, { longest_, 4 * samples }, monitor_));
+        Patches::ToChoose, { longest_, samples }, { longest_, 4 * samples }, monitor_));
   }
 
 private:
@@ -224,14 +224,14 @@ bool changeMedium(const KnownErrors& known, bool isMemoryShort, Scene& scene)
   return false;
 }
 
-/// Finds what other blocks say of settings, and writes it into them. Nothing if aborted.
+/// Finds what other patches say of settings, and writes it into them. Nothing if aborted.
 template <class Real>
 void verify(
   AccurateSettings& settings, Pilot<Real>& pilot, const KnownErrors& known, const Monitor& monitor)
 {
   const Scene& scene = pilot.bench().scene;
   const int more = isOfCamera(scene.cutoff) ? 1 : settings.samples <= 4 ? 4 : 2;
-  const Differences differences = pilot.compare(Pilot<Real>::Blocks::ToVerify,
+  const Differences differences = pilot.compare(Pilot<Real>::Patches::ToVerify,
     { settings.step, settings.samples }, { 0.5 * settings.step, more * settings.samples }, monitor);
   Accuracy& accuracy = settings.accuracy;
   accuracy.target = scene.targetError;

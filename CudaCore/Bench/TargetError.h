@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The cheapest settings that keep a target error, found from blocks of the image: see Scene::targetError.
+// The cheapest settings that keep a target error, found from patches of the image: see Scene::targetError.
 //
 // Errors of single settings are independent and add up in quadrature. That of a step is the difference to half of it, that
 // of rays per pixel the difference to four times as many, times a factor for what these lack in their turn.
@@ -20,7 +20,7 @@
 namespace schlieren
 {
 
-/// Errors that are known without blocks, in the unit of the target.
+/// Errors that are known without patches, in the unit of the target.
 struct KnownErrors
 {
   double voxels = 0;
@@ -57,7 +57,7 @@ template <class Real>
 AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors& known,
   const AccurateSettings* before, const Monitor& monitor);
 
-/// What a pilot's rays and blocks are of.
+/// What a pilot's rays and patches are of.
 struct PilotKey
 {
   BoundKey view;

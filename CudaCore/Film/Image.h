@@ -21,7 +21,7 @@ enum class ErrorSource
   Rounding      ///< Scene::precision
 };
 
-/// The error of an image, found from blocks of its pixels: see Scene::targetError.
+/// The error of an image, found from patches of its pixels: see Scene::targetError.
 struct Accuracy
 {
   double target = 0;  ///< 0: none was requested, and nothing else is known
