@@ -370,20 +370,6 @@ void LatticeSampling::findSolidsOfRows()
     { forRowsOf(number, [&](std::size_t row) { this->SolidsOfRows[next[row]++] = number; }); });
 }
 
-/// Returns whether some of the places are in front of a triangle's plane and others behind it.
-bool LatticeSampling::areOnBothSides(
-  const Near& near, const std::array<Point, 8>& places, std::size_t count)
-{
-  bool isInFront = false, isBehind = false;
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    const bool isFront = dot(near.normal, places[n] - near.corners[0]) >= 0;
-    isInFront = isInFront || isFront;
-    isBehind = isBehind || !isFront;
-  }
-  return isInFront && isBehind;
-}
-
 /// Marks points, so that no wall separates corners with gas of the voxel from `low` to low + (1, 1,
 /// 1).
 void LatticeSampling::separate(const Index& low)
@@ -392,8 +378,6 @@ void LatticeSampling::separate(const Index& low)
   std::array<Point, 8> places;
   std::size_t count = 0;
   const std::array<float, 3>* side = nullptr;
-  std::array<const Near*, 8> nearest; // of the corners beside a wall
-  std::size_t countNearest = 0;
   bool mayBeCrossed = false;
   const int corners = this->Lattice.points[2] > 1 ? 8 : 4;
   for (int c = 0; c < corners; ++c)
@@ -408,11 +392,7 @@ void LatticeSampling::separate(const Index& low)
     places[count] = placeOf(at);
     if (this->IsBeside[p])
     {
-      const Near* of = &this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
-      if (countNearest == 0 || nearest[countNearest - 1] != of)
-      {
-        nearest[countNearest++] = of;
-      }
+      // Skips points on one side of a nearly plane wall.
       const std::array<float, 3>& own = this->Sides[p];
       side = side ? side : &own;
       mayBeCrossed = mayBeCrossed ||
@@ -426,12 +406,6 @@ void LatticeSampling::separate(const Index& low)
       }
     }
     ++count;
-  }
-  // Skips corners on one side of a nearly plane wall. Normals alone do not show that: the sides of
-  // a narrow fold have nearly the same one, too.
-  for (std::size_t n = 0; n < countNearest && !mayBeCrossed; ++n)
-  {
-    mayBeCrossed = areOnBothSides(*nearest[n], places, count);
   }
   if (!mayBeCrossed)
   {

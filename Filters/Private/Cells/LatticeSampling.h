@@ -70,8 +70,6 @@ private:
   void findSides();
   void thickenPlates();
   void findSolidsOfRows();
-  static bool areOnBothSides(
-    const Near& near, const std::array<Point, 8>& places, std::size_t count);
   void separate(const Index& low);
   bool isThin(const Index& at) const;
 
