@@ -269,14 +269,15 @@ typename Pilot<Real>::Values Pilot<Real>::expose(
   values.path.assign(image.opticalPathDifference.begin(), image.opticalPathDifference.end());
   const PixelArray<float> moved = backgroundDisplacement(image, projection);
   values.moved.assign(moved.begin(), moved.end());
-  const Pass first = passOf(0);
-  const TracedRays rays{ first, (*passes[0])[index].exits.data(), nullptr };
-  for (std::int64_t row = 0; row < edge_; ++row)
+  // Also of pixels whose centre is dark.
+  const std::int64_t columns = edge_ + 2 * margin_;
+  for (std::int64_t row = margin_; row < margin_ + edge_; ++row)
   {
-    for (std::int64_t column = 0; column < edge_; ++column)
+    for (std::int64_t column = margin_; column < margin_ + edge_; ++column)
     {
-      values.hasCrossed.push_back(
-        rays.exits[rays.rayOf(column, row)].fate == RayFate::Left ? 1 : 0);
+      const auto ray = static_cast<std::size_t>(row * columns + column);
+      values.hasCrossed.push_back(std::any_of(passes.begin(), passes.end(),
+        [&](const Traced* pass) { return (*pass)[index].exits[ray].fate == RayFate::Left; }));
     }
   }
   return values;

@@ -104,7 +104,7 @@ private:
     std::vector<float> light; ///< a value for each channel of each pixel
     std::vector<double> path; ///< metres
     std::vector<float> moved; ///< two for each pixel, data units: of the background
-    std::vector<unsigned char> hasCrossed;
+    std::vector<bool> hasCrossed;
   };
   using Traced = std::vector<TracedPass>; ///< of each patch
 

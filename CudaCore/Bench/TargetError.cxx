@@ -20,8 +20,9 @@ constexpr std::array<int, 4> raysPerPixel{ 1, 4, 16, 64 };
 
 /// The error of a step by its difference to half of it: 4/3 of it for an order of 2. Beside walls the order is below 1.
 constexpr double errorByHalving = 1.5;
-/// The error of n rays by their difference to 4 n: it falls as 1 / n, about.
+/// The error of n rays by their difference to 4 n, and to 2 n: it falls as 1 / n, about.
 constexpr double errorByFourfold = 1.33;
+constexpr double errorByTwofold = 2;
 /// By how much it falls from n to 4 n, at least.
 constexpr double leastGain = 3.5;
 /// For what the patches have not seen.
@@ -49,14 +50,16 @@ public:
 
   double longest() const { return longest_; }
 
+  /// Looks at all patches from now on.
+  void lookAtAll() { looksAtAll_ = true; }
+
   double ofStep(double step)
   {
     if (step <= shortestStep) // not traced any finer
     {
       return 0.5 * ofStep(2 * step);
     }
-    return errorByHalving *
-      percentile99(pilot_.compare(Patches::ToChoose, { step, 1 }, { 0.5 * step, 1 }, monitor_));
+    return errorByHalving * differenceOf({ step, 1 }, { 0.5 * step, 1 });
   }
 
   /// `allowed`: where the error of 16 rays is less than that by what 4 gain, it is not measured.
@@ -82,13 +85,22 @@ public:
         return before / gain;
       }
     }
-    return errorByFourfold *
-      percentile99(pilot_.compare(
-        Patches::ToChoose, { longest_, samples }, { longest_, 4 * samples }, monitor_));
+    return errorByFourfold * differenceOf({ longest_, samples }, { longest_, 4 * samples });
   }
 
 private:
+  using Settings = typename Pilot<Real>::Settings;
+
+  double differenceOf(const Settings& a, const Settings& b)
+  {
+    const double difference = percentile99(pilot_.compare(Patches::ToChoose, a, b, monitor_));
+    return looksAtAll_
+      ? std::max(difference, percentile99(pilot_.compare(Patches::ToVerify, a, b, monitor_)))
+      : difference;
+  }
+
   Pilot<Real>& pilot_;
+  bool looksAtAll_ = false;
   double longest_;
   bool hasFilm_;
   const Monitor& monitor_;
@@ -231,13 +243,13 @@ void verify(
 {
   const Scene& scene = pilot.bench().scene;
   const int more = isOfCamera(scene.cutoff) ? 1 : settings.samples <= 4 ? 4 : 2;
+  const double byDifference = more == 2 ? errorByTwofold : errorByFourfold;
   const Differences differences = pilot.compare(Pilot<Real>::Patches::ToVerify,
     { settings.step, settings.samples }, { 0.5 * settings.step, more * settings.samples }, monitor);
   Accuracy& accuracy = settings.accuracy;
   accuracy.target = scene.targetError;
-  accuracy.reached =
-    sumOf(errorByFourfold * percentile99(differences), known.voxels, known.rounding);
-  accuracy.largest = sumOf(errorByFourfold * largestOf(differences), known.voxels, known.rounding);
+  accuracy.reached = sumOf(byDifference * percentile99(differences), known.voxels, known.rounding);
+  accuracy.largest = sumOf(byDifference * largestOf(differences), known.voxels, known.rounding);
 }
 
 template <class Real>
@@ -272,6 +284,7 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
     {
       break;
     }
+    ladder.lookAtAll();
     aim *= std::clamp(0.8 * target / settings.accuracy.reached, 0.25, 0.8);
   }
   return settings;

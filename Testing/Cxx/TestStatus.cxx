@@ -17,7 +17,7 @@ TEST(Status, SaysWhatIsKnownOfAImage)
   schlieren::Image image;
   schlieren::Scene scene;
   image.threads = 2;
-  image.samples = 4;
+  image.samples = image.samplesPerPixel = 4;
   image.pathModel = schlieren::PathModel::Straight;
   image.displacementBound = 0.004;
   image.frame.pixelSize = 0.2;
@@ -27,17 +27,36 @@ TEST(Status, SaysWhatIsKnownOfAImage)
   image.pathModel = schlieren::PathModel::Refracted;
   image.momentumDrift = 3.1e-7;
   image.threads = 1;
-  scene.samplesPerPixel = image.samples = 1;
+  image.samplesPerPixel = image.samples = 1;
   EXPECT_EQ(statusInWords(image, scene, 1.23e6),
     "1 sample per pixel, 1.2 million rays/s on CPU (1 thread), refracted rays");
-  scene.samplesPerPixel = 64; // an unfinished one
+  image.samplesPerPixel = 64; // an unfinished one
   EXPECT_EQ(statusInWords(image, scene, 1.23e6).find("1 of 64 samples per pixel, 1.2 million"), 0u);
-  scene.samplesPerPixel = 1;
+  image.samplesPerPixel = 1;
   image.device = schlieren::Device::Cuda;
   EXPECT_EQ(statusInWords(image, scene, 0), "1 sample per pixel, CUDA, refracted rays");
   image.pathModel = schlieren::PathModel::Straight;
   EXPECT_EQ(
     statusInWords(image, scene, 4321).find("1 sample per pixel, 4321 rays/s on CUDA, "), 0u);
+}
+
+// What a target error has led to, in the technique's unit.
+TEST(Status, SaysWhatATargetErrorHasLedTo)
+{
+  schlieren::Image image;
+  schlieren::Scene scene;
+  image.accuracy = { 0.004, 0.0031, 0.02, schlieren::ErrorSource::RaysPerPixel };
+  const auto ends = [&](const std::string& words)
+  {
+    const std::string status = statusInWords(image, scene, 0);
+    return status.size() > words.size() &&
+      status.compare(status.size() - words.size(), words.size(), words) == 0;
+  };
+  EXPECT_TRUE(ends(", error 0.0031 of full scale (target 0.004), limited by rays per pixel"));
+  scene.cutoff = schlieren::Cutoff::Interferogram;
+  image.accuracy.reached = 0.3;
+  image.accuracy.limit = schlieren::ErrorSource::Rounding;
+  EXPECT_TRUE(ends(", target error not kept: 0.3 fringes (target 0.004), limited by rounding"));
 }
 
 // A number where it says something, and none where it does not.

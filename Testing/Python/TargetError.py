@@ -57,7 +57,7 @@ check(jet, 0.004, LengthScale=0.001, ViewDirection=[0.3, -0.4, -1], Cutoff="Circ
 fin = simple.PLOT3DReader(FileName=[os.path.join(DATA, "bluntfin_plot3d", "bluntfinxyz.bin")],
                           QFileName=[os.path.join(DATA, "bluntfin_plot3d", "bluntfinq.bin")],
                           FunctionFileName="", Functions=[100])
-check(fin, 0.02, Density=["POINTS", "Density"])
+check(fin, 0.05, Density=["POINTS", "Density"])
 
 # What cannot be kept is said.
 bench = Schlieren(jet, TargetError=1e-9, ImageSize=[16, 16])
