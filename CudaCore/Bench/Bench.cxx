@@ -66,11 +66,6 @@ double homogeneityLimit(const Medium<Real>& medium, const Scene& scene)
   return std::max(scene.homogeneityTolerance * medium.rangeOfNu, rounding * medium.largestNu);
 }
 
-} // namespace
-
-namespace
-{
-
 /// How the rays of a view are bounded and to be traced.
 struct BoundedRays
 {
@@ -210,8 +205,7 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
 
   const std::int64_t margin = marginFor(bound, scene, image.frame, light);
   RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, request.device,
-    {},
-    LightKey::of(scene, image.frame, filmDistance(scene, image.frame, light.faces), light.faces) };
+    {}, boundKey.light };
   if (field.gradients.count > 0)
   {
     key.gradients = field.gradients.version;
