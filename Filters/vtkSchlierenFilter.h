@@ -710,7 +710,7 @@ public:
 
   ///@{
   /**
-   * Length of an integration step, voxels; for ADAPTIVE, its maximum. 0.001 to 16.
+   * Length of an integration step, voxels; for ADAPTIVE, its maximum. 0.001 (SINGLE: 0.01) to 16.
    */
   vtkSetMacro(StepSize, double);
   vtkGetMacro(StepSize, double);

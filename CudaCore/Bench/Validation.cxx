@@ -18,7 +18,9 @@ namespace
 {
 
 constexpr double shortestStep = 0.001;
+constexpr double shortestInSingle = 0.01; ///< with a path that is rounded by 2e-4 of itself
 constexpr double longestStep = 16;
+constexpr double largestDistance = 1e30; ///< of a film, data units: displacements are floats
 
 void validateTolerances(const Scene& scene)
 {
@@ -140,6 +142,13 @@ void validateScene(const Scene& scene)
       " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
       "flow).");
   }
+  if (scene.precision == Precision::Single && scene.stepSize < shortestInSingle)
+  {
+    throw Error("StepSize is " + std::to_string(scene.stepSize) +
+      " voxels, but the sum of so many steps is rounded too much in single precision. Set it to "
+      "0.01 "
+      "or more, or Precision to Double.");
+  }
   validateTolerances(scene);
   if (!std::isfinite(scene.knifeEdgeAngle))
   {
@@ -154,10 +163,13 @@ void validateScene(const Scene& scene)
       "bright "
       "and dark use InvertCutoff.");
   }
-  if (scene.screenDistance && !(*scene.screenDistance >= 0 && std::isfinite(*scene.screenDistance)))
+  if (scene.screenDistance &&
+    !(*scene.screenDistance >= 0 && *scene.screenDistance <= largestDistance))
   {
-    throw Error("ScreenDistance is " + std::to_string(*scene.screenDistance) +
-      ". Set it to zero or more, in data units.");
+    std::ostringstream text;
+    text << "ScreenDistance is " << *scene.screenDistance
+         << ". Set it to zero or more, up to 1e30 data units.";
+    throw Error(text.str());
   }
   if (scene.exitInto == ExitInto::Custom &&
     !(scene.exitRefractivity > -1 && std::isfinite(scene.exitRefractivity)))
@@ -198,9 +210,8 @@ void validateLight(const Scene& scene, const Frame& frame)
   if (isOfCamera(scene.cutoff))
   {
     const double distance = scene.background.distance.value_or(depth);
-    constexpr double largest = 1e30; // displacements are floats
-    require(distance >= 0 && distance <= largest, "The background is at a distance of ", distance,
-      " from the data. Set BackgroundDistance to zero or more, up to 1e30 data units.");
+    require(distance >= 0 && distance <= largestDistance, "The background is at a distance of ",
+      distance, " from the data. Set BackgroundDistance to zero or more, up to 1e30 data units.");
     require(scene.background.period >= 0 && std::isfinite(scene.background.period),
       "BackgroundPeriod is ", scene.background.period,
       ". Set it to a positive number of data units, or to 0 for eight pixels.");

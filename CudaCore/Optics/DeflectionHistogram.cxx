@@ -59,12 +59,21 @@ void DeflectionHistogram::add(const TracedRays& rays, int width, int height, int
     });
   growToHold(largest);
   const DeflectionBins bins = this->bins();
+  const auto count = [&](std::int64_t begin, std::int64_t end, std::vector<std::int64_t>& counts)
+  {
+    forEachDeflection(rays, begin, end, width,
+      [&](const RayExit& exit) { ++counts[static_cast<std::size_t>(bins.of(exit))]; });
+  };
+  if (std::int64_t{ width } * height < static_cast<std::int64_t>(counts_.size()))
+  {
+    count(0, height, counts_); // adding up the threads' bins would take longer
+    return;
+  }
   parallelFor(height, rowsPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
       std::vector<std::int64_t> here(counts_.size());
-      forEachDeflection(rays, begin, end, width,
-        [&](const RayExit& exit) { ++here[static_cast<std::size_t>(bins.of(exit))]; });
+      count(begin, end, here);
       const std::lock_guard<std::mutex> guard(lock);
       std::transform(here.begin(), here.end(), counts_.begin(), counts_.begin(), std::plus<>());
     });

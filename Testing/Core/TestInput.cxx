@@ -114,6 +114,17 @@ std::vector<Mistake> mistakes()
     { "negative source", "SourceWidth", [](Field&, Scene& s) { s.source.width = -1; } },
     { "endless source", "SourceLength", [](Field&, Scene& s) { s.source.length = HUGE_VAL; } },
     { "screen in the flow", "ScreenDistance", [](Field&, Scene& s) { s.screenDistance = -2; } },
+    { "screen beyond floats", "ScreenDistance", [](Field&, Scene& s) { s.screenDistance = 1e31; } },
+    { "short steps in single precision", "Precision",
+      [](Field&, Scene& s)
+      {
+        s.precision = Precision::Single;
+        s.stepSize = 0.005;
+      } },
+    { "data beyond floats", "LengthScale", [](Field& f, Scene&) { f.grid.spacing[1] = 1e40; } },
+    { "data that vanish", "LengthScale", [](Field& f, Scene&) { f.grid.spacing[2] = 1e-40; } },
+    { "points that cannot be told apart", "origin",
+      [](Field& f, Scene&) { f.grid.origin[0] = 1e15 * f.grid.spacing[0]; } },
     { "nothing outside", "ExitRefractivity",
       [](Field&, Scene& s)
       {

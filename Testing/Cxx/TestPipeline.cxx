@@ -435,3 +435,44 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }
 }
+
+TEST(Pipeline, FringesThatRoundingMovesAreSaid)
+{
+  auto filter = bench(columnImage(32), 20);
+  filter->SetCutoff(vtkSchlierenFilter::INTERFEROGRAM);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(complaints->Warnings.empty());
+  // As many fringes as are rounded by 0.1 in single precision.
+  double longest = 0;
+  vtkDataArray* paths = arrayOf(filter, "OpticalPathDifference");
+  for (vtkIdType i = 0; i < paths->GetNumberOfTuples(); ++i)
+  {
+    longest = std::max(longest, std::abs(paths->GetComponent(i, 0)));
+  }
+  filter->SetLengthScale(filter->GetLengthScale() * 5e5 * 632.8e-9 / longest);
+  filter->Update();
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(complaints->Warnings[0].find("5e+05 wavelengths"), std::string::npos);
+  EXPECT_NE(complaints->Warnings[0].find("Double"), std::string::npos);
+  filter->SetPrecision(vtkSchlierenFilter::DOUBLE);
+  filter->Update();
+  EXPECT_EQ(complaints->Warnings.size(), 1u);
+  filter->SetLengthScale(1e300);
+  filter->Update();
+  ASSERT_EQ(complaints->Warnings.size(), 2u);
+  EXPECT_NE(complaints->Warnings[1].find("even double"), std::string::npos);
+}
+
+TEST(Pipeline, ScreenWithoutLightIsSaid)
+{
+  auto filter = bench(columnImage(32), 20);
+  filter->SetCutoff(vtkSchlierenFilter::SHADOWGRAPH);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(complaints->Warnings.empty());
+  filter->SetScreenDistance(1e29);
+  filter->Update();
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(complaints->Warnings[0].find("Decrease ScreenDistance"), std::string::npos);
+}

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace schlieren
@@ -46,6 +47,39 @@ void validateRange(double lowest, double highest)
   }
 }
 
+namespace
+{
+
+/// Throws where places along an axis cannot be told apart, or are beyond the floats that displacements are.
+void validatePlaces(const Grid& grid, std::size_t axis)
+{
+  constexpr double largest = 1e30;
+  const double spacing = grid.spacing[axis];
+  const double size = spacing * static_cast<double>(grid.dimensions[axis] - 1);
+  const double farthest = std::max(std::abs(grid.origin[axis]), std::abs(grid.origin[axis] + size));
+  std::ostringstream text;
+  if (!(size >= 1 / largest && size <= largest))
+  {
+    text << "The data are " << size << " long along their "
+         << "xyz"[axis]
+         << " axis; between 1e-30 and 1e30 is possible. Scale them with Transform, and set "
+            "LengthScale.";
+    throw Error(text.str());
+  }
+  constexpr double largestRounding = 0.05; // of a spacing
+  const double rounding = std::numeric_limits<double>::epsilon() * farthest;
+  if (rounding > largestRounding * spacing)
+  {
+    text << "The data lie up to " << farthest << " from the origin along their "
+         << "xyz"[axis] << " axis, where numbers are rounded by " << rounding
+         << ", but their points are only " << spacing
+         << " apart. Move them to the origin with Transform.";
+    throw Error(text.str());
+  }
+}
+
+} // namespace
+
 void validate(const Grid& grid)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -73,6 +107,7 @@ void validate(const Grid& grid)
     {
       throw Error("The grid's origin is not finite. Check the data's origin.");
     }
+    validatePlaces(grid, axis);
   }
   const std::array<double, 9>& d = grid.direction;
   for (std::size_t a = 0; a < 3; ++a)

@@ -5,9 +5,12 @@
 #include "Image/ImageStatus.h"
 #include "Sources/SharedRefractivity.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 namespace filters
@@ -148,6 +151,44 @@ std::string driftInWords(const schlieren::Image& image)
     "wide.";
 }
 
+/// Warns if the places of fringes are rounded visibly.
+std::string roundingInWords(const schlieren::Image& image, const schlieren::Scene& scene)
+{
+  if (!schlieren::techniqueOf(scene.cutoff).hasFringes)
+  {
+    return "";
+  }
+  const bool isSingle = scene.precision == schlieren::Precision::Single;
+  constexpr double visible = 0.02;                 // fringes
+  const double rounding = isSingle ? 2e-7 : 4e-16; // of a path, measured
+  double longest = 0;
+  for (const double path : image.opticalPathDifference)
+  {
+    longest = std::max(longest, std::abs(path)); // never NaN
+  }
+  const double fringes = longest / scene.wavelength;
+  return rounding * fringes > visible ? "Paths differ by up to " + textOf(fringes) +
+      " wavelengths, and " + (isSingle ? "single" : "even double") +
+      " precision rounds fringes by " + textOf(rounding * fringes) + " of their spacing. " +
+      (isSingle ? "Set Precision to Double. " : "") +
+      "Is LengthScale, the metres in a data unit, right?"
+                                      : "";
+}
+
+/// Warns if hardly any light falls on a screen.
+std::string darknessInWords(const schlieren::Image& image, const schlieren::Scene& scene)
+{
+  constexpr double hardlyAny = 0.01;
+  const bool isDark =
+    schlieren::techniqueOf(scene.cutoff).plane == schlieren::RecordedPlane::Screen &&
+    image.light.outside > 0 && image.light.onFilm < hardlyAny * image.light.emitted;
+  return isDark ? "Only " + textOf(100 * image.light.onFilm / image.light.emitted) +
+      " % of the light falls on the image: the screen is so far away that the rest lands beside "
+      "it. "
+      "Decrease ScreenDistance."
+                : "";
+}
+
 /// Notes an automatic ExitInto if the ambient is not a gas.
 std::string exitInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
@@ -167,7 +208,8 @@ std::string exitInWords(const schlieren::Image& image, const schlieren::Scene& s
 //------------------------------------------------------------------------------
 std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& image)
 {
-  const std::string warnings[] = { image.deviceNote,
+  const std::array<std::string, std::tuple_size_v<decltype(this->WarnedOf)>> warnings{
+    image.deviceNote,
     image.raysTraced > 0 && image.raysBlocked == image.raysTraced
       ? "All light that meets the data is blocked, so the image is black there: every ray meets "
         "a place that is solid (NaN, masked, blanked, a body) or that no cell covers. Look along "
@@ -181,14 +223,15 @@ std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& im
             : ".") +
         " Is the refractivity (array, unit, index model) right?"
       : "",
-    driftInWords(image) };
+    driftInWords(image), roundingInWords(image, this->Scene), darknessInWords(image, this->Scene)
+  };
   std::vector<std::string> news;
   const std::string exit = exitInWords(image, this->Scene);
   if (!exit.empty() && !std::exchange(this->HasNotedExit, true))
   {
     news.push_back(exit);
   }
-  std::int64_t* warnedOf = this->WarnedOf;
+  auto* warnedOf = this->WarnedOf.begin();
   for (const std::string& warning : warnings)
   {
     const std::int64_t rays = this->GetWork().raySets;

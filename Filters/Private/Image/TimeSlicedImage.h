@@ -6,6 +6,7 @@
 
 #include "Schlieren.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -55,9 +56,9 @@ private:
   bool IsDifference = false;
   schlieren::Work WorkBefore; // of replaced benches
   schlieren::Scene Scene;
-  std::int64_t RaysBefore = 0; // at the start of this image
-  double RaysPerSecond = 0;    // at the last tracing
-  std::int64_t WarnedOf[4] = { 0, 0, 0, 0 };
+  std::int64_t RaysBefore = 0;            // at the start of this image
+  double RaysPerSecond = 0;               // at the last tracing
+  std::array<std::int64_t, 6> WarnedOf{}; // raySets of each kind of warning
   bool HasNotedExit = false;
 };
 
