@@ -55,7 +55,7 @@ output.GetPointData().SetScalars(density)
 
 def show(name, flow, scale, direction):
     schlieren = Schlieren(Input=flow, Density=["POINTS", "rho"], ParallelScale=scale, ViewDirection=direction,
-                          ImageSize=[512, 512], KnifeEdgeAngle=90, Quality="Draft")
+                          ImageSize=[512, 512], KnifeEdgeAngle=90, Quality="Fine")
     schlieren.UpdatePipeline()
     schlieren.UpdatePropertyInformation()
     if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == 0:  # the others have no image

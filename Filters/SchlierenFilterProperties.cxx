@@ -26,6 +26,13 @@ schlieren::Technique techniqueOf(int cutoff)
     : schlieren::Technique{};
 }
 
+/// Nothing for what has not been measured.
+QualityError errorOf(int quality)
+{
+  const auto index = static_cast<std::size_t>(quality);
+  return index < qualityErrors.size() ? qualityErrors[index] : QualityError{};
+}
+
 template <class Value>
 void print(ostream& os, const Value& value)
 {
@@ -271,6 +278,19 @@ double vtkSchlierenFilter::GetQualityValue(int quality, int number)
     ? qualitySettings[index].Values[static_cast<std::size_t>(quality)]
     : 0;
 }
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::GetQualityError(int quality, int cutoff)
+{
+  const QualityError error = errorOf(quality);
+  const schlieren::Technique technique = techniqueOf(cutoff);
+  return technique.hasFringes                                 ? error.Fringes
+    : technique.plane == schlieren::RecordedPlane::Background ? error.Pixels
+                                                              : error.Light;
+}
+
+//------------------------------------------------------------------------------
+double vtkSchlierenFilter::GetQualityTime(int quality) { return errorOf(quality).Time; }
 
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetPrecision(int precision)

@@ -22,7 +22,7 @@ gas = TrivialProducer(registrationName="gas")
 schlieren = Schlieren(Input=gas, Density=["CELLS", "rho"])
 schlieren.Cutoff = "Knife Edge"
 schlieren.ImageSize = [480, 240]
-schlieren.Quality = "Draft"
+schlieren.Quality = "Fine"
 # What does not depend on the flow that happens to be there first.
 schlieren.AutoKScale = 0
 schlieren.KScale = 400

@@ -13,40 +13,21 @@
 #include <QMap>
 #include <QStyledItemDelegate>
 
-#include <cstring>
-
 namespace
 {
 
 using Filter = vtkSchlierenFilter;
 
-double valueOf(int quality, const char* property)
-{
-  int number = 0;
-  while (Filter::GetQualitySetting(number) &&
-    std::strcmp(Filter::GetQualitySetting(number), property) != 0)
-  {
-    ++number;
-  }
-  return Filter::GetQualityValue(quality, number);
-}
-
 QString hintFor(int quality)
 {
-  if (quality == Filter::CUSTOM)
-  {
-    return pqQualityHintsDecorator::tr("as set below");
-  }
-  const double rays = valueOf(quality, "SamplesPerPixel");
-  const double step = valueOf(quality, "StepSize");
-  const QString hint = pqQualityHintsDecorator::tr("%1, %2").arg(rays == 1
-      ? pqQualityHintsDecorator::tr("1 ray per pixel")
-      : pqQualityHintsDecorator::tr("%1 rays per pixel").arg(rays),
-    step == 1 ? pqQualityHintsDecorator::tr("steps of 1 voxel")
-              : pqQualityHintsDecorator::tr("steps of %1 voxels").arg(step));
-  return quality == Filter::INTERACTIVE ? pqQualityHintsDecorator::tr("fastest; %1").arg(hint)
-    : quality == Filter::REFERENCE      ? pqQualityHintsDecorator::tr("finest; %1").arg(hint)
-                                        : hint;
+  const double time = Filter::GetQualityTime(quality);
+  return quality == Filter::CUSTOM ? pqQualityHintsDecorator::tr("as set below")
+    : quality == Filter::REFERENCE
+    ? pqQualityHintsDecorator::tr("to compare with, hundreds of times as long")
+    : pqQualityHintsDecorator::tr("errors up to %1 %, %2")
+        .arg(100 * Filter::GetQualityError(quality, Filter::KNIFE_EDGE))
+        .arg(time > 1 ? pqQualityHintsDecorator::tr("%1 times as long").arg(time)
+                      : pqQualityHintsDecorator::tr("fastest"));
 }
 
 /// Draws the entries of a list with descriptions.

@@ -123,7 +123,7 @@ std::vector<Mistake> mistakes()
       } },
     { "data beyond floats", "LengthScale", [](Field& f, Scene&) { f.grid.spacing[1] = 1e40; } },
     { "data that vanish", "LengthScale", [](Field& f, Scene&) { f.grid.spacing[2] = 1e-40; } },
-    { "points that cannot be told apart", "origin",
+    { "points that cannot be distinguished", "origin",
       [](Field& f, Scene&) { f.grid.origin[0] = 1e15 * f.grid.spacing[0]; } },
     { "nothing outside", "ExitRefractivity",
       [](Field&, Scene& s)

@@ -9,7 +9,7 @@ namespace
 
 using Filter = vtkSchlierenFilter;
 
-constexpr int presets[] = { Filter::INTERACTIVE, Filter::DRAFT, Filter::PUBLICATION,
+constexpr int presets[] = { Filter::INTERACTIVE, Filter::FINE, Filter::PUBLICATION,
   Filter::REFERENCE };
 
 /// What the filter's properties are, by the names that Quality knows them by.
@@ -83,7 +83,7 @@ TEST(Quality, CustomAndWhatIsNoneLeaveTheSettings)
   EXPECT_EQ(filter->GetMTime(), time);
   EXPECT_EQ(Filter::GetQualitySetting(-1), nullptr);
   EXPECT_EQ(Filter::GetQualitySetting(99), nullptr);
-  EXPECT_EQ(Filter::GetQualityValue(Filter::DRAFT, 99), 0);
+  EXPECT_EQ(Filter::GetQualityValue(Filter::FINE, 99), 0);
 }
 
 TEST(Quality, ChoicesAreClampedToWhatThereIs)

@@ -107,10 +107,10 @@ user.play(INSIDE + OPEN_JET)
 
 with open(REPORT, encoding="utf-8") as file:
     lines = file.read().splitlines()
-assert lines == ["Interactive – fastest; 1 ray per pixel, steps of 2 voxels",
-                 "Draft – 1 ray per pixel, steps of 1 voxel",
-                 "Publication – 16 rays per pixel, steps of 1 voxel",
-                 "Reference – finest; 64 rays per pixel, steps of 1 voxel", "Custom – as set below",
+assert lines == ["Interactive – errors up to 10 %, fastest",
+                 "Fine – errors up to 1 %, 5 times as long",
+                 "Publication – errors up to 0.2 %, 20 times as long",
+                 "Reference – to compare with, hundreds of times as long", "Custom – as set below",
                  "Grid True True", "Status True True"], lines
 
 for state, point in (("point", [0.01, 0.0025, 0]), ("none", [])):

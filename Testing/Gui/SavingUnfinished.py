@@ -88,7 +88,7 @@ assert not np.array_equal(frames[0], frames[1]) and not np.array_equal(frames[1]
 
 flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
 flow.UpdatePipeline()
-expected = image_array(Schlieren(Input=flow, ImageSize=[96, 96], GladstoneDaleConstant=1e-6, Quality="Draft",
+expected = image_array(Schlieren(Input=flow, ImageSize=[96, 96], GladstoneDaleConstant=1e-6, Quality="Fine",
                              SamplesPerPixel=400, KnifeEdgeAngle=30, ParallelScale=13), "Intensity")
 saved = simple.XMLImageDataReader(FileName=os.path.join(FOLDER, "unfinished.vti"))
 saved.UpdatePipeline()

@@ -27,7 +27,7 @@ for place, (name, cutoff) in enumerate((("bench", "Knife Edge"), ("shadows", "Sh
     AssignViewToLayout(view, layout, 2 if place == 0 else 6)
     SetActiveSource(flow)
     bench = Schlieren(Input=flow, registrationName=name, ImageSize={[SIZE, SIZE]}, Cutoff=cutoff,
-                      GladstoneDaleConstant=1e-6, Quality="Draft")
+                      GladstoneDaleConstant=1e-6, Quality="Fine")
     shown = Show(bench, view)
     shown.SetRepresentationType("Slice")
     ColorBy(shown, ("POINTS", "Intensity"))
@@ -43,7 +43,7 @@ def scripted(simple, schlieren, kept, name="bench"):
     """A script's own filter with the view of one whose image was saved."""
     flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
     flow.UpdatePipeline()
-    return schlieren(Input=flow, ImageSize=[SIZE, SIZE], GladstoneDaleConstant=1e-6, Quality="Draft",
+    return schlieren(Input=flow, ImageSize=[SIZE, SIZE], GladstoneDaleConstant=1e-6, Quality="Fine",
                      Cutoff={"bench": "Knife Edge", "shadows": "Shadowgraph"}[name],
                      ViewDirection=list(kept["direction"]), ViewUp=list(kept["up"]),
                      FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]))

@@ -10,7 +10,7 @@ from paraview import simple, smstate, smtrace
 from plugin_testing import Schlieren, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
 
-PRESETS = ("Interactive", "Draft", "Publication", "Reference")
+PRESETS = ("Interactive", "Fine", "Publication", "Reference")
 SETTINGS = []
 while vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)):
     SETTINGS.append(vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)))
@@ -61,10 +61,10 @@ for number, preset in enumerate(PRESETS):
 check(Schlieren(source), "Interactive")
 
 # A preset first, then what shall differ from it.
-check(Schlieren(Input=source, Quality="Draft"), "Draft")
-check(Schlieren(Input=source, Quality="Draft", SamplesPerPixel=17), "Custom", preset="Draft",
+check(Schlieren(Input=source, Quality="Fine"), "Fine")
+check(Schlieren(Input=source, Quality="Fine", SamplesPerPixel=17), "Custom", preset="Fine",
       SamplesPerPixel=17)
-check(Schlieren(Input=source, Quality="Draft", SamplesPerPixel=1), "Draft")
+check(Schlieren(Input=source, Quality="Fine", SamplesPerPixel=4), "Fine")
 bench = Schlieren(source, StepSize=0.5)
 check(bench, "Custom", preset="Interactive", StepSize=0.5)
 bench.Quality = "Reference"
@@ -82,7 +82,7 @@ for name, value in (("PathModel", "Straight"), ("Integrator", "Euler"), ("StepSi
     check(bench, "Reference")
 
 # They reach the tracer.
-bench = Schlieren(Input=source, Density=["POINTS", "rho"], ImageSize=[16, 16], Quality="Draft",
+bench = Schlieren(Input=source, Density=["POINTS", "rho"], ImageSize=[16, 16], Quality="Fine",
                   SamplesPerPixel=16)
 rays = {}
 for samples in (16, 1):

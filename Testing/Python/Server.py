@@ -27,7 +27,7 @@ def bench():
     line = simple.CreatePiecewiseFunction(Points=[0, 0, 0.5, 0, 1, 1, 0.5, 0])
     return simple.Schlieren(Input=fields, Bodies=simple.Sphere(Radius=3), IndexModel="Transfer Functions",
                             Fields=["RTData", "x"], TransferFunctions=[curve, line], ImageSize=[32, 32],
-                            Quality="Draft", SamplesPerPixel=2)
+                            Quality="Fine", SamplesPerPixel=2)
 
 
 # Red, green, blue and white, as a PNG file.

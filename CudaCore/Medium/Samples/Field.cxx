@@ -50,7 +50,7 @@ void validateRange(double lowest, double highest)
 namespace
 {
 
-/// Throws where places along an axis cannot be told apart, or are beyond the floats that displacements are.
+/// Throws where places along an axis cannot be distinguished, or are beyond the floats that displacements are.
 void validatePlaces(const Grid& grid, std::size_t axis)
 {
   constexpr double largest = 1e30;

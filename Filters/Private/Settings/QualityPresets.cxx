@@ -46,19 +46,25 @@ constexpr double twofold = numberOf(schlieren::Precision::Double);
 
 // clang-format off
 const std::array<QualitySetting, 11> qualitySettings{
-  //                            Interactive        Draft              Publication        Reference
+  //                            Interactive        Fine               Publication        Reference
   SETTING(PathModel,            autoPath,          autoPath,          autoPath,          refracted),
   SETTING(Integrator,           leapfrog,          leapfrog,          leapfrog,          adaptive),
   SETTING(StepSize,             2,                 1,                 1,                 1),
-  SETTING(HomogeneityTolerance, 1e-3,              1e-4,              0,                 0),
-  SETTING(Interpolation,        quadratic,         quadratic,         quadratic,         cubic),
-  SETTING(SamplesPerPixel,      1,                 1,                 16,                64),
+  SETTING(HomogeneityTolerance, 1e-3,              0,                 0,                 0),
+  SETTING(Interpolation,        quadratic,         cubic,             cubic,             cubic),
+  SETTING(SamplesPerPixel,      1,                 4,                 16,                64),
   SETTING(FilmEstimator,        sheet,             sheet,             sheet,             sheet),
   SETTING(Precision,            single,            single,            single,            twofold),
   SETTING(AdaptiveTolerance,    1e-5,              1e-5,              1e-5,              1e-5),
   SETTING(PathTolerance,        0.01,              0.01,              0.01,              0.01),
-  SETTING(MediumTolerance,      0.02,              0.01,              0.003,             0.001),
+  SETTING(MediumTolerance,      0.003,             0.003,             0.001,             0.001),
 };
+
+const std::array<QualityError, 3> qualityErrors{ {
+  { 0.1,   0.1,  0.2,  1 },  // Interactive
+  { 0.01,  0.02, 0.05, 5 },  // Fine
+  { 0.002, 0.01, 0.05, 20 }, // Publication
+} };
 // clang-format on
 
 //------------------------------------------------------------------------------

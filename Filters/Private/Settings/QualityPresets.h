@@ -21,6 +21,19 @@ struct QualitySetting
 /// The only definition of the presets; the XML's defaults equal the first one.
 extern const std::array<QualitySetting, 11> qualitySettings;
 
+/// What is measured of a preset; see quality.md.
+struct QualityError
+{
+  double Light =
+    0; ///< that 99 % of the pixels keep: fraction of full scale, or of undisturbed light
+  double Fringes = 0; ///< the same of interferograms
+  double Pixels = 0;  ///< the same of displacements seen by a camera
+  double Time = 0;    ///< of another view, relative to that of the fastest preset
+};
+
+/// For each preset but the last, which the others are compared with.
+extern const std::array<QualityError, 3> qualityErrors;
+
 /// Returns StepSize of the fastest preset.
 double interactiveStepSize();
 

@@ -103,7 +103,7 @@ def turn(what):
 def turn_with(view, projection):
     global whole_rows
     whole_rows = view.ViewSize[1]
-    for quality in "Interactive", "Draft", "Publication":
+    for quality in "Interactive", "Fine", "Publication":
         image_of.Quality = quality
         Render(view)
         until(lambda: finished(image_of) and rows_of_image(image_of) == whole_rows)
