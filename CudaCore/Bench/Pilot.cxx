@@ -24,7 +24,6 @@ constexpr std::int64_t scouts = 4096; ///< rays that look at the view
 /// Pixels of a set of patches: a few thousandths of the image's.
 constexpr double shareOfPixels = 4e-3;
 constexpr double fewestPixels = 320, mostPixels = 1024;
-constexpr double stepOfScouts = 2; ///< voxels
 
 /// Caustics: light that is displaced by no more than this is where it should be, pixels.
 constexpr double invisibleShift = 0.05;
@@ -97,6 +96,7 @@ RayTask<Real> Pilot<Real>::taskFor(double step) const
 {
   RaySettings settings = bench_.settings;
   settings.stepVoxels = step;
+  settings.adaptiveTolerance = adaptiveToleranceFor(step, settings.adaptiveTolerance);
   return makeTask<Real>(*bench_.medium, nullptr, {}, bench_.light, settings);
 }
 
@@ -108,7 +108,7 @@ void Pilot<Real>::scout(const DeflectionErrors& errors)
   const double pixels = static_cast<double>(view.width) * view.height;
   stride_ = std::max<std::int64_t>(1, std::llround(std::sqrt(pixels / scouts)));
   const double middle = 0.5 * static_cast<double>(stride_ - 1);
-  RayTask<Real> task = taskFor(stepOfScouts);
+  RayTask<Real> task = taskFor(longestStep);
   task.light = lightOfPart(bench_.light, middle, middle, static_cast<double>(stride_));
   const Pass pass{ 0, 0, (view.width + stride_ - 1) / stride_,
     (view.height + stride_ - 1) / stride_, { 0, 0 } };
@@ -348,40 +348,49 @@ void Pilot<Real>::addDifferences(
 }
 
 template <class Real>
-Differences Pilot<Real>::compare(
-  Patches patches, const Settings& a, const Settings& b, const Monitor& monitor)
+const typename Pilot<Real>::Exposed* Pilot<Real>::expose(
+  Patches patches, const Settings& settings, const Monitor& monitor)
 {
-  const auto passesOf = [&](const Settings& settings)
+  const auto set = static_cast<std::size_t>(patches);
+  const auto [found, isNew] = exposed_[set].try_emplace({ settings.step, settings.samples });
+  if (!isNew)
   {
-    std::vector<const Traced*> passes;
-    for (int number = 0; number < settings.samples; ++number)
-    {
-      passes.push_back(trace(patches, settings.step, number, monitor));
-    }
-    return passes;
-  };
-  const std::vector<const Traced*> ofA = passesOf(a), ofB = passesOf(b);
-  const auto isMissing = [](const Traced* traced) { return traced == nullptr; };
-  if (std::any_of(ofA.begin(), ofA.end(), isMissing) ||
-    std::any_of(ofB.begin(), ofB.end(), isMissing))
-  {
-    return {};
+    return &found->second;
   }
-  const PatchList& places = patches_[static_cast<std::size_t>(patches)];
-  std::vector<Differences> ofPatches(places.size());
+  std::vector<const Traced*> passes;
+  for (int number = 0; number < settings.samples; ++number)
+  {
+    passes.push_back(trace(patches, settings.step, number, monitor));
+    if (!passes.back())
+    {
+      exposed_[set].erase(found);
+      return nullptr;
+    }
+  }
+  const PatchList& places = patches_[set];
+  found->second.resize(places.size());
   parallelFor(static_cast<std::int64_t>(places.size()), 1, bench_.scene.threads,
     [&](std::int64_t begin, std::int64_t end)
     {
       for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
       {
-        addDifferences(
-          expose(places[n], n, ofA), expose(places[n], n, ofB), places[n].weight, ofPatches[n]);
+        found->second[n] = expose(places[n], n, passes);
       }
     });
+  return &found->second;
+}
+
+template <class Real>
+Differences Pilot<Real>::compare(
+  Patches patches, const Settings& a, const Settings& b, const Monitor& monitor)
+{
+  const Exposed* ofA = expose(patches, a, monitor);
+  const Exposed* ofB = ofA ? expose(patches, b, monitor) : nullptr;
   Differences all;
-  for (const Differences& ofPatch : ofPatches)
+  for (std::size_t n = 0; ofB && n < ofB->size(); ++n)
   {
-    all.insert(all.end(), ofPatch.begin(), ofPatch.end());
+    addDifferences(
+      (*ofA)[n], (*ofB)[n], patches_[static_cast<std::size_t>(patches)][n].weight, all);
   }
   return all;
 }

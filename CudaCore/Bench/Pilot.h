@@ -42,6 +42,16 @@ struct PilotView
   double displacement = 0;      ///< pixels on the film, at most
 };
 
+/// The longest step that is tried, voxels.
+constexpr double longestStep = 2;
+
+/// What goes with a step of Integrator::Adaptive, of third order, by the tolerance of the longest step.
+inline double adaptiveToleranceFor(double step, double ofLongest)
+{
+  const double ratio = step / longestStep;
+  return ofLongest * ratio * ratio * ratio;
+}
+
 /// A difference between two images at a pixel whose light has crossed the data, in the unit of Scene::targetError.
 struct Difference
 {
@@ -78,6 +88,10 @@ public:
   {
     bench_.scene = scene;
     cutoff_ = &cutoff;
+    for (auto& exposed : exposed_)
+    {
+      exposed.clear();
+    }
   }
 
   /// Two sets of patches that have no pixel in common: one to choose by, one to verify the choice with.
@@ -107,6 +121,7 @@ private:
     std::vector<bool> hasCrossed;
   };
   using Traced = std::vector<TracedPass>; ///< of each patch
+  using Exposed = std::vector<Values>;    ///< of each patch
 
   RayTask<Real> taskFor(double step) const;
   void scout(const DeflectionErrors& errors);
@@ -115,6 +130,8 @@ private:
   Pass passOf(std::int64_t number) const;
   /// The rays of all patches of a set; null if aborted.
   const Traced* trace(Patches patches, double step, int number, const Monitor& monitor);
+  /// The images of all patches of a set; null if aborted.
+  const Exposed* expose(Patches patches, const Settings& settings, const Monitor& monitor);
   Values expose(
     const Patch& patch, std::size_t index, const std::vector<const Traced*>& passes) const;
   void addDifferences(
@@ -128,7 +145,8 @@ private:
   std::int64_t edge_ = 4;      ///< pixels of a patch
   std::int64_t margin_ = 2;    ///< of a patch
   PatchList patches_[2];
-  std::map<std::pair<double, int>, Traced> traced_[2];
+  std::map<std::pair<double, int>, Traced> traced_[2];   ///< by step and pass
+  std::map<std::pair<double, int>, Exposed> exposed_[2]; ///< by step and rays per pixel
 };
 
 } // namespace schlieren
