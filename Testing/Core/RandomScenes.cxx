@@ -157,7 +157,7 @@ Grid randomGrid(Random& random, bool isFlat)
   Grid grid;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    grid.dimensions[axis] = 16 + random.below(33);
+    grid.dimensions[axis] = 12 + random.below(25);
     grid.spacing[axis] = random.chance(0.5) ? 1 : random.logUniform(0.4, 2.5);
   }
   if (isFlat)
@@ -290,7 +290,7 @@ void makeSource(RandomData& data, Random& random)
     source = std::make_shared<ScaledSource>(std::make_shared<ShellSource>(), height / 1e-4);
     data.near = random.uniform(0.4, 1);
   }
-  else if (random.chance(0.5))
+  else if (random.chance(0.7))
   {
     source = std::make_shared<ScaledSource>(
       std::make_shared<SphereSource>(random.uniform(3, 20)), height / 1e-4);
