@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -163,30 +162,61 @@ const typename Pilot<Real>::Scout* Pilot<Real>::scoutAt(
     : nullptr;
 }
 
-/// The light of fringes changes as the path does, that of cutoffs as the deflection.
+/// By how much the light of neighbouring rays differs from a linear change. That of fringes changes as the path does, that of
+/// cutoffs as the deflection, and that of a screen as the area J on which it lands: by J' / J^2.
 template <class Real>
 double Pilot<Real>::variationAt(std::int64_t column, std::int64_t row) const
 {
+  const Technique& technique = techniqueOf(bench_.scene.cutoff);
   const Scout& here = *scoutAt(column, row);
-  if (techniqueOf(bench_.scene.cutoff).hasFringes)
+  if (technique.hasFringes)
   {
     return std::hypot(here.deflection[0], here.deflection[1]);
   }
+  const bool isOnScreen = technique.plane == RecordedPlane::Screen;
   double variation = 0;
-  for (const auto& [right, up] : { std::pair<int, int>{ 1, 0 }, std::pair<int, int>{ 0, 1 } })
+  double slopes[2][2] = { { 1, 0 }, { 0, 1 } }; // of where rays land
+  for (const std::int64_t up : { 0, 1 })
   {
-    const Scout* before = scoutAt(column - right, row - up);
-    const Scout* after = scoutAt(column + right, row + up);
-    if (before && after)
+    const Scout* before = scoutAt(column - 1 + up, row - up);
+    const Scout* after = scoutAt(column + 1 - up, row + up);
+    for (std::size_t axis = 0; axis < 2 && before && after; ++axis)
     {
-      for (std::size_t axis = 0; axis < 2; ++axis)
-      {
-        variation += std::abs(
-          after->deflection[axis] - 2 * here.deflection[axis] + before->deflection[axis]);
-      }
+      const auto value = [&](const Scout& scout)
+      { return isOnScreen ? scout.moved[axis] : scout.deflection[axis]; };
+      variation += std::abs(value(*after) - 2 * value(here) + value(*before));
+      slopes[up][axis] +=
+        (after->moved[axis] - before->moved[axis]) / (2 * static_cast<double>(stride_));
     }
   }
-  return variation;
+  const double area = slopes[0][0] * slopes[1][1] - slopes[0][1] * slopes[1][0];
+  constexpr double smallest = 0.1;
+  return isOnScreen ? variation / std::max(smallest * smallest, area * area) : variation;
+}
+
+/// What of that there is where rays land.
+template <class Real>
+std::vector<double> Pilot<Real>::variationsOnFilm() const
+{
+  std::vector<double> variations(scouts_.size(), 0);
+  for (std::int64_t row = 0; row < scoutRows_; ++row)
+  {
+    for (std::int64_t column = 0; column < scoutColumns_; ++column)
+    {
+      const Scout& scout = *scoutAt(column, row);
+      const auto landing = [&](std::int64_t from, std::size_t axis, std::int64_t count)
+      {
+        const double place = static_cast<double>(from) +
+          (isShifted() ? scout.moved[axis] / static_cast<double>(stride_) : 0);
+        return static_cast<std::int64_t>(
+          std::lround(std::clamp(place, 0., static_cast<double>(count - 1))));
+      };
+      double& there = variations[static_cast<std::size_t>(
+        landing(row, 1, scoutRows_) * scoutColumns_ + landing(column, 0, scoutColumns_))];
+      there = std::max(there, variationAt(column, row));
+    }
+  }
+  return variations;
 }
 
 /// Divides the view into cells, of one scout or as large as a patch, and these into strata.
@@ -194,6 +224,7 @@ template <class Real>
 void Pilot<Real>::layOut()
 {
   const std::int64_t size = (Patch::edge + stride_ - 1) / stride_; // scouts
+  const std::vector<double> variations = variationsOnFilm();
   Cells within, atBodies, atBorders;
   for (std::int64_t row = 0; row < scoutRows_; row += size)
   {
@@ -206,15 +237,17 @@ void Pilot<Real>::layOut()
         for (std::int64_t i = column - 1; i <= column + size; ++i)
         {
           const Scout* scout = scoutAt(i, j);
-          if (!scout)
+          if (!scout) // what is there is unknown
           {
+            hasBorder = true;
             continue;
           }
           const bool isCrossing = scout->fate == RayFate::Left;
           hasCrossing = hasCrossing || isCrossing;
           hasBorder = hasBorder || scout->fate == RayFate::Missed;
           hasBody = hasBody || (!isCrossing && scout->fate != RayFate::Missed);
-          variation = std::max(variation, variationAt(i, j));
+          variation =
+            std::max(variation, variations[static_cast<std::size_t>(j * scoutColumns_ + i)]);
         }
       }
       if (hasCrossing)
@@ -225,16 +258,11 @@ void Pilot<Real>::layOut()
     }
   }
   constexpr std::size_t perStrong = 12; // of so many cells one
-  std::vector<double> variations;
-  for (const Cell& cell : within)
-  {
-    variations.push_back(cell.variation);
-  }
-  const auto rank = static_cast<std::ptrdiff_t>(variations.size() / perStrong);
-  std::nth_element(
-    variations.begin(), variations.begin() + rank, variations.end(), std::greater<>());
-  const double least =
-    variations.empty() ? 0 : variations[static_cast<std::size_t>(rank)];
+  Cells sorted = within;
+  const auto rank = static_cast<std::ptrdiff_t>(sorted.size() / perStrong);
+  std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end(),
+    [](const Cell& a, const Cell& b) { return a.variation > b.variation; });
+  const double least = sorted.empty() ? 0 : sorted[static_cast<std::size_t>(rank)].variation;
   const auto weak = std::stable_partition(within.begin(), within.end(),
     [&](const Cell& cell) { return cell.variation > least; });
   spread(Cells(within.begin(), weak), 0.25 * pixelsOfSet);
@@ -285,7 +313,8 @@ void Pilot<Real>::takeWholeIfCheaper()
   }
 }
 
-/// Puts patches with so many pixels into each set, in some of these cells, at even distances in the order of rows.
+/// Puts patches with so many pixels into each set, in some of these cells: one of each few, in the order of rows, so that no
+/// column is left out.
 template <class Real>
 void Pilot<Real>::spread(const Cells& cells, double pixels)
 {
@@ -303,7 +332,10 @@ void Pilot<Real>::spread(const Cells& cells, double pixels)
     (0.5 * static_cast<double>(places) * static_cast<double>(edge * edge));
   for (std::size_t n = 0; n < places; ++n)
   {
-    const Cell& cell = cells[n * cells.size() / places];
+    constexpr double goldenRatio = 0.6180339887498949;
+    const double jitter = std::fmod(goldenRatio * static_cast<double>(n + 1), 1.);
+    const double perPlace = static_cast<double>(cells.size()) / static_cast<double>(places);
+    const Cell& cell = cells[static_cast<std::size_t>((static_cast<double>(n) + jitter) * perPlace)];
     const std::int64_t column = within(cell.column, view.width), row = within(cell.row, view.height);
     Patch patch{ column, row, weight, column, row };
     lost_ += findOrigin(patch) ? 0 : 1;

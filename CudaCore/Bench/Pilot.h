@@ -148,6 +148,7 @@ private:
   /// Null outside of the view.
   const Scout* scoutAt(std::int64_t column, std::int64_t row) const;
   double variationAt(std::int64_t column, std::int64_t row) const;
+  std::vector<double> variationsOnFilm() const;
   void layOut();
   void takeWholeIfCheaper();
   void spread(const Cells& cells, double pixels);
