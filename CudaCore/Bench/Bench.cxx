@@ -335,8 +335,8 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
   CutoffMaker maker;
   const Cutoffs cutoff = maker.cutoffOf(scene, k, image.frame.pixelSize);
   pilot.setCutoff(scene, cutoff);
-  const KnownErrors known = knownErrors(pilot.bench(), pilot.view(),
-    deflectionErrors(medium, light, field, image).medium, k);
+  const KnownErrors known = knownErrors(
+    pilot.bench(), pilot.view(), deflectionErrors(medium, light, field, image).medium, k);
   if (refine(known, image.medium.isMemoryShort, scene))
   {
     return nullptr;

@@ -21,7 +21,7 @@ namespace
 {
 
 constexpr std::int64_t scouts = 4096; ///< rays that look at the view
-constexpr double pixelsOfSet = 1024; ///< of patches, about
+constexpr double pixelsOfSet = 1024;  ///< of patches, about
 
 constexpr std::int64_t around = 2; ///< pixels, what the film knows of a pixel's neighbours
 
@@ -154,8 +154,7 @@ void Pilot<Real>::scout(const DeflectionErrors& errors)
 }
 
 template <class Real>
-const typename Pilot<Real>::Scout* Pilot<Real>::scoutAt(
-  std::int64_t column, std::int64_t row) const
+const typename Pilot<Real>::Scout* Pilot<Real>::scoutAt(std::int64_t column, std::int64_t row) const
 {
   return column >= 0 && column < scoutColumns_ && row >= 0 && row < scoutRows_
     ? &scouts_[static_cast<std::size_t>(row * scoutColumns_ + column)]
@@ -252,7 +251,9 @@ void Pilot<Real>::layOut()
       }
       if (hasCrossing)
       {
-        (hasBody ? atBodies : hasBorder ? atBorders : within)
+        (hasBody        ? atBodies
+            : hasBorder ? atBorders
+                        : within)
           .push_back({ column * stride_, row * stride_, variation });
       }
     }
@@ -263,8 +264,8 @@ void Pilot<Real>::layOut()
   std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end(),
     [](const Cell& a, const Cell& b) { return a.variation > b.variation; });
   const double least = sorted.empty() ? 0 : sorted[static_cast<std::size_t>(rank)].variation;
-  const auto weak = std::stable_partition(within.begin(), within.end(),
-    [&](const Cell& cell) { return cell.variation > least; });
+  const auto weak = std::stable_partition(
+    within.begin(), within.end(), [&](const Cell& cell) { return cell.variation > least; });
   spread(Cells(within.begin(), weak), 0.25 * pixelsOfSet);
   spread(Cells(weak, within.end()), 0.375 * pixelsOfSet);
   spread(atBodies, 0.25 * pixelsOfSet);
@@ -283,8 +284,9 @@ void Pilot<Real>::takeWholeIfCheaper()
   {
     moved = std::max({ moved, std::abs(scout.moved[0]), std::abs(scout.moved[1]) });
   }
-  const auto margin = static_cast<std::int64_t>(std::min(
-    static_cast<double>(std::max(view.width, view.height)) / 2, static_cast<double>(around) + std::ceil(moved)));
+  const auto margin =
+    static_cast<std::int64_t>(std::min(static_cast<double>(std::max(view.width, view.height)) / 2,
+      static_cast<double>(around) + std::ceil(moved)));
   Patch whole{ 0, 0, 1, 0, 0, std::min(bench_.margin, margin), view.width, view.height };
   if (bench_.projection.isOfCamera)
   {
@@ -322,10 +324,7 @@ void Pilot<Real>::spread(const Cells& cells, double pixels)
   constexpr std::int64_t edge = Patch::edge;
   const std::int64_t size = std::max(stride_, (edge + stride_ - 1) / stride_ * stride_);
   const auto within = [&](std::int64_t first, std::int64_t pixelsOfView)
-  {
-    return std::max<std::int64_t>(
-      0, std::min(first + (size - edge) / 2, pixelsOfView - edge));
-  };
+  { return std::max<std::int64_t>(0, std::min(first + (size - edge) / 2, pixelsOfView - edge)); };
   const auto most = static_cast<std::size_t>(2 * pixels / static_cast<double>(edge * edge));
   const std::size_t places = std::min(cells.size(), most);
   const double weight = static_cast<double>(cells.size()) * static_cast<double>(size * size) /
@@ -335,8 +334,10 @@ void Pilot<Real>::spread(const Cells& cells, double pixels)
     constexpr double goldenRatio = 0.6180339887498949;
     const double jitter = std::fmod(goldenRatio * static_cast<double>(n + 1), 1.);
     const double perPlace = static_cast<double>(cells.size()) / static_cast<double>(places);
-    const Cell& cell = cells[static_cast<std::size_t>((static_cast<double>(n) + jitter) * perPlace)];
-    const std::int64_t column = within(cell.column, view.width), row = within(cell.row, view.height);
+    const Cell& cell =
+      cells[static_cast<std::size_t>((static_cast<double>(n) + jitter) * perPlace)];
+    const std::int64_t column = within(cell.column, view.width),
+                       row = within(cell.row, view.height);
     Patch patch{ column, row, weight, column, row };
     lost_ += findOrigin(patch) ? 0 : 1;
     patches_[n % 2].push_back(patch);
@@ -377,7 +378,8 @@ bool Pilot<Real>::findOrigin(Patch& patch) const
         for (std::size_t axis = 0; axis < 2; ++axis)
         {
           const double place =
-            (static_cast<double>(at[axis]) + 0.5) * static_cast<double>(stride_) - 0.5 + scout.moved[axis];
+            (static_cast<double>(at[axis]) + 0.5) * static_cast<double>(stride_) - 0.5 +
+            scout.moved[axis];
           lowMoved[axis] = std::min(lowMoved[axis], scout.moved[axis]);
           highMoved[axis] = std::max(highMoved[axis], scout.moved[axis]);
           lowPlace[axis] = std::min(lowPlace[axis], place);
@@ -408,7 +410,8 @@ bool Pilot<Real>::findOrigin(Patch& patch) const
   }
   patch.fromColumn = patch.column - moved[0];
   patch.fromRow = patch.row - moved[1];
-  patch.margin = static_cast<std::int64_t>(std::min(static_cast<double>(around) + std::ceil(spreadOf), mostAround));
+  patch.margin = static_cast<std::int64_t>(
+    std::min(static_cast<double>(around) + std::ceil(spreadOf), mostAround));
   return spreadOf <= mostAround;
 }
 
@@ -484,11 +487,12 @@ typename Pilot<Real>::Values Pilot<Real>::expose(
   ProgressiveImage film(settings);
   const std::int64_t columns = patch.columns + 2 * patch.margin;
   const std::int64_t rays = columns * (patch.rows + 2 * patch.margin);
-  film.begin({ *cutoff_, projection, patch.margin, rays * passesToHold(settings.samplesPerPixel) }, {});
+  film.begin(
+    { *cutoff_, projection, patch.margin, rays * passesToHold(settings.samplesPerPixel) }, {});
   for (std::size_t number = 0; number < passes.size(); ++number)
   {
-    film.add(
-      (*passes[number])[index], passOf(patch, static_cast<std::int64_t>(number)), schlieren::Rays::Go, {});
+    film.add((*passes[number])[index], passOf(patch, static_cast<std::int64_t>(number)),
+      schlieren::Rays::Go, {});
   }
   Image image;
   image.width = settings.width;
@@ -511,6 +515,7 @@ typename Pilot<Real>::Values Pilot<Real>::expose(
       values.hasCrossed.push_back(!isOfPlace ||
         std::any_of(passes.begin(), passes.end(),
           [&](const Traced* pass) { return (*pass)[index].exits[ray].fate == RayFate::Left; }));
+      values.isClear.push_back(passes.front()->at(index).exits[ray].reachesFilm());
     }
   }
   return values;
@@ -574,7 +579,8 @@ void Pilot<Real>::addDifferences(
     if (technique.hasFringes)
     {
       // The light of a fringe changes by pi of its range in a fringe, at the most.
-      const double ofPath = std::abs(a.path[pixel] - b.path[pixel]) / bench_.scene.wavelength;
+      const double ofPath =
+        b.isClear[pixel] ? std::abs(a.path[pixel] - b.path[pixel]) / bench_.scene.wavelength : 0;
       differences.push_back({ std::max(ofLight / pi, ofPath), weight });
       continue;
     }

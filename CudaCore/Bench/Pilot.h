@@ -39,7 +39,8 @@ struct PilotView
   double strongDeflection = 0;  ///< see strongDeflection(), for automatic k
   double largestDeflection = 0; ///< |eps|
   double path = 0;              ///< metres: range of the optical path difference
-  double steepestPath = 0;      ///< metres: its change over a pixel, which 99 % of the rays do not exceed
+  double steepestPath =
+    0; ///< metres: its change over a pixel, which 99 % of the rays do not exceed
 };
 
 /// The longest step that is tried, voxels.
@@ -125,6 +126,7 @@ private:
     std::vector<double> path; ///< metres
     std::vector<float> moved; ///< two for each pixel, data units: of the background
     std::vector<bool> hasCrossed;
+    std::vector<bool> isClear; ///< at the pixel's centre, whose path it has
   };
   using Traced = std::vector<TracedPass>; ///< of each patch
   using Exposed = std::vector<Values>;    ///< of each patch
@@ -175,9 +177,9 @@ private:
   PilotView view_;
   std::vector<Scout> scouts_; ///< row by row
   std::int64_t scoutColumns_ = 0, scoutRows_ = 0;
-  std::int64_t stride_ = 1;                 ///< pixels between them
-  std::int64_t lost_ = 0; ///< patches whose light comes from all over the image
-  bool isWhole_ = false;  ///< both sets are one patch, the image
+  std::int64_t stride_ = 1; ///< pixels between them
+  std::int64_t lost_ = 0;   ///< patches whose light comes from all over the image
+  bool isWhole_ = false;    ///< both sets are one patch, the image
   PatchList patches_[2];
   std::map<std::pair<double, int>, Traced> traced_[2];   ///< by step and pass
   std::map<std::pair<double, int>, Exposed> exposed_[2]; ///< by step and rays per pixel

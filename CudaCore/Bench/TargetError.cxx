@@ -222,7 +222,8 @@ KnownErrors knownErrors(
     {
       // The bend makes a ray longer by half of its square, and Fermat's principle leaves less than that of it.
       const double depth = bench.light.depth * bench.light.unit * bench.settings.lengthScale;
-      known.straight = 0.5 * view.largestDeflection * view.largestDeflection * depth / scene.wavelength;
+      known.straight =
+        0.5 * view.largestDeflection * view.largestDeflection * depth / scene.wavelength;
     }
   }
   else if (technique.plane == RecordedPlane::Background)
@@ -276,8 +277,8 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   // No steps are traced that are finer than the shortest, whose error is half of that of twice its length at the most.
   const double step = std::max(settings.step, 2 * shortestStep);
   const double bySteps = errorByHalving * settings.step / step;
-  const Differences ofSteps = pilot.compare(
-    Patches::ToVerify, { step, steps.rays }, { 0.5 * step, steps.rays }, monitor);
+  const Differences ofSteps =
+    pilot.compare(Patches::ToVerify, { step, steps.rays }, { 0.5 * step, steps.rays }, monitor);
   Differences ofRays;
   double byRays = 0;
   if (!isOfCamera(scene.cutoff))
@@ -295,8 +296,8 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   }
   const auto sum = [&](const auto& statistic)
   {
-    return sumOf(bySteps * statistic(ofSteps), byRays * statistic(ofRays), known.voxels,
-      known.rounding);
+    return sumOf(
+      bySteps * statistic(ofSteps), byRays * statistic(ofRays), known.voxels, known.rounding);
   };
   settings.accuracy.target = scene.targetError;
   settings.accuracy.reached = sum(percentile99);
@@ -318,25 +319,25 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
     constexpr double wasteful = 0.2;
     settings = *before;
     verify(settings, pilot, steps, known, monitor);
-    const bool isCheapest = settings.samples == raysPerPixel.front() && settings.step >= steps.longest;
+    const bool isCheapest =
+      settings.samples == raysPerPixel.front() && settings.step >= steps.longest;
     if (isAborted() ||
       (settings.accuracy.isKept() && (isCheapest || settings.accuracy.reached > wasteful * target)))
     {
       return settings;
     }
   }
-  // Fringes that so many rays cannot tell from others are grey at best, whatever is chosen.
+  // Fringes that so many rays cannot resolve are grey at best, whatever is chosen.
   const double finest = std::sqrt(raysPerPixel.back()); // by pixel
-  const bool isResolved = !techniqueOf(scene.cutoff).hasFringes ||
-    pilot.view().steepestPath / scene.wavelength <= finest;
+  const bool isResolved =
+    !techniqueOf(scene.cutoff).hasFringes || pilot.view().steepestPath / scene.wavelength <= finest;
   Ladder<Real> ladder(pilot, steps, isResolved && hasFilm, monitor);
   double aim = target;
   for (int tries = 0; tries < 3 && !isAborted(); ++tries)
   {
     const AccurateSettings last = settings;
     settings = cheapest(aim, ladder, known);
-    const bool isSame =
-      tries > 0 && settings.step == last.step && settings.samples == last.samples;
+    const bool isSame = tries > 0 && settings.step == last.step && settings.samples == last.samples;
     verify(settings, pilot, steps, known, monitor);
     if (isSame || settings.accuracy.isKept() || !isResolved)
     {

@@ -94,8 +94,7 @@ Formula shockOf(Random& random, double thickness)
   const double strength = random.uniform(0.2, 1);
   return [=](double x, double y, double z)
   {
-    const double across =
-      n[0] * x + n[1] * y + n[2] * z - at + curvature * (x * x + y * y + z * z);
+    const double across = n[0] * x + n[1] * y + n[2] * z - at + curvature * (x * x + y * y + z * z);
     const double jump = thickness > 0 ? std::tanh(across / thickness) : across > 0 ? 1. : -1.;
     return strength * 0.5 * (1 + jump) + 0.5 * ball(x, y, z);
   };
@@ -279,9 +278,9 @@ void makeSource(RandomData& data, Random& random)
     std::vector<Ball> balls;
     for (int n = 1 + random.below(3); n > 0; --n)
     {
-      balls.push_back({ { random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4),
-                          random.uniform(-0.4, 0.4) },
-        random.uniform(0.1, 0.45), height * random.uniform(0.3, 1) });
+      balls.push_back(
+        { { random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4) },
+          random.uniform(0.1, 0.45), height * random.uniform(0.3, 1) });
     }
     source = std::make_shared<BallsSource>(balls, 1., random.uniform(0.05, 0.2));
   }

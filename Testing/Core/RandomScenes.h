@@ -64,14 +64,14 @@ struct RandomData
   std::unique_ptr<SampledField<double>> samples; ///< null: of a source
   std::vector<unsigned char> valid;
   Field field;
-  std::unique_ptr<SampledField<double>> everywhere; ///< the same box full of gas, to see which rays cross it
+  std::unique_ptr<SampledField<double>>
+    everywhere;    ///< the same box full of gas, to see which rays cross it
   double near = 0; ///< data units: half height of a view of what is worth looking at; 0: all of it
 };
 
 RandomData randomData(DataKind kind, Random& random);
 
-/// A view of the data, a technique and a light, with distances and wavelengths that make something to be seen. `scout` is a
-/// small image of the data as deflections.
+/// A view of the data, a technique and a light, with distances and wavelengths that make something to be seen.
 Scene randomScene(const RandomData& data, Cutoff cutoff, Random& random);
 
 /// What the error of a technique is that cannot be seen.

@@ -40,13 +40,14 @@ inline double pixelOnBackground(const Frame& frame, const Scene& scene)
     (frame.pupil > 0 ? 1 + (distance + frame.focus - frame.entry) / frame.pupil : 1);
 }
 
-/// At a pixel.
-inline double trueErrorAt(
-  const Image& image, const Image& truth, const Scene& scene, std::size_t pixel)
+/// At a pixel. The path counts where no body covers the pixel's centre, whose path it is.
+inline double trueErrorAt(const Image& image, const Image& truth, const Scene& scene,
+  std::size_t pixel, bool isClear = true)
 {
   double ofLight = 0;
-  const auto look = [&](const PixelArray<float>& a, const PixelArray<float>& b, std::size_t at)
-  { ofLight = std::max(ofLight, std::abs(static_cast<double>(a[at]) - static_cast<double>(b[at]))); };
+  const auto look = [&](const PixelArray<float>& a, const PixelArray<float>& b, std::size_t at) {
+    ofLight = std::max(ofLight, std::abs(static_cast<double>(a[at]) - static_cast<double>(b[at])));
+  };
   if (image.color.empty())
   {
     look(image.intensity, truth.intensity, pixel);
@@ -66,9 +67,9 @@ inline double trueErrorAt(
   }
   if (scene.cutoff == Cutoff::Interferogram)
   {
-    return std::max(ofLight / pi,
-      std::abs(image.opticalPathDifference[pixel] - truth.opticalPathDifference[pixel]) /
-        scene.wavelength);
+    const double ofPath =
+      std::abs(image.opticalPathDifference[pixel] - truth.opticalPathDifference[pixel]);
+    return std::max(ofLight / pi, isClear ? ofPath / scene.wavelength : 0);
   }
   if (scene.cutoff == Cutoff::Shadowgraph)
   {
@@ -80,15 +81,17 @@ inline double trueErrorAt(
 }
 
 /// What 99 % of the pixels whose light has crossed the data do not exceed; 0 where there are none.
-inline double trueError(const Image& image, const Image& truth, const Scene& scene,
-  const std::function<bool(std::size_t pixel)>& hasCrossed)
+inline double trueError(
+  const Image& image, const Image& truth, const Scene& scene,
+  const std::function<bool(std::size_t pixel)>& hasCrossed,
+  const std::function<bool(std::size_t pixel)>& isClear = [](std::size_t) { return true; })
 {
   std::vector<double> errors;
   for (std::size_t pixel = 0; pixel < truth.intensity.size(); ++pixel)
   {
     if (hasCrossed(pixel))
     {
-      const double error = trueErrorAt(image, truth, scene, pixel);
+      const double error = trueErrorAt(image, truth, scene, pixel, isClear(pixel));
       errors.push_back(std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
     }
   }
