@@ -66,6 +66,21 @@ double homogeneityLimit(const Medium<Real>& medium, const Scene& scene)
   return std::max(scene.homogeneityTolerance * medium.rangeOfNu, rounding * medium.largestNu);
 }
 
+Image abortedImage()
+{
+  Image image;
+  image.aborted = true;
+  return image;
+}
+
+template <class Real>
+DeflectionErrors deflectionErrors(
+  const Medium<Real>& medium, const Light& light, const Field& field, const Image& image)
+{
+  return { light.faces.ratio * noiseFloor(medium, field, light),
+    light.faces.ratio * image.medium.deflectionError };
+}
+
 /// How the rays of a view are bounded and to be traced.
 struct BoundedRays
 {
@@ -95,7 +110,11 @@ struct Bench::Stages
   Image render(std::unique_ptr<UnfinishedImage> request, const Monitor& monitor);
 
 private:
-  /// The same with the medium of `scene`; null if aborted, or if a medium with other settings is needed, which it then
+  /// What finds the settings for an image in this medium.
+  template <class Real>
+  Pilot<Real>& pilotFor(const MediumOnDevices<Real>& onDevices, const Light& light,
+    const UnfinishedImage& request, Image& image);
+  /// The same with the medium and the path model of `scene`; null if aborted, or if others are needed, which it then
   /// writes into `scene`.
   template <class Real>
   std::unique_ptr<UnfinishedImage> aim(const Field& field, Scene& scene, const Watch& watch);
@@ -212,9 +231,7 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
   }
   work.raySets += rays.prepare(key, margin) ? 1 : 0;
   return { onDevices, makeTask<Real>(medium, map, medium.gradientsOf(field), light, settings),
-    margin,
-    { light.faces.ratio * noiseFloor(medium, field, light),
-      light.faces.ratio * image.medium.deflectionError },
+    margin, deflectionErrors(medium, light, field, image),
     projectionFor(settings, light, request, image), image.frame.pixelSize };
 }
 
@@ -277,6 +294,25 @@ Light Bench::Stages::prepareMedium(
 }
 
 template <class Real>
+Pilot<Real>& Bench::Stages::pilotFor(const MediumOnDevices<Real>& onDevices, const Light& light,
+  const UnfinishedImage& request, Image& image)
+{
+  const Field& field = request.field;
+  const Scene& scene = request.scene;
+  const BoundedRays bounded = boundRays(onDevices, light, request, image);
+  const Projection projection = projectionFor(bounded.settings, light, request, image);
+  return targets.pilotOf<Real>({ bounded.key, bounded.settings.kernel, field.lengthScale,
+                                 projection, scene.filmEstimator, scene.seed },
+    [&]
+    {
+      const PilotBench<Real> bench{ &onDevices.medium, light, scene, projection, bounded.settings,
+        marginFor(bounded.bound, scene, image.frame, light) };
+      return std::make_unique<Pilot<Real>>(
+        bench, deflectionErrors(onDevices.medium, light, field, image));
+    });
+}
+
+template <class Real>
 std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
   const Field& field, Scene& scene, const Watch& watch)
 {
@@ -293,27 +329,15 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
     clearRays();
   }
   const Medium<Real>& medium = inUse.medium();
-  const BoundedRays bounded = boundRays(inUse.onDevices(), light, *request, image);
-  const Projection projection = projectionFor(bounded.settings, light, *request, image);
-  const double deflectionError = light.faces.ratio * image.medium.deflectionError;
-  Pilot<Real>& pilot =
-    targets.pilotOf<Real>({ bounded.key, bounded.settings.kernel, field.lengthScale, projection,
-                            scene.filmEstimator, scene.seed },
-      [&]
-      {
-        const PilotBench<Real> bench{ &medium, light, scene, projection, bounded.settings,
-          marginFor(bounded.bound, scene, image.frame, light) };
-        const DeflectionErrors errors{ light.faces.ratio * noiseFloor(medium, field, light),
-          deflectionError };
-        return std::make_unique<Pilot<Real>>(bench, errors);
-      });
+  Pilot<Real>& pilot = pilotFor(inUse.onDevices(), light, *request, image);
   const double k = scene.kScale.value_or(
     automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
   CutoffMaker maker;
   const Cutoffs cutoff = maker.cutoffOf(scene, k, image.frame.pixelSize);
   pilot.setCutoff(scene, cutoff);
-  const KnownErrors known = knownErrors(pilot.bench(), pilot.view(), deflectionError, k);
-  if (changeMedium(known, image.medium.isMemoryShort, scene))
+  const KnownErrors known = knownErrors(
+    pilot.bench(), pilot.view(), deflectionErrors(medium, light, field, image).medium, k);
+  if (refine(known, image.medium.isMemoryShort, scene))
   {
     return nullptr;
   }
@@ -328,6 +352,7 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
   targets.keep(scene, chosen);
   Scene accurate = scene;
   accurate.stepSize = chosen.step;
+  accurate.adaptiveTolerance = adaptiveToleranceFor(chosen.step, scene.adaptiveTolerance);
   accurate.samplesPerPixel = chosen.samples;
   auto result = std::make_unique<UnfinishedImage>(field, accurate);
   result->accuracy = chosen.accuracy;
@@ -358,15 +383,12 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::requestForTarget(
 template <class Real>
 Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
 {
-  Image aborted;
-  aborted.aborted = true;
-
   Image image = begin(request);
   MediumInUse<Real> inUse(media, request.field, clearedFor(request));
   const Light light = prepareMedium(inUse, request, watch, image);
   if (watch.isAborted())
   {
-    return aborted;
+    return abortedImage();
   }
   if (inUse.seesChange())
   {
@@ -379,13 +401,13 @@ Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
     PassLoop<Real>(ofImage, request, watch, rays, cutoffs, processes, work).run();
   if (watch.isAborted())
   {
-    return aborted;
+    return abortedImage();
   }
   if (request.device == Device::Cuda && processes)
   {
     image.processes = processes->ofRays().hasCuda.value_or(false) ? processes->others() + 1 : 1;
   }
-  return develop(hasAllPasses, request, watch, image) ? std::move(image) : aborted;
+  return develop(hasAllPasses, request, watch, image) ? std::move(image) : abortedImage();
 }
 
 std::unique_ptr<UnfinishedImage> Bench::Stages::instead(
@@ -480,9 +502,7 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
     : std::make_unique<UnfinishedImage>(field, scene);
   if (!request)
   {
-    Image aborted;
-    aborted.aborted = true;
-    return aborted;
+    return abortedImage();
   }
   request->device = hasCuda ? Device::Cuda : Device::Cpu;
   return stages_->render(std::move(request), monitor);

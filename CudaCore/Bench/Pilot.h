@@ -39,8 +39,18 @@ struct PilotView
   double strongDeflection = 0;  ///< see strongDeflection(), for automatic k
   double largestDeflection = 0; ///< |eps|
   double path = 0;              ///< metres: range of the optical path difference
-  double displacement = 0;      ///< pixels on the film, at most
+  double steepestPath =
+    0; ///< metres: its change over a pixel, which 99 % of the rays do not exceed
 };
+
+/// The longest step that is tried, voxels.
+constexpr double longestStep = 2;
+
+/// What goes with a step of Integrator::Adaptive, of third order. `tolerance`: that of steps of half a voxel.
+inline double adaptiveToleranceFor(double step, double tolerance)
+{
+  return tolerance * (2 * step) * (2 * step) * (2 * step);
+}
 
 /// A difference between two images at a pixel whose light has crossed the data, in the unit of Scene::targetError.
 struct Difference
@@ -54,8 +64,9 @@ using Differences = std::vector<Difference>;
 double percentile99(Differences differences);
 double largestOf(const Differences& differences);
 
-/// Images of patches of pixels, spread evenly over where light crosses the data; closer together beside where it does not,
-/// as at bodies. Rays are traced once for each setting.
+/// Images of patches of pixels. They are closer together where the few pixels are that have the largest errors: beside
+/// bodies, and where rays differ most from their neighbours. Where light is displaced all over the image there is one patch,
+/// the image. Rays are traced once for each setting.
 template <class Real>
 class Pilot
 {
@@ -78,6 +89,10 @@ public:
   {
     bench_.scene = scene;
     cutoff_ = &cutoff;
+    for (auto& exposed : exposed_)
+    {
+      exposed.clear();
+    }
   }
 
   /// Two sets of patches that have no pixel in common: one to choose by, one to verify the choice with.
@@ -92,10 +107,16 @@ public:
     Patches patches, const Settings& a, const Settings& b, const Monitor& monitor);
 
 private:
+  /// A rectangle of pixels on the film, and the one around which the rays start that land there.
   struct Patch
   {
     std::int64_t column, row; ///< its lower left pixel
-    double weight;            ///< how often others like it are in the image
+    double weight;            ///< how many pixels of the image each of its own stands for
+    std::int64_t fromColumn, fromRow;
+    std::int64_t margin = 0; ///< pixels around that
+    std::int64_t columns = edge, rows = edge;
+
+    static constexpr std::int64_t edge = 4; ///< pixels, but for a patch that is the whole image
   };
   using PatchList = std::vector<Patch>;
   /// What of a patch's image is compared.
@@ -105,30 +126,63 @@ private:
     std::vector<double> path; ///< metres
     std::vector<float> moved; ///< two for each pixel, data units: of the background
     std::vector<bool> hasCrossed;
+    std::vector<bool> isClear; ///< at the pixel's centre, whose path it has
   };
   using Traced = std::vector<TracedPass>; ///< of each patch
+  using Exposed = std::vector<Values>;    ///< of each patch
+
+  /// A ray that has looked at the view, and how far it is moved on the film, pixels.
+  struct Scout
+  {
+    RayFate fate;
+    double deflection[2], moved[2];
+  };
+  /// A square of pixels that may be a patch.
+  struct Cell
+  {
+    std::int64_t column, row;
+    double variation; ///< how much the rays there differ from their neighbours
+  };
+  using Cells = std::vector<Cell>;
 
   RayTask<Real> taskFor(double step) const;
   void scout(const DeflectionErrors& errors);
+  /// Null outside of the view.
+  const Scout* scoutAt(std::int64_t column, std::int64_t row) const;
+  double variationAt(std::int64_t column, std::int64_t row) const;
+  std::vector<double> variationsOnFilm() const;
   void layOut();
-  void spread(const PatchList& cells, std::size_t count);
-  Pass passOf(std::int64_t number) const;
+  void takeWholeIfCheaper();
+  void spread(const Cells& cells, double pixels);
+  /// Aims a patch at where the light comes from that lands on it. False if that is from all over the image.
+  bool findOrigin(Patch& patch) const;
+  /// A set of patches.
+  std::size_t indexOf(Patches patches) const
+  {
+    return isWhole_ ? 0 : static_cast<std::size_t>(patches);
+  }
+  bool isShifted() const;
+  Pass passOf(const Patch& patch, std::int64_t number) const;
   /// The rays of all patches of a set; null if aborted.
   const Traced* trace(Patches patches, double step, int number, const Monitor& monitor);
+  /// The images of all patches of a set; null if aborted.
+  const Exposed* expose(Patches patches, const Settings& settings, const Monitor& monitor);
   Values expose(
     const Patch& patch, std::size_t index, const std::vector<const Traced*>& passes) const;
   void addDifferences(
-    const Values& a, const Values& b, double weight, Differences& differences) const;
+    const Values& a, const Values& b, const Patch& patch, Differences& differences) const;
 
   PilotBench<Real> bench_;
   const Cutoffs* cutoff_ = nullptr;
   PilotView view_;
-  PatchList within_, atEdges_; ///< cells of the view where light crosses the data, row by row
-  std::int64_t stride_ = 1;    ///< pixels between them
-  std::int64_t edge_ = 4;      ///< pixels of a patch
-  std::int64_t margin_ = 2;    ///< of a patch
+  std::vector<Scout> scouts_; ///< row by row
+  std::int64_t scoutColumns_ = 0, scoutRows_ = 0;
+  std::int64_t stride_ = 1; ///< pixels between them
+  std::int64_t lost_ = 0;   ///< patches whose light comes from all over the image
+  bool isWhole_ = false;    ///< both sets are one patch, the image
   PatchList patches_[2];
-  std::map<std::pair<double, int>, Traced> traced_[2];
+  std::map<std::pair<double, int>, Traced> traced_[2];   ///< by step and pass
+  std::map<std::pair<double, int>, Exposed> exposed_[2]; ///< by step and rays per pixel
 };
 
 } // namespace schlieren

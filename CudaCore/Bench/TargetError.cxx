@@ -23,6 +23,8 @@ constexpr double errorByHalving = 1.5;
 /// The error of n rays by their difference to 4 n, and to 2 n: it falls as 1 / n, about.
 constexpr double errorByFourfold = 1.33;
 constexpr double errorByTwofold = 2;
+/// The same by the difference of n / 2 to n, which it is where it falls as 1 / n and where it is random; and a margin.
+constexpr double errorByHalf = 1.33;
 /// By how much it falls from n to 4 n, at least.
 constexpr double leastGain = 3.5;
 /// For what the patches have not seen.
@@ -33,6 +35,21 @@ double sumOf(double a, double b, double c = 0, double d = 0)
   return std::sqrt(a * a + b * b + c * c + d * d);
 }
 
+/// How steps are compared.
+struct StepRange
+{
+  double longest; ///< voxels
+  int rays;       ///< per pixel
+};
+
+/// Steps move the edges of bodies by fractions of a pixel, which single rays do not see in nearly all pixels.
+StepRange stepsFor(bool hasWalls, bool hasFilm)
+{
+  constexpr int raysAtWalls = 16;
+  return hasWalls ? StepRange{ longestStepAtWalls, hasFilm ? raysAtWalls : 1 }
+                  : StepRange{ longestStep, 1 };
+}
+
 /// Finds errors of steps and rays per pixel when they are requested.
 template <class Real>
 class Ladder
@@ -40,15 +57,15 @@ class Ladder
 public:
   using Patches = typename Pilot<Real>::Patches;
 
-  Ladder(Pilot<Real>& pilot, double longest, bool hasFilm, const Monitor& monitor)
+  Ladder(Pilot<Real>& pilot, const StepRange& steps, bool hasFilm, const Monitor& monitor)
     : pilot_(pilot)
-    , longest_(longest)
+    , steps_(steps)
     , hasFilm_(hasFilm)
     , monitor_(monitor)
   {
   }
 
-  double longest() const { return longest_; }
+  double longest() const { return steps_.longest; }
 
   /// Looks at all patches from now on.
   void lookAtAll() { looksAtAll_ = true; }
@@ -59,7 +76,7 @@ public:
     {
       return 0.5 * ofStep(2 * step);
     }
-    return errorByHalving * differenceOf({ step, 1 }, { 0.5 * step, 1 });
+    return errorByHalving * differenceOf({ step, steps_.rays }, { 0.5 * step, steps_.rays });
   }
 
   /// `allowed`: where the error of 16 rays is less than that by what 4 gain, it is not measured.
@@ -85,7 +102,7 @@ public:
         return before / gain;
       }
     }
-    return errorByFourfold * differenceOf({ longest_, samples }, { longest_, 4 * samples });
+    return errorByFourfold * differenceOf({ longest(), samples }, { longest(), 4 * samples });
   }
 
 private:
@@ -101,7 +118,7 @@ private:
 
   Pilot<Real>& pilot_;
   bool looksAtAll_ = false;
-  double longest_;
+  StepRange steps_;
   bool hasFilm_;
   const Monitor& monitor_;
 };
@@ -143,7 +160,9 @@ AccurateSettings cheapest(double target, Ladder<Real>& ladder, const KnownErrors
     }
   };
   chooseRays(shareOfRays * allowed);
-  const double rest = std::max(allowed * allowed - ofRays * ofRays, 0.19 * allowed * allowed);
+  constexpr double negligible = 0.3; // by something larger that nothing can mend
+  const double rest = std::max({ allowed * allowed - ofRays * ofRays, 0.19 * allowed * allowed,
+    ofRays > allowed ? negligible * negligible * ofRays * ofRays : 0 });
   for (double step = ladder.longest(); step >= shortestStep; step *= 0.5)
   {
     settings.step = step;
@@ -155,7 +174,7 @@ AccurateSettings cheapest(double target, Ladder<Real>& ladder, const KnownErrors
   }
   if (ofSteps > allowed)
   {
-    chooseRays(0.5 * ofSteps); // more are of no use
+    chooseRays(negligible * ofSteps);
   }
   settings.accuracy = { target, margin * sumOf(ofRays, ofSteps, known.voxels, known.rounding), 0,
     limitOf(ofSteps, ofRays, known) };
@@ -199,6 +218,13 @@ KnownErrors knownErrors(
     const double fringes = view.path / scene.wavelength;
     known.rounding = scene.precision == Precision::Single ? roundingOfPath * fringes : 0;
     known.voxels = deflectionError > 0 ? typicalByLargest * scene.mediumTolerance * fringes : 0;
+    if (bench.settings.kernel.path == PathModel::Straight && scene.pathModel == PathModel::Auto)
+    {
+      // The bend makes a ray longer by half of its square, and Fermat's principle leaves less than that of it.
+      const double depth = bench.light.depth * bench.light.unit * bench.settings.lengthScale;
+      known.straight =
+        0.5 * view.largestDeflection * view.largestDeflection * depth / scene.wavelength;
+    }
   }
   else if (technique.plane == RecordedPlane::Background)
   {
@@ -217,10 +243,15 @@ KnownErrors knownErrors(
   return known;
 }
 
-bool changeMedium(const KnownErrors& known, bool isMemoryShort, Scene& scene)
+bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene)
 {
   const double allowed = scene.targetError / margin;
-  constexpr double shareOfRounding = 0.25, shareOfVoxels = 0.7;
+  constexpr double shareOfRounding = 0.25, shareOfVoxels = 0.7, shareOfStraight = 0.25;
+  if (known.straight > shareOfStraight * allowed)
+  {
+    scene.pathModel = PathModel::Refracted;
+    return true;
+  }
   if (scene.precision == Precision::Single && known.rounding > shareOfRounding * allowed)
   {
     scene.precision = Precision::Double;
@@ -238,18 +269,39 @@ bool changeMedium(const KnownErrors& known, bool isMemoryShort, Scene& scene)
 
 /// Finds what other patches say of settings, and writes it into them. Nothing if aborted.
 template <class Real>
-void verify(
-  AccurateSettings& settings, Pilot<Real>& pilot, const KnownErrors& known, const Monitor& monitor)
+void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& steps,
+  const KnownErrors& known, const Monitor& monitor)
 {
+  using Patches = typename Pilot<Real>::Patches;
   const Scene& scene = pilot.bench().scene;
-  const int more = isOfCamera(scene.cutoff) ? 1 : settings.samples <= 4 ? 4 : 2;
-  const double byDifference = more == 2 ? errorByTwofold : errorByFourfold;
-  const Differences differences = pilot.compare(Pilot<Real>::Patches::ToVerify,
-    { settings.step, settings.samples }, { 0.5 * settings.step, more * settings.samples }, monitor);
-  Accuracy& accuracy = settings.accuracy;
-  accuracy.target = scene.targetError;
-  accuracy.reached = sumOf(byDifference * percentile99(differences), known.voxels, known.rounding);
-  accuracy.largest = sumOf(byDifference * largestOf(differences), known.voxels, known.rounding);
+  // No steps are traced that are finer than the shortest, whose error is half of that of twice its length at the most.
+  const double step = std::max(settings.step, 2 * shortestStep);
+  const double bySteps = errorByHalving * settings.step / step;
+  const Differences ofSteps =
+    pilot.compare(Patches::ToVerify, { step, steps.rays }, { 0.5 * step, steps.rays }, monitor);
+  Differences ofRays;
+  double byRays = 0;
+  if (!isOfCamera(scene.cutoff))
+  {
+    const auto compare = [&](int fewer, int more)
+    {
+      return pilot.compare(
+        Patches::ToVerify, { steps.longest, fewer }, { steps.longest, more }, monitor);
+    };
+    const int samples = settings.samples;
+    const bool areMost = samples == raysPerPixel.back();
+    byRays = samples <= 4 ? errorByFourfold : areMost ? errorByHalf : errorByTwofold;
+    ofRays = areMost ? compare(samples / 2, samples)
+                     : compare(samples, samples <= 4 ? 4 * samples : 2 * samples);
+  }
+  const auto sum = [&](const auto& statistic)
+  {
+    return sumOf(
+      bySteps * statistic(ofSteps), byRays * statistic(ofRays), known.voxels, known.rounding);
+  };
+  settings.accuracy.target = scene.targetError;
+  settings.accuracy.reached = sum(percentile99);
+  settings.accuracy.largest = sum(largestOf);
 }
 
 template <class Real>
@@ -258,29 +310,36 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
 {
   const Scene& scene = pilot.bench().scene;
   const double target = scene.targetError;
-  const double longest = hasWalls ? longestStepAtWalls : longestStep;
+  const bool hasFilm = !isOfCamera(scene.cutoff);
+  const StepRange steps = stepsFor(hasWalls, hasFilm);
   const auto isAborted = [&] { return monitor.aborted && monitor.aborted(); };
   AccurateSettings settings{};
   if (before)
   {
     constexpr double wasteful = 0.2;
     settings = *before;
-    verify(settings, pilot, known, monitor);
-    const bool isCheapest = settings.samples == raysPerPixel.front() && settings.step >= longest;
+    verify(settings, pilot, steps, known, monitor);
+    const bool isCheapest =
+      settings.samples == raysPerPixel.front() && settings.step >= steps.longest;
     if (isAborted() ||
       (settings.accuracy.isKept() && (isCheapest || settings.accuracy.reached > wasteful * target)))
     {
       return settings;
     }
   }
-  Ladder<Real> ladder(pilot, longest, !isOfCamera(scene.cutoff), monitor);
+  // Fringes that so many rays cannot resolve are grey at best, whatever is chosen.
+  const double finest = std::sqrt(raysPerPixel.back()); // by pixel
+  const bool isResolved =
+    !techniqueOf(scene.cutoff).hasFringes || pilot.view().steepestPath / scene.wavelength <= finest;
+  Ladder<Real> ladder(pilot, steps, isResolved && hasFilm, monitor);
   double aim = target;
   for (int tries = 0; tries < 3 && !isAborted(); ++tries)
   {
+    const AccurateSettings last = settings;
     settings = cheapest(aim, ladder, known);
-    verify(settings, pilot, known, monitor);
-    const bool isFinest = settings.step <= shortestStep && settings.samples == raysPerPixel.back();
-    if (settings.accuracy.isKept() || isFinest)
+    const bool isSame = tries > 0 && settings.step == last.step && settings.samples == last.samples;
+    verify(settings, pilot, steps, known, monitor);
+    if (isSame || settings.accuracy.isKept() || !isResolved)
     {
       break;
     }

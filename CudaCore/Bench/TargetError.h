@@ -25,6 +25,7 @@ struct KnownErrors
 {
   double voxels = 0;
   double rounding = 0;
+  double straight = 0; ///< of the path of rays that PathModel::Auto does not bend
 };
 
 /// What keeps the target, or comes closest.
@@ -44,11 +45,8 @@ template <class Real>
 KnownErrors knownErrors(
   const PilotBench<Real>& bench, const PilotView& view, double deflectionError, double k);
 
-/// Whether a medium with finer voxels or in double precision is needed: `scene` has its settings then.
-bool changeMedium(const KnownErrors& known, bool isMemoryShort, Scene& scene);
-
-/// The steps to begin with, voxels.
-constexpr double longestStep = 2;
+/// Whether a medium with finer voxels, double precision or bent rays are needed: `scene` has its settings then.
+bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene);
 
 /// Chooses settings for the pilot's scene, verifies them with other pixels, and chooses finer ones, at most twice, where that
 /// shows that they do not keep the target. Begins with the settings of another image of the same technique, which may be

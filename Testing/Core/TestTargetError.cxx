@@ -3,6 +3,7 @@
 // Scene::targetError: whether the error that an image is said to have is the one that it has.
 #include "AnalyticSources.h"
 #include "Fields.h"
+#include "TrueError.h"
 
 #include <algorithm>
 #include <memory>
@@ -60,67 +61,6 @@ Image finest(const Field& field, Scene scene, double k)
   return Bench().render(field, scene);
 }
 
-/// The largest difference to a neighbour.
-double slopeAt(const Image& image, int column, int row)
-{
-  const auto light = [&](int i, int j)
-  {
-    return static_cast<double>(image.intensity[pixelOf(
-      image, std::clamp(i, 0, image.width - 1), std::clamp(j, 0, image.height - 1))]);
-  };
-  double slope = 0;
-  for (const int step : { -1, 1 })
-  {
-    slope = std::max({ slope, std::abs(light(column + step, row) - light(column, row)),
-      std::abs(light(column, row + step) - light(column, row)) });
-  }
-  return slope;
-}
-
-/// The error of 99 % of the pixels whose light has crossed the data, by the definition of Scene::targetError.
-double trueError(const Image& image, const Image& truth, const Scene& scene)
-{
-  std::vector<double> errors;
-  for (std::size_t pixel = 0; pixel < truth.intensity.size(); ++pixel)
-  {
-    if (truth.opticalPathDifference[pixel] == 0)
-    {
-      continue;
-    }
-    const double ofLight = std::abs(
-      static_cast<double>(image.intensity[pixel]) - static_cast<double>(truth.intensity[pixel]));
-    if (scene.cutoff == Cutoff::Background)
-    {
-      const auto off = [&](std::size_t axis)
-      {
-        return static_cast<double>(image.backgroundDisplacement[2 * pixel + axis]) -
-          static_cast<double>(truth.backgroundDisplacement[2 * pixel + axis]);
-      };
-      errors.push_back(std::hypot(off(0), off(1)) / image.frame.pixelSize);
-    }
-    else if (scene.cutoff == Cutoff::Interferogram)
-    {
-      errors.push_back(std::max(ofLight / pi,
-        std::abs(image.opticalPathDifference[pixel] - truth.opticalPathDifference[pixel]) /
-          scene.wavelength));
-    }
-    else if (scene.cutoff == Cutoff::Shadowgraph)
-    {
-      const int column = static_cast<int>(pixel) % truth.width;
-      const int row = static_cast<int>(pixel) / truth.width;
-      errors.push_back(std::max(0., ofLight - 0.05 * slopeAt(truth, column, row)));
-    }
-    else
-    {
-      errors.push_back(ofLight);
-    }
-  }
-  const auto rank = static_cast<std::size_t>(0.99 * static_cast<double>(errors.size()));
-  std::nth_element(
-    errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(rank), errors.end());
-  return errors.at(rank);
-}
-
 class TargetError : public testing::TestWithParam<Case>
 {
 protected:
@@ -141,7 +81,8 @@ protected:
         truth = finest(field, scene, image.kScale);
         scene.kScale = image.kScale > 0 ? std::optional<double>(image.kScale) : std::nullopt;
       }
-      const double error = trueError(image, truth, scene);
+      const double error = trueError(image, truth, scene,
+        [&](std::size_t pixel) { return truth.opticalPathDifference[pixel] != 0; });
       EXPECT_EQ(image.accuracy.target, scene.targetError);
       EXPECT_NE(image.accuracy.limit, ErrorSource::None);
       if (image.accuracy.isKept())

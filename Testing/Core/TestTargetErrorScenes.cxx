@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Scene::targetError on random scenes: how often the error that an image claims is the one that it has.
+//
+// SCHLIEREN_ERROR_SCENES: so many scenes, with a line for each; else some of them. SCHLIEREN_ERROR_FIRST: the number of the
+// first one.
+#include "RandomScenes.h"
+#include "TrueError.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace schlieren
+{
+
+namespace
+{
+
+const char* name(Cutoff cutoff)
+{
+  constexpr const char* names[] = { "knife edge", "shadowgraph", "circular", "circular complement",
+    "graded filter", "colour filter", "interferogram", "background", "numerical schlieren" };
+  return names[static_cast<int>(cutoff)];
+}
+
+const char* name(ErrorSource limit)
+{
+  constexpr const char* names[] = { "none", "steps", "rays", "voxels", "rounding" };
+  return names[static_cast<int>(limit)];
+}
+
+double secondsSince(std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// An image with a target error.
+struct Trial
+{
+  double target = 0, reached = 0, error = 0, seconds = 0;
+  bool isKept() const { return reached <= target; }
+  bool isMissed() const { return isKept() && error > target; }
+};
+
+/// What the settings of an image leave out: bent rays, steps of a half or a quarter, other rays through other points of the
+/// pixels, four times as many, finer voxels, double precision.
+Image truthOf(const Field& field, Scene scene, const Image& image)
+{
+  const double finestStep = field.source ? 0.25 : 0.125;
+  constexpr int fewestRays = 16, mostRays = 128;
+  scene.targetError = 0;
+  scene.interpolation = Interpolation::Cubic;
+  // Rounding in single precision is far below all targets but those of paths.
+  const bool isDouble = techniqueOf(scene.cutoff).hasFringes || field.version % 3 == 0;
+  scene.precision = isDouble ? Precision::Double : Precision::Single;
+  scene.stepSize = std::max(finestStep, (image.stepSize > 1 ? 0.25 : 0.5) * image.stepSize);
+  scene.mediumTolerance = 2e-4;
+  scene.adaptiveTolerance = 1e-8;
+  scene.homogeneityTolerance = 0;
+  scene.pathModel = PathModel::Refracted;
+  scene.samplesPerPixel =
+    isOfCamera(scene.cutoff) ? 1 : std::clamp(4 * image.samplesPerPixel, fewestRays, mostRays);
+  scene.seed += 1;
+  return Bench().render(field, scene);
+}
+
+/// The optical path of a box full of gas.
+PixelArray<double> crossings(const RandomData& data, Scene scene)
+{
+  scene.targetError = 0;
+  scene.cutoff = Cutoff::KnifeEdge;
+  scene.samplesPerPixel = 1;
+  scene.pathModel = PathModel::Straight;
+  return Bench().render(data.everywhere->field, scene).opticalPathDifference;
+}
+
+/// How much of the light through pixels' centres bodies stop: 0 or 1.
+PixelArray<float> blockedCentres(const RandomData& data, Scene scene)
+{
+  scene.targetError = 0;
+  scene.samplesPerPixel = 1;
+  scene.mediumTolerance = 0.01;
+  return Bench().render(data.field, scene).blockedFraction;
+}
+
+struct SceneResult
+{
+  DataKind kind{};
+  Cutoff cutoff{};
+  std::array<Trial, 2> trials; ///< with a target, and half of it
+  bool isWorseForLess = false; ///< half of the target has raised the error
+};
+
+/// Trees take much longer, and are half as frequent.
+DataKind kindOf(int number)
+{
+  constexpr int onGrids = static_cast<int>(DataKind::TreeBalls);
+  const int at = number % (onGrids + dataKinds);
+  return static_cast<DataKind>(at < onGrids ? at : at - onGrids);
+}
+
+/// The scene with a number.
+SceneResult tryScene(int number, bool isShown)
+{
+  Random random(static_cast<std::uint64_t>(number) + 1);
+  SceneResult result;
+  result.kind = kindOf(number);
+  result.cutoff = static_cast<Cutoff>(random.below(static_cast<int>(techniques.size())));
+  const RandomData data = randomData(result.kind, random);
+  Scene scene = randomScene(data, result.cutoff, random);
+  scene.targetError = invisibleError(scene.cutoff) * random.logUniform(0.6, 12);
+
+  Bench bench;
+  std::array<Image, 2> images;
+  for (std::size_t n = 0; n < 2; ++n)
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    images[n] = bench.render(data.field, scene);
+    result.trials[n] = { scene.targetError, images[n].accuracy.reached, 0, secondsSince(begin) };
+    if (images[n].kScale > 0)
+    {
+      scene.kScale = images[n].kScale;
+    }
+    scene.targetError *= 0.5;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const Image truth = truthOf(data.field, scene, images[1]);
+  const double seconds = secondsSince(begin);
+  const PixelArray<double> crossing = crossings(data, scene);
+  const PixelArray<float> blocked =
+    techniqueOf(scene.cutoff).hasFringes ? blockedCentres(data, scene) : truth.blockedFraction;
+  for (std::size_t n = 0; n < 2; ++n)
+  {
+    result.trials[n].error = trueError(
+      images[n], truth, scene,
+      [&](std::size_t pixel) { return crossing[pixel] > 0 && truth.blockedFraction[pixel] < 1; },
+      [&](std::size_t pixel) { return blocked[pixel] == 0; });
+  }
+  // Within what the truth itself lacks.
+  const double errorOfTruth = 0.1 * result.trials[0].target;
+  result.isWorseForLess = result.trials[1].error > 1.05 * result.trials[0].error + errorOfTruth;
+  if (isShown)
+  {
+    for (std::size_t n = 0; n < 2; ++n)
+    {
+      const Trial& trial = result.trials[n];
+      std::printf("%d;%s;%s;%.3g;%.3g;%.3g;%s;%s;%g;%d;%s;%.2f;%.2f;%.2g;%.2g;%.2g\n", number,
+        name(result.kind), name(result.cutoff), trial.target, trial.reached, trial.error,
+        trial.isMissed()    ? "MISSED"
+          : !trial.isKept() ? "not kept"
+                            : "kept",
+        name(images[n].accuracy.limit), images[n].stepSize, images[n].samplesPerPixel,
+        images[n].pathModel == PathModel::Straight ? "straight" : "refracted", trial.seconds,
+        seconds, images[n].accuracy.largest,
+        static_cast<double>(images[n].raysLost) /
+          static_cast<double>(std::max<std::int64_t>(1, images[n].raysTraced)),
+        images[n].displacementBound / images[n].frame.pixelSize);
+    }
+    std::fflush(stdout);
+  }
+  return result;
+}
+
+/// Of a row of the table.
+struct Sum
+{
+  int images = 0, claimed = 0, missed = 0, worse = 0, tight = 0;
+  std::vector<double> effectivities; ///< of errors of a tenth of the target or more
+  double seconds = 0;
+
+  void add(const SceneResult& result)
+  {
+    for (const Trial& trial : result.trials)
+    {
+      ++images;
+      claimed += trial.isKept() ? 1 : 0;
+      missed += trial.isMissed() ? 1 : 0;
+      seconds += trial.seconds;
+      constexpr double tenth = 0.1;
+      if (trial.error >= tenth * trial.target)
+      {
+        tight += trial.isKept() ? 1 : 0;
+        effectivities.push_back(trial.reached / trial.error);
+      }
+    }
+    worse += result.isWorseForLess ? 1 : 0;
+  }
+
+  double kept() const { return claimed > 0 ? 1 - 1. * missed / claimed : 1; }
+  double effective() const
+  {
+    const auto isGood = [](double ratio) { return ratio >= 0.5 && ratio <= 3; };
+    return effectivities.empty() ? 1
+                                 : 1. *
+        static_cast<double>(std::count_if(effectivities.begin(), effectivities.end(), isGood)) /
+        static_cast<double>(effectivities.size());
+  }
+
+  void print(const std::string& title)
+  {
+    std::sort(effectivities.begin(), effectivities.end());
+    const auto quantile = [&](double fraction)
+    {
+      return effectivities.empty() ? 0
+                                   : effectivities[static_cast<std::size_t>(
+                                       fraction * static_cast<double>(effectivities.size() - 1))];
+    };
+    std::printf(
+      "| %s | %d | %d | %d | %.1f %% | %d | %.2f [%.2f-%.2f] | %.0f %% | %.0f %% | %d | %.2f |\n",
+      title.c_str(), images, images - claimed, missed, 100 * kept(),
+      static_cast<int>(effectivities.size()), quantile(0.5), quantile(0.05), quantile(0.95),
+      100 * effective(), claimed > 0 ? 100. * tight / claimed : 100., worse, seconds / images);
+  }
+};
+
+int numberIn(const char* variable, int otherwise)
+{
+  const char* text = std::getenv(variable);
+  return text ? std::atoi(text) : otherwise;
+}
+
+TEST(TargetErrorScenes, KeepTheirTargets)
+{
+  constexpr int some = 16;
+  const bool isLong = std::getenv("SCHLIEREN_ERROR_SCENES") != nullptr;
+  const int first = numberIn("SCHLIEREN_ERROR_FIRST", 0);
+  const int count = numberIn("SCHLIEREN_ERROR_SCENES", some);
+  if (isLong)
+  {
+    std::printf("scene;data;technique;target;reached;error;result;limit;step;rays;path;seconds;"
+                "seconds of the truth;largest;lost;displacement\n");
+  }
+  Sum all;
+  std::map<DataKind, Sum> byKind;
+  std::map<Cutoff, Sum> byTechnique;
+  for (int number = first; number < first + count; ++number)
+  {
+    SCOPED_TRACE(number);
+    const SceneResult result = tryScene(number, isLong);
+    all.add(result);
+    byKind[result.kind].add(result);
+    byTechnique[result.cutoff].add(result);
+    if (result.trials[0].isMissed() || result.trials[1].isMissed())
+    {
+      std::printf("Scene %d misses.\n", number);
+    }
+  }
+  std::printf(
+    "| scenes | images | say that they miss | miss silently | claims that are true | "
+    "error >= target / 10 | estimate / error: median [5-95 %%] | within 1/2 to 3 | of claims, "
+    "error >= target / 10 | worse for half the target | seconds |\n"
+    "|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (auto& [kind, sum] : byKind)
+  {
+    sum.print(schlieren::name(kind));
+  }
+  for (auto& [cutoff, sum] : byTechnique)
+  {
+    sum.print(name(cutoff));
+  }
+  all.print("all");
+  // The aim is 0.99 and 0.9: see Documentation/accuracy.md for what is reached, and where it fails.
+  EXPECT_GE(all.kept(), 0.95);
+  EXPECT_GE(all.effective(), 0.7);
+}
+
+} // namespace
+
+} // namespace schlieren
