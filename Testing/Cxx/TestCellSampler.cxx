@@ -163,7 +163,8 @@ TEST_P(CellsOnLattices, AreWhatEachCellSays)
   const Mesh mesh = meshOf(GetParam().type, 3, GetParam().cells, 0.1, false);
   setN(mesh, rough);
   const Lattice lattice = { { -0.103, -0.101, -0.107 }, { 0.11, 0.1, 0.09 }, { 11, 12, 13 } };
-  EXPECT_LT(difference(sampled({ mesh }, lattice), eachCell({ mesh }, lattice)), 1e-12);
+  // Curved cells are other sums of the same terms, some of which are large in tetrahedra.
+  EXPECT_LT(difference(sampled({ mesh }, lattice), eachCell({ mesh }, lattice)), 5e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, CellsOnLattices, testing::ValuesIn(kinds()),

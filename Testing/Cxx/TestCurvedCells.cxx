@@ -5,6 +5,7 @@
 #include "CellMeshes.h"
 
 #include "Cells/BasisProduct.h"
+#include "Cells/CellSampler.h"
 #include "Cells/MeshCell.h"
 #include "Walls/MeshFaces.h"
 
@@ -232,6 +233,91 @@ TEST(CurvedCells, QuadraticPyramidsAreInverted)
     }
     x[2] += 2;
     EXPECT_FALSE(own.find(x.data(), found, outside));
+  }
+}
+
+// Every place to which a cell maps is found there again, however much it is distorted and folded, and the field, which is
+// linear, is right at all that are found.
+TEST(CurvedCells, DistortedCellsAreInvertedEverywhere)
+{
+  struct Kind
+  {
+    int type, points;
+  };
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(0, 1), around(-1, 1);
+  for (const Kind& kind : { Kind{ VTK_QUADRATIC_PYRAMID, 13 }, Kind{ VTK_QUADRATIC_HEXAHEDRON, 20 },
+         Kind{ VTK_TRIQUADRATIC_HEXAHEDRON, 27 }, Kind{ VTK_QUADRATIC_WEDGE, 15 },
+         Kind{ VTK_BIQUADRATIC_QUADRATIC_WEDGE, 18 }, Kind{ VTK_QUADRATIC_TETRA, 10 },
+         Kind{ VTK_LAGRANGE_HEXAHEDRON, 64 }, Kind{ VTK_LAGRANGE_TETRAHEDRON, 20 },
+         Kind{ VTK_LAGRANGE_WEDGE, 18 }, Kind{ VTK_BEZIER_HEXAHEDRON, 27 } })
+  {
+    for (const double distortion : { 0.05, 0.2, 0.5 })
+    {
+      SCOPED_TRACE(std::to_string(kind.type) + " by " + std::to_string(distortion));
+      auto mesh = Mesh::New();
+      vtkNew<vtkPoints> points;
+      points->SetDataTypeToDouble();
+      vtkNew<vtkIdList> ids;
+      for (const Vec& x : unitCell(kind.type, kind.points))
+      {
+        ids->InsertNextId(points->InsertNextPoint(x[0] + distortion * around(random),
+          x[1] + distortion * around(random), x[2] + distortion * around(random)));
+      }
+      mesh->InsertNextCell(kind.type, ids);
+      mesh->SetPoints(points);
+      addPointArray(mesh, "N", linear);
+      mesh->GetPointData()->SetActiveScalars("N");
+      vtkNew<vtkGenericCell> cell;
+      mesh->GetCell(0, cell);
+      const filters::CellTree tree({ mesh });
+      const filters::CellSampler sampler(tree);
+      std::vector<double> weights(static_cast<std::size_t>(kind.points));
+      int lost = 0, tried = 0;
+      for (int n = 0; n < 1000; ++n)
+      {
+        double place[3] = { any(random), any(random), any(random) };
+        const bool isWedge = kind.type == VTK_QUADRATIC_WEDGE ||
+          kind.type == VTK_BIQUADRATIC_QUADRATIC_WEDGE || kind.type == VTK_LAGRANGE_WEDGE;
+        const bool isTetrahedron =
+          kind.type == VTK_QUADRATIC_TETRA || kind.type == VTK_LAGRANGE_TETRAHEDRON;
+        if (place[0] + place[1] + (isTetrahedron ? place[2] : 0) > 1 && (isWedge || isTetrahedron))
+        {
+          continue;
+        }
+        cell->InterpolateFunctions(place, weights.data());
+        Vec x{ 0, 0, 0 };
+        bool isInBox = true;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          for (vtkIdType i = 0; i < kind.points; ++i)
+          {
+            x[axis] += weights[static_cast<std::size_t>(i)] * points->GetPoint(i)[axis];
+          }
+          isInBox =
+            isInBox && x[axis] > tree.bounds().low[axis] && x[axis] < tree.bounds().high[axis];
+        }
+        if (!isInBox)
+        {
+          continue;
+        }
+        double value = 0;
+        unsigned char found = 0;
+        sampler.sample({ x, { 1, 1, 1 }, { 1, 1, 1 } }, &value, &found);
+        ++tried;
+        lost += found ? 0 : 1;
+        if (found)
+        {
+          ASSERT_NEAR(value, linear(x), 1e-10);
+        }
+      }
+      EXPECT_GT(tried, 100);
+      EXPECT_LE(lost, 3);
+      if (distortion < 0.1)
+      {
+        EXPECT_EQ(lost, 0);
+      }
+    }
   }
 }
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Cells/CellSampler.h"
 
+#include "Cells/CurvedCell.h"
 #include "Cells/MeshCell.h"
 #include "Cells/PlacesInCell.h"
+#include "Cells/PlacesInPart.h"
 
 #include "vtkDataSet.h"
 
@@ -30,6 +32,7 @@ constexpr double nothing = 1e-9;
 constexpr double bendOfParallelepipeds = 1e-12;
 
 const LocateInCell locateInCell = functionsToLocate().back();
+const LocateInPart locateInPart = functionsToLocateInPart().back();
 
 /// The points of a lattice, and the cells found so far.
 class Brick
@@ -39,6 +42,8 @@ public:
 
   /// Sets the box for add(). Returns whether it contains points.
   bool enter(const CellTree::Steps& box);
+  /// Sets the box to that of the points between these places.
+  bool enter(const Vector& low, const Vector& high);
   void add(std::size_t place);
   /// Adds a cell that is known to contain these points, and no others.
   void add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end);
@@ -50,6 +55,8 @@ private:
   bool addNormal(const CellTree::Cell& cell);
   template <CellShape shape>
   void findSlabs(const double corners[4][8], const Polynomial place[3], const Vector rows[3]);
+  bool hasUnsettled() const;
+  void addCurved();
   void addOther(const CellTree::Cell& cell);
   void setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3]);
   void locateInOther();
@@ -82,6 +89,8 @@ private:
   CellPoints Points;
   std::size_t Places[CellPoints::most];
   int Count = 0;
+  std::unique_ptr<CurvedCell> Curved;
+  const CurvedPart* Part = nullptr; // of a curved cell; null: another cell
   std::unique_ptr<MeshCell> Other;
   const double* OtherValues = nullptr;
 };
@@ -129,6 +138,22 @@ bool Brick::enter(const CellTree::Steps& box)
     }
   }
   return true;
+}
+
+bool Brick::enter(const Vector& low, const Vector& high)
+{
+  bool hasPoints = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double last = this->Lattice.points[axis] - 1;
+    const double per = 1 / this->Lattice.spacing[axis], first = this->Lattice.first[axis];
+    const double from = (low[axis] - first) * per - this->Slack[axis];
+    const double to = (high[axis] - first) * per + this->Slack[axis];
+    this->First[axis] = static_cast<int>(std::ceil(std::clamp(from, 0., last + 1)));
+    this->Last[axis] = static_cast<int>(std::floor(std::clamp(to, -1., last)));
+    hasPoints = hasPoints && this->First[axis] <= this->Last[axis];
+  }
+  return hasPoints;
 }
 
 void Brick::set(std::size_t point, double miss, double value)
@@ -181,10 +206,23 @@ void Brick::add(std::size_t place)
     case CellShape::Other:
       break;
   }
-  if (!isNormal)
+  if (isNormal)
   {
-    this->addOther(cell);
+    return;
   }
+  if (isCurved(cell.block->type(cell.id)))
+  {
+    if (!this->Curved)
+    {
+      this->Curved = std::make_unique<CurvedCell>();
+    }
+    if (this->Curved->set(cell))
+    {
+      this->addCurved();
+      return;
+    }
+  }
+  this->addOther(cell);
 }
 
 /// Finds the bounds of the normal coordinates in a cell.
@@ -384,7 +422,17 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
       const std::size_t row = *given / rowLength;
       double at[4];
       beginRow(static_cast<int>(row % rowCount), static_cast<int>(row / rowCount), at);
-      collect(at, static_cast<int>(*given % rowLength), *given);
+      const auto i = static_cast<int>(*given % rowLength);
+      bool isWithin = true;
+      for (int axis = 0; axis < 3 && this->Part; ++axis)
+      {
+        const double place = at[axis] + i * along[axis];
+        isWithin = isWithin && place >= this->Low[axis] && place <= this->High[axis];
+      }
+      if (isWithin)
+      {
+        collect(at, i, *given);
+      }
     }
     this->flush(cell);
     return;
@@ -427,7 +475,7 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
 
 void Brick::flush(const NormalCell& cell)
 {
-  if (cell.shape == CellShape::Other)
+  if (cell.shape == CellShape::Other && !this->Part)
   {
     this->locateInOther();
   }
@@ -441,13 +489,75 @@ void Brick::flush(const NormalCell& cell)
         of[i] = of[this->Count - 1];
       }
     }
-    locateInCell(cell, this->Count, this->Points);
+    this->Part ? locateInPart(*this->Part, this->Count, this->Points)
+               : locateInCell(cell, this->Count, this->Points);
   }
   for (int i = 0; i < this->Count; ++i)
   {
     this->set(this->Places[i], this->Points.miss[i], this->Points.value[i]);
   }
   this->Count = 0;
+}
+
+/// Returns whether the best cell is not yet known of one of the points between First and Last.
+bool Brick::hasUnsettled() const
+{
+  const auto row = static_cast<std::size_t>(this->Lattice.points[0]);
+  const auto rows = static_cast<std::size_t>(this->Lattice.points[1]);
+  for (int k = this->First[2]; k <= this->Last[2]; ++k)
+  {
+    for (int j = this->First[1]; j <= this->Last[1]; ++j)
+    {
+      const std::size_t first =
+        (static_cast<std::size_t>(k) * rows + static_cast<std::size_t>(j)) * row;
+      for (int i = this->First[0]; i <= this->Last[0]; ++i)
+      {
+        if (!this->isSettled(first + static_cast<std::size_t>(i)))
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+/// Locates points in the parts of a curved cell, within the cell's box.
+void Brick::addCurved()
+{
+  int first[3], last[3];
+  std::copy_n(this->First, 3, first);
+  std::copy_n(this->Last, 3, last);
+  const auto enter = [&](const Vector& low, const Vector& high)
+  {
+    if (this->GivenBegin)
+    {
+      return true;
+    }
+    bool hasPoints = this->enter(low, high);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->First[axis] = std::max(this->First[axis], first[axis]);
+      this->Last[axis] = std::min(this->Last[axis], last[axis]);
+      hasPoints = hasPoints && this->First[axis] <= this->Last[axis];
+    }
+    return hasPoints && this->hasUnsettled();
+  };
+  NormalCell other{};
+  other.shape = CellShape::Other;
+  this->Curved->forParts(enter,
+    [&](const CurvedPart& part, const Vector& middle, const Vector rows[3], const Vector& extent)
+    {
+      this->Part = &part;
+      this->Tolerance = part.tolerance;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        this->Low[axis] = -extent[axis];
+        this->High[axis] = extent[axis];
+      }
+      this->scan(other, middle, rows);
+    });
+  this->Part = nullptr;
 }
 
 /// Locates points by MeshCell. Skips most points outside by a linear cell with the same corners,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Cells/CellShape.h"
+#include "Cells/FoldedCells.h"
 #include "Cells/MeshArrays.h"
 #include "Cells/PointTrends.h"
 #include "Common/WorkProgress.h"
@@ -64,6 +65,11 @@ public:
     vtkIdType id;
   };
   Cell cell(Number number) const;
+  std::size_t blocks() const { return this->Blocks.size(); }
+  std::size_t blockOf(const Cell& cell) const
+  {
+    return static_cast<std::size_t>(cell.block - this->Blocks.data());
+  }
 
   /// Returns the number of the cell at a place, its index in the tree's order.
   Number number(std::size_t place) const { return this->Sorted->numbers[place]; }
@@ -150,6 +156,7 @@ public:
     std::vector<Steps> boxes;                // of the cells
     std::vector<std::vector<Group>> levels;  // of eight cells, of eight groups, ... one group
     std::vector<PointNeighbours> neighbours; // of each block; none: linear
+    FoldedCells folded;
 
     std::size_t bytes() const;
   };

@@ -236,6 +236,58 @@ void LatticeSampling::spread(std::vector<Index>& known)
   known.clear();
 }
 
+/// Sets the unknown points of a box of indices.
+void LatticeSampling::fill(const Index& low, const Index& high, State state)
+{
+  for (int k = low.k; k <= high.k; ++k)
+  {
+    for (int j = low.j; j <= high.j; ++j)
+    {
+      for (int i = low.i; i <= high.i; ++i)
+      {
+        unsigned char& of = this->States[this->numberOf({ i, j, k })];
+        of = of == Unknown ? state : of;
+      }
+    }
+  }
+}
+
+/// Finds the kinds of unknown points of a box of indices: that of its corners where these are of one
+/// kind, else part by part, because each test takes long.
+void LatticeSampling::findKindsIn(
+  const Index& low, const Index& high, const std::function<bool(const Index&)>& isWallAt)
+{
+  bool hasWall = false, hasWindow = false;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Index at{ (corner & 1) != 0 ? high.i : low.i, (corner & 2) != 0 ? high.j : low.j,
+      (corner & 4) != 0 ? high.k : low.k };
+    unsigned char& state = this->States[this->numberOf(at)];
+    if (state == Unknown)
+    {
+      state = isWallAt(at) ? InWall : InWindow;
+    }
+    hasWall = hasWall || state == InWall;
+    hasWindow = hasWindow || state == InWindow;
+  }
+  if (hasWall != hasWindow)
+  {
+    this->fill(low, high, hasWall ? InWall : InWindow);
+    return;
+  }
+  const int lengths[3] = { high.i - low.i, high.j - low.j, high.k - low.k };
+  const auto longest = std::max_element(lengths, lengths + 3) - lengths;
+  if (lengths[longest] < 2)
+  {
+    return; // all are corners
+  }
+  Index below = high, above = low;
+  int Index::*const along = longest == 0 ? &Index::i : (longest == 1 ? &Index::j : &Index::k);
+  below.*along = above.*along = low.*along + lengths[longest] / 2;
+  this->findKindsIn(low, below, isWallAt);
+  this->findKindsIn(above, high, isWallAt);
+}
+
 void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt)
 {
   this->findGaps();
@@ -267,16 +319,15 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
         ++(isWallAt(at) ? walls : windows);
       }
     }
-    this->forPoints(
-      [&](const Index& at)
-      {
-        unsigned char& state = this->States[this->numberOf(at)];
-        if (state == Unknown)
-        {
-          const bool isWall = walls > 0 && (windows == 0 || isWallAt(at));
-          state = isWall ? InWall : InWindow;
-        }
-      });
+    const Index last{ lattice.points[0] - 1, lattice.points[1] - 1, lattice.points[2] - 1 };
+    if (walls == 0 || windows == 0)
+    {
+      this->fill({ 0, 0, 0 }, last, walls > 0 ? InWall : InWindow);
+    }
+    else
+    {
+      this->findKindsIn({ 0, 0, 0 }, last, isWallAt);
+    }
     return;
   }
   std::vector<Index> known;
@@ -370,6 +421,55 @@ void LatticeSampling::findSolidsOfRows()
     { forRowsOf(number, [&](std::size_t row) { this->SolidsOfRows[next[row]++] = number; }); });
 }
 
+/// Returns whether some of the places are in front of a triangle's plane and others behind it.
+bool LatticeSampling::areOnBothSides(
+  const Near& near, const std::array<Point, 8>& places, std::size_t count)
+{
+  bool isInFront = false, isBehind = false;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const bool isFront = dot(near.normal, places[n] - near.corners[0]) >= 0;
+    isInFront = isInFront || isFront;
+    isBehind = isBehind || !isFront;
+  }
+  return isInFront && isBehind;
+}
+
+/// Returns where walls separate two places, the mean of the first and the last of their crossings;
+/// negative: nowhere. A line that only cuts off a bulge of a nearly plane wall begins and ends on the
+/// same side of it.
+double LatticeSampling::separationOf(
+  const std::vector<const Near*>& walls, const Point& from, const Point& to)
+{
+  double first = 2, last = -1;
+  const Near *wallOfFirst = nullptr, *wallOfLast = nullptr;
+  for (const Near* wall : walls)
+  {
+    const double fraction = crossingOf(wall->corners, wall->normal, from, to);
+    if (fraction >= 0 && fraction < first)
+    {
+      first = fraction;
+      wallOfFirst = wall;
+    }
+    if (fraction > last)
+    {
+      last = fraction;
+      wallOfLast = wall;
+    }
+  }
+  if (last < 0)
+  {
+    return -1;
+  }
+  // Turns the normals to the places.
+  const Point line = to - from;
+  const double turns =
+    (dot(wallOfFirst->normal, line) < 0 ? 1 : -1) * (dot(wallOfLast->normal, line) < 0 ? -1 : 1);
+  const bool isBulge =
+    turns * dot(wallOfFirst->normal, wallOfLast->normal) > double{ cosineOfPlane };
+  return isBulge ? -1 : 0.5 * (first + last);
+}
+
 /// Marks points, so that no wall separates corners with gas of the voxel from `low` to low + (1, 1,
 /// 1).
 void LatticeSampling::separate(const Index& low)
@@ -378,6 +478,8 @@ void LatticeSampling::separate(const Index& low)
   std::array<Point, 8> places;
   std::size_t count = 0;
   const std::array<float, 3>* side = nullptr;
+  std::array<const Near*, 8> nearest; // of the corners beside a wall
+  std::size_t countNearest = 0;
   bool mayBeCrossed = false;
   const int corners = this->Lattice.points[2] > 1 ? 8 : 4;
   for (int c = 0; c < corners; ++c)
@@ -392,7 +494,11 @@ void LatticeSampling::separate(const Index& low)
     places[count] = placeOf(at);
     if (this->IsBeside[p])
     {
-      // Skips points on one side of a nearly plane wall.
+      const Near* of = &this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
+      if (countNearest == 0 || nearest[countNearest - 1] != of)
+      {
+        nearest[countNearest++] = of;
+      }
       const std::array<float, 3>& own = this->Sides[p];
       side = side ? side : &own;
       mayBeCrossed = mayBeCrossed ||
@@ -406,6 +512,12 @@ void LatticeSampling::separate(const Index& low)
       }
     }
     ++count;
+  }
+  // Skips corners on one side of a nearly plane wall. Normals alone do not show that: the sides of
+  // a narrow fold have nearly the same one, too.
+  for (std::size_t n = 0; n < countNearest && !mayBeCrossed; ++n)
+  {
+    mayBeCrossed = areOnBothSides(*nearest[n], places, count);
   }
   if (!mayBeCrossed)
   {
@@ -434,23 +546,13 @@ void LatticeSampling::separate(const Index& low)
     return;
   }
   std::array<int, 8> sides{ 0, 1, 2, 3, 4, 5, 6, 7 }; // equal number: not separated
-  double crossing[8][8]; // mean of the first and the last one; negative: none
+  double crossing[8][8];
   for (std::size_t a = 0; a < count; ++a)
   {
     for (std::size_t b = a + 1; b < count; ++b)
     {
-      double first = 2, last = -1;
-      for (const Near* wall : walls)
-      {
-        const double fraction = crossingOf(wall->corners, wall->normal, places[a], places[b]);
-        if (fraction >= 0)
-        {
-          first = std::min(first, fraction);
-          last = std::max(last, fraction);
-        }
-      }
-      crossing[a][b] = last < 0 ? -1 : 0.5 * (first + last);
-      if (last < 0)
+      crossing[a][b] = separationOf(walls, places[a], places[b]);
+      if (crossing[a][b] < 0)
       {
         joinSides(sides, a, b);
       }

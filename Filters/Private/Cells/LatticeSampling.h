@@ -44,6 +44,14 @@ public:
     const std::function<Place(const Point&)>& kindAt, Place* places, float* distances);
 
 private:
+  // State of each point.
+  enum State : unsigned char
+  {
+    InGas,
+    InWall,
+    InWindow,
+    Unknown // outside, kind unknown
+  };
   enum Kind
   {
     Wall,
@@ -64,12 +72,19 @@ private:
   void add(Kind kind, const Triangles& surface, std::int32_t triangle);
   void measure(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody);
   bool isWallNearer(const Index& at, std::int32_t wall, std::int32_t window) const;
+  void fill(const Index& low, const Index& high, State state);
+  void findKindsIn(
+    const Index& low, const Index& high, const std::function<bool(const Index&)>& isWallAt);
   void findKinds(const std::function<Place(const Point&)>& kindAt);
   void findGaps();
   void spread(std::vector<Index>& known);
   void findSides();
   void thickenPlates();
   void findSolidsOfRows();
+  static bool areOnBothSides(
+    const Near& near, const std::array<Point, 8>& places, std::size_t count);
+  static double separationOf(
+    const std::vector<const Near*>& walls, const Point& from, const Point& to);
   void separate(const Index& low);
   bool isThin(const Index& at) const;
 
@@ -106,14 +121,6 @@ private:
   std::vector<std::size_t> StartsOfRows; // empty: not computed
   std::vector<std::int32_t> SolidsOfRows;
 
-  // State of each point.
-  enum State : unsigned char
-  {
-    InGas,
-    InWall,
-    InWindow,
-    Unknown // outside, kind unknown
-  };
   std::vector<unsigned char> States;
   std::vector<float> Distances;
   std::vector<float> SquaredToSolid;      // to walls and bodies

@@ -239,6 +239,32 @@ void MeshCell::evaluate(Vector& x, Vector columns[3])
   }
 }
 
+bool MeshCell::isFolded(double smallest)
+{
+  const double* places = this->Cell->GetParametricCoords();
+  if (this->Form == Shape::Other || !places)
+  {
+    return false;
+  }
+  if (!this->HasPoints)
+  {
+    this->setPoints();
+  }
+  double low = 0, high = 0;
+  for (vtkIdType i = 0; i < this->Count; ++i)
+  {
+    std::copy_n(places + 3 * i, 3, this->Place);
+    Vector x, columns[3];
+    this->evaluate(x, columns);
+    const double volume = dot(columns[0], cross(columns[1], columns[2]));
+    low = std::min(low, volume);
+    high = std::max(high, volume);
+  }
+  this->IsWarm = false;
+  const double flat = 1e-9 * this->Length * this->Length * this->Length;
+  return std::min(high, -low) > std::max(flat, smallest * std::max(high, -low));
+}
+
 /// Returns whether Place is at `x`; else sets the step of Newton's method.
 bool MeshCell::isAt(const Vector& x, Vector& step)
 {

@@ -30,6 +30,10 @@ public:
   /// and how far the worst one is outside of its range.
   bool find(const double x[3], double coordinates[3], double& outside);
 
+  /// Returns whether the derivatives of coordinates span volumes of both signs at the points of a
+  /// curved 3-D cell. Those below `smallest`, relative to the largest one, have none.
+  bool isFolded(double smallest);
+
   /// Interpolates at a point that find() has found.
   double valueAt(const double x[3], const double coordinates[3], const double* values);
 

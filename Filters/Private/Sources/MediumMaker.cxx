@@ -190,6 +190,12 @@ std::string MediumMaker::warningOf(const Source& source, const Tally& tally, boo
     addText(warning, source.noteOnGases);
   }
   this->ToldOfGases = source.noteOnGases;
+  const std::string folds = warningOfFolds(tally);
+  if (folds != this->ToldOfFolds)
+  {
+    addText(warning, folds);
+  }
+  this->ToldOfFolds = folds;
   return warning;
 }
 
@@ -465,8 +471,10 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(
     const auto reconstruction = reconstructionOf(this->settings);
     const PreparedLeaves leaves = preparedLeaves(source, fields, reconstruction, tally);
     this->progressOf(0, 1).reach(0.1);
-    return sourceOfMeshes(
+    auto made = sourceOfMeshes(
       leaves, { reconstruction, outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
+    tally += this->Mesh->piece->folds();
+    return made;
   }
   if (flat >= 0)
   {

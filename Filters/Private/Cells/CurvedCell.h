@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Cells/CellTree.h"
+#include "Cells/PlacesInPart.h"
+#include "Common/Vectors.h"
+
+#include "vtkGenericCell.h"
+#include "vtkNew.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace filters
+{
+
+/**
+ * A curved cell as polynomials of its parametric coordinates, divided into parts in which these are
+ * nearly linear. So points outside of the cell are rejected by the bounds of the parts, and Newton's
+ * method converges in a few steps, however much the cell is bent. For one thread.
+ */
+class CurvedCell
+{
+public:
+  /// Returns whether the cell is curved and its coordinates are polynomials: those of cells with
+  /// rational weights are not.
+  bool set(const CellTree::Cell& cell);
+
+  /// Is called with bounds of coordinates, and returns whether to continue there.
+  using Enter = std::function<bool(const Vector& low, const Vector& high)>;
+  /// Is called with a part; the origin of its normal coordinates, the rows of the matrix that makes
+  /// them, and how far they extend from 0.
+  using Visit = std::function<void(
+    const CurvedPart& part, const Vector& middle, const Vector rows[3], const Vector& extent)>;
+
+  /// Visits the parts, those that are folded or collapsed last, in an order that does not depend on
+  /// what is entered.
+  void forParts(const Enter& enter, const Visit& visit);
+
+private:
+  // Of regular parts that are visited first, and of all.
+  static constexpr int maxSplitsOfRegular = 9, maxSplits = 12, maxSplitsAlongAxis = 6;
+
+  /// All cells of one type with the same parametric coordinates.
+  struct Kind
+  {
+    int type = 0;
+    bool isUsable = false;
+    Reference reference = Reference::Box;
+    std::array<int, 3> orders{};
+    std::vector<double> places;  // parametric coordinates of the cell's points
+    std::vector<double> factors; // of each point, to the coefficients
+    std::array<std::array<std::vector<double>, 2>, 3> halves; // matrices, by axis
+
+    std::size_t size() const // of a polynomial
+    {
+      std::size_t product = 1;
+      for (const int order : this->orders)
+      {
+        product *= static_cast<std::size_t>(order) + 1;
+      }
+      return product;
+    }
+  };
+  struct Part
+  {
+    std::array<double, 3> middle, half;
+    std::array<int, 3> splits;
+  };
+  /// Which parts are visited.
+  enum class Visited
+  {
+    Regular,
+    Others
+  };
+
+  /// Returns the kind of a cell, which is made once for all.
+  static std::shared_ptr<const Kind> kindOf(vtkGenericCell* cell, int type);
+  static bool isLike(const Kind& kind, vtkGenericCell* cell, int type);
+  static bool make(Kind& kind, vtkGenericCell* cell);
+  template <class Act>
+  static void forTerms(const Kind& kind, const Act& act);
+  void split(int from, std::size_t axis, bool isUpper);
+  void divide(int depth, const Part& part, Visited visited);
+  std::size_t axisToSplit(const Part& part) const;
+
+  std::shared_ptr<const Kind> Of;
+  Vector Origin{};
+  vtkNew<vtkGenericCell> Cell;
+  std::vector<double> Coefficients[maxSplits + 1]; // of x, y, z and the value, by depth
+  std::vector<double> Normal;                      // those of normal coordinates
+  bool HasOthers = false;
+  const Enter* OnEnter = nullptr;
+  const Visit* OnVisit = nullptr;
+};
+
+} // namespace filters
