@@ -246,7 +246,10 @@ void LatticeSampling::fill(const Index& low, const Index& high, State state)
       for (int i = low.i; i <= high.i; ++i)
       {
         unsigned char& of = this->States[this->numberOf({ i, j, k })];
-        of = of == Unknown ? state : of;
+        if (of == Unknown)
+        {
+          of = state;
+        }
       }
     }
   }
