@@ -24,7 +24,7 @@ user.press("OneImage")
 
 # Of a filter.
 user.python(HELPERS + """
-bench.SamplesPerPixel = 400
+bench.SamplesPerPixel = 200
 Render(shown)
 until(lambda: not finished(bench), 20)
 screenshot(shown, "unfinished.png")
@@ -39,9 +39,9 @@ SaveData(os.path.join(FOLDER, "unfinished.vti"), bench, PointDataArrays=["Intens
 # Of a flow that is drawn.
 user.python(HELPERS + """
 (display,) = displays()
-display.SchlierenBench.SamplesPerPixel = 400
+display.SchlierenBench.SamplesPerPixel = 100
 Render(drawn)
-until(lambda: " of 400 " in information(display.SchlierenBench, "Status"), 20)
+until(lambda: " of 100 " in information(display.SchlierenBench, "Status"), 20)
 screenshot(drawn, "undrawn.png")
 settle_views()
 screenshot(drawn, "drawn.png")
@@ -89,7 +89,7 @@ assert not np.array_equal(frames[0], frames[1]) and not np.array_equal(frames[1]
 flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
 flow.UpdatePipeline()
 expected = image_array(Schlieren(Input=flow, ImageSize=[96, 96], GladstoneDaleConstant=1e-6, Quality="Fine",
-                             SamplesPerPixel=400, KnifeEdgeAngle=30, ParallelScale=13), "Intensity")
+                             SamplesPerPixel=200, KnifeEdgeAngle=30, ParallelScale=13), "Intensity")
 saved = simple.XMLImageDataReader(FileName=os.path.join(FOLDER, "unfinished.vti"))
 saved.UpdatePipeline()
 data = saved.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Intensity")

@@ -4,13 +4,18 @@
 
 import ctypes
 import os
+import sys
 import time
 import traceback
 from importlib import import_module
 
 import numpy as np
-from paraview import servermanager, simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
+
+import quick_sessions  # noqa: E402, F401
+from paraview import servermanager, simple  # noqa: E402
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
 

@@ -35,7 +35,8 @@ def start_ranks(count):
     if not shutil.which("mpiexec"):
         print("Skipped: there is no mpiexec (Debian: openmpi-bin).")
         sys.exit(77)
-    return start_server("mpiexec", "--allow-run-as-root", "--oversubscribe", "-np", str(count))
+    return start_server("mpiexec", "--allow-run-as-root", "--oversubscribe", "--mca", "mpi_yield_when_idle",
+                        "1", "-np", str(count))
 
 
 def connect(port):

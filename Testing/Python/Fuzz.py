@@ -4,7 +4,7 @@
 finite numbers or an error and an empty output; a filter that has been given anything makes, with good data and the
 defaults, what a new one makes.
 
-    pvpython Fuzz.py                      # the first cases of all kinds, less than a minute of processor time
+    pvpython Fuzz.py                      # the first cases of all kinds, some half a minute of processor time
     pvpython Fuzz.py KIND FIRST [COUNT]   # these cases of a kind, with their output
 
 Kinds: filters (objects of VTK), proxies (of ParaView), views (the representation), ranks (two of MPI). A case is a number,
@@ -23,7 +23,9 @@ import tempfile
 import time
 import traceback
 
-KINDS = {"filters": (40, .5), "proxies": (12, .25), "views": (4, .2), "ranks": (1, .05)}  # cases, and shares of a time that is given
+from ranks_testing import MPIEXEC
+
+KINDS = {"filters": (20, .5), "proxies": (6, .25), "views": (3, .2), "ranks": (1, .05)}  # cases, and shares of a time that is given
 SECONDS_OF_CASE = 120  # of the processor; the longest take some 10
 BYTES_OF_CASE = 8 << 30  # of addresses
 EXTREMES = (float("nan"), float("inf"), -float("inf"), 0., -1., 1e-300, 1e300, 2., .5, 1e-6, 1e6, 90.)
@@ -353,6 +355,7 @@ def prepare(kind):
     """What all cases of a kind have in common, before each gets a process."""
     sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Utilities"))
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import quick_sessions  # noqa: F401
     from paraview import simple
     simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=vars(simple))
 
@@ -403,7 +406,7 @@ def in_own_process(kind, number, output):
 
 
 def on_two_ranks(kind, number, output):
-    command = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-np", "2", "pvbatch", "--force-offscreen-rendering",
+    command = [*MPIEXEC, "2", "pvbatch", "--force-offscreen-rendering",
                "--sym", os.path.abspath(__file__), "case", kind, str(number)]
     inherited = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
     try:

@@ -12,10 +12,11 @@ import socket
 import subprocess
 import sys
 
+from ranks_testing import MPIEXEC
+
 PROGRAMS = ("mpiexec", "pvbatch", "pvpython", "pvserver")
 SCENE_UNKNOWN = "what is behind the flow is not known"
 DRAWS = "The server draws without a display."  # as it does since VTK 9.6
-RANKS = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-np"]
 
 
 def without_mpi():
@@ -26,6 +27,7 @@ def without_mpi():
 # Only those who do the work import ParaView: MPI does not let a process that uses it start others that do.
 # pylint: disable=import-outside-toplevel
 def draw(path, is_remote=False):
+    import quick_sessions  # noqa: F401
     from paraview import simple
     simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=is_remote, ns=vars(simple))
     flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-10, 10]), ResultArrayName="rho", Function="RTData")
@@ -81,6 +83,7 @@ def draw_mesh(simple, flow, path):
 
 
 def draw_with_server(path, *launcher):
+    import quick_sessions  # noqa: F401
     from paraview import servermanager, simple
     with socket.socket() as free:
         free.bind(("localhost", 0))
@@ -121,9 +124,9 @@ def pixels(path):
 def compare():
     environment = without_mpi()
     for launcher, mode, path, *arguments in (
-            ([*RANKS, "1", "pvbatch"], "draw", "1.png"), ([*RANKS, "2", "pvbatch"], "draw", "2.png"),
+            ([*MPIEXEC, "1", "pvbatch"], "draw", "1.png"), ([*MPIEXEC, "2", "pvbatch"], "draw", "2.png"),
             (["pvpython"], "server", "server.png"), (["pvpython"], "server", "blind.png", "env"),
-            (["pvpython"], "server", "blind2.png", *RANKS, "2")):
+            (["pvpython"], "server", "blind2.png", *MPIEXEC, "2")):
         done = subprocess.run([*launcher, os.path.abspath(__file__), mode, path, *arguments], env=environment,
                               timeout=100, check=True, capture_output=True, text=True)
         said = done.stdout + done.stderr

@@ -12,7 +12,9 @@ import sys
 import time
 
 import numpy as np
+import quick_sessions  # noqa: F401
 from paraview import servermanager, simple
+from ranks_testing import MPIEXEC
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 PLUGIN = os.environ["SCHLIEREN_PLUGIN"]
@@ -81,7 +83,7 @@ pvserver, mpiexec = shutil.which("pvserver"), shutil.which("mpiexec")
 if not pvserver or (sys.argv[1:] and not mpiexec):
     print("Skipped: there is no pvserver, or no mpiexec (Debian: openmpi-bin).")
     sys.exit(77)
-launcher = [mpiexec, "--allow-run-as-root", "--oversubscribe", "-np", sys.argv[1]] if sys.argv[1:] else []
+launcher = [*MPIEXEC, sys.argv[1]] if sys.argv[1:] else []
 # Without what makes MPI believe that a process belongs to others.
 environment = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
 simple.LoadPlugin(PLUGIN, remote=False, ns=vars(simple))

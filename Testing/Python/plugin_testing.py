@@ -6,6 +6,7 @@ import math
 import os
 
 import numpy as np
+import quick_sessions  # noqa: F401
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData

@@ -8,6 +8,10 @@ import subprocess
 import sys
 
 
+# To be followed by a number. Ranks that wait leave the processors to others, as tests run side by side.
+MPIEXEC = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1", "-np"]
+
+
 def skip_without_mpi():
     if not shutil.which("mpiexec") or not shutil.which("pvbatch"):
         print("Skipped: there is no mpiexec (Debian: openmpi-bin) or no pvbatch.")
@@ -17,7 +21,7 @@ def skip_without_mpi():
 def on(ranks):
     """The command that runs a script on so many ranks."""
     pvbatch = ["pvbatch", "--force-offscreen-rendering"]
-    return pvbatch if ranks == 1 else ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), *pvbatch]
+    return pvbatch if ranks == 1 else [*MPIEXEC, str(ranks), *pvbatch]
 
 
 def run(command, *arguments, ends=True, script=sys.argv[0], folder=".", **environment):

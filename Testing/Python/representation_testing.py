@@ -5,6 +5,7 @@
 import math
 
 import numpy as np
+import quick_sessions  # noqa: F401
 from paraview import simple
 from plugin_testing import Schlieren, image_array
 from vtkmodules.util.numpy_support import vtk_to_numpy
