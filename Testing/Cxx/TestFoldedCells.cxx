@@ -141,7 +141,7 @@ TEST_P(FoldedCellsOf, AreAroundPointsBeyondTheirNeighbours)
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, FoldedCellsOf, testing::ValuesIn(kinds()),
-  [](const testing::TestParamInfo<CellKind>& info) { return info.param.name; });
+  [](const testing::TestParamInfo<CellKind>& kind) { return kind.param.name; });
 
 TEST(FoldedCells, AreNoneWhereCellsAreNumberedTheOtherWayRound)
 {
