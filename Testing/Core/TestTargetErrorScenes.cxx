@@ -54,7 +54,7 @@ struct Trial
 Image truthOf(const Field& field, Scene scene, const Image& image)
 {
   const double finestStep = field.source ? 0.25 : 0.125;
-  constexpr int fewestRays = 16, mostRays = 128;
+  constexpr int fewestRays = 64, mostRays = 256;
   scene.targetError = 0;
   scene.interpolation = Interpolation::Cubic;
   // Rounding in single precision is far below all targets but those of paths.
