@@ -42,12 +42,21 @@ struct StepRange
   int rays;       ///< per pixel
 };
 
-/// Steps move the edges of bodies by fractions of a pixel, which single rays do not see in nearly all pixels.
-StepRange stepsFor(bool hasWalls, bool hasFilm)
+/// Steps move the edges of bodies by fractions of a pixel, which single rays do not see in nearly all pixels. Those that are
+/// longer than the data are one step as half of them is, which would not show their error.
+template <class Real>
+StepRange stepsFor(const Medium<Real>& medium, bool hasWalls, bool hasFilm)
 {
   constexpr int raysAtWalls = 16;
-  return hasWalls ? StepRange{ longestStepAtWalls, hasFilm ? raysAtWalls : 1 }
-                  : StepRange{ longestStep, 1 };
+  StepRange steps = hasWalls ? StepRange{ longestStepAtWalls, hasFilm ? raysAtWalls : 1 }
+                             : StepRange{ longestStep, 1 };
+  if (!medium.tree)
+  {
+    const std::array<std::int64_t, 3>& points = medium.volume.dimensions;
+    const std::int64_t fewest = *std::min_element(points.begin(), points.end());
+    steps.longest = std::min(steps.longest, static_cast<double>(fewest - 1));
+  }
+  return steps;
 }
 
 /// Finds errors of steps and rays per pixel when they are requested.
@@ -311,13 +320,14 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
   const Scene& scene = pilot.bench().scene;
   const double target = scene.targetError;
   const bool hasFilm = !isOfCamera(scene.cutoff);
-  const StepRange steps = stepsFor(hasWalls, hasFilm);
+  const StepRange steps = stepsFor(*pilot.bench().medium, hasWalls, hasFilm);
   const auto isAborted = [&] { return monitor.aborted && monitor.aborted(); };
   AccurateSettings settings{};
   if (before)
   {
     constexpr double wasteful = 0.2;
     settings = *before;
+    settings.step = std::min(settings.step, steps.longest);
     verify(settings, pilot, steps, known, monitor);
     const bool isCheapest =
       settings.samples == raysPerPixel.front() && settings.step >= steps.longest;
