@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/Light.h"
 
-#include "Math/RandomBits.h"
 #include "Math/Units.h"
 
 #include <algorithm>
@@ -116,22 +115,6 @@ double numberOf(std::int64_t pass, std::uint32_t seed)
 {
   constexpr double passesPerSeed = 65537;
   return static_cast<double>(pass) + passesPerSeed * (static_cast<double>(seed) - 1);
-}
-
-/// A number in [0, 1) by its first binary digits, of which each is flipped at random, by those before it (Owen 1995). Where
-/// all are 0 it becomes 1/2.
-double scrambled(std::uint32_t digits, std::uint64_t key)
-{
-  constexpr int count = 32;
-  std::uint32_t flipped = digits;
-  for (int n = 0; n < count; ++n)
-  {
-    const std::uint64_t before = std::uint64_t{ digits } >> (count - n);
-    const bool isFlipped =
-      before == 0 ? n == 0 : (mixed(key ^ (std::uint64_t{ 1 } << n | before)) & 1u) != 0;
-    flipped ^= isFlipped ? std::uint32_t{ 1 } << (count - 1 - n) : 0;
-  }
-  return std::ldexp(static_cast<double>(flipped), -count);
 }
 
 } // namespace
@@ -335,19 +318,14 @@ std::array<double, 2> sourcePoint(
 
 PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed)
 {
-  // The columns of the generator matrices are powers of x, and of 1 + x, modulo 2.
-  constexpr std::uint32_t half = std::uint32_t{ 1 } << 31;
-  std::uint32_t column = 0, row = 0;
-  std::uint32_t forColumn = half, forRow = half;
-  for (auto rest = static_cast<std::uint32_t>(pass); rest != 0; rest >>= 1)
+  if (pass == 0)
   {
-    column ^= rest & 1u ? forColumn : 0;
-    row ^= rest & 1u ? forRow : 0;
-    forColumn >>= 1;
-    forRow ^= forRow >> 1;
+    return { 0, 0 };
   }
-  const std::uint64_t key = 2 * std::uint64_t{ seed };
-  return { scrambled(column, mixed(key)) - 0.5, scrambled(row, mixed(key + 1)) - 0.5 };
+  constexpr double plasticNumber = 1.32471795724474602596;
+  const double n = numberOf(pass, seed);
+  return { fraction(0.5 + n / plasticNumber) - 0.5,
+    fraction(0.5 + n / (plasticNumber * plasticNumber)) - 0.5 };
 }
 
 } // namespace schlieren

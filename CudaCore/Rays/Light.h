@@ -114,9 +114,8 @@ Vector placeOf(const Grid& grid, const Vec3<double>& index);
 std::int64_t maxMargin(const View& view);
 
 /// Where in its pixel the ray of pass `pass` starts, relative to the centre, in [-1/2, 1/2).
-/// Pass 0 is the centre. The first 2^n passes have one ray in each of the 2^n parts of the pixel, whether these are columns,
-/// rows or rectangles: the first two coordinates of Sobol's sequence (1967), scrambled (Owen 1995) otherwise for each seed.
-/// So a straight edge along a pixel's sides is wrong by 2^-n of its height at the most.
+/// Pass 0 is the centre; later passes follow the two-dimensional golden-ratio sequence R2 (Roberts
+/// 2018, "The unreasonable effectiveness of quasirandom sequences"), begun elsewhere for each seed.
 /// The offset is the same in all pixels of a pass: a pass is a lattice, and bilinear splats of an undisturbed
 /// lattice add up to an exactly even film, so undisturbed light carries no sampling noise.
 PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed);

@@ -189,18 +189,16 @@ Color wheelAt(Pair fromAxis)
   return color;
 }
 
-/// Random bits that follow from others (Steele, Lea & Flood 2014).
-std::uint64_t mixed(std::uint64_t z)
-{
-  z += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
 /// A dark dot in each square cell of edge 1, anywhere in it: by random bits of its column and row (Steele, Lea & Flood 2014).
 Real dotsAt(Pair place, std::uint32_t seed)
 {
+  const auto mixed = [](std::uint64_t z)
+  {
+    z += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  };
   Real white = 1;
   for (int n = 0; n < 9; ++n)
   {
@@ -416,41 +414,14 @@ struct Bench
   }
 };
 
-/// Where in their pixels the rays of a pass start: Sobol's sequence, whose second matrix is Pascal's triangle. Each digit is
-/// flipped or not for a node of the tree of the digits before it; no node of pass 0 is, but for the root.
-Pair inPixel(int pass, std::uint32_t seed)
-{
-  const auto coordinate = [&](bool isRow)
-  {
-    Real place = 0;
-    std::uint64_t node = 1;
-    for (int digit = 0; digit < 32; ++digit)
-    {
-      unsigned value = 0;
-      for (int bit = 0; bit < 32; ++bit)
-      {
-        const bool isIn = isRow ? (bit & digit) == digit : bit == digit;
-        value ^= isIn ? static_cast<unsigned>(pass) >> bit & 1u : 0u;
-      }
-      const bool isOfFirst = node == std::uint64_t{ 1 } << digit;
-      const std::uint64_t tree = mixed(2 * std::uint64_t{ seed } + (isRow ? 1 : 0));
-      const unsigned flip = isOfFirst ? (digit == 0 ? 1u : 0u) : mixed(tree ^ node) & 1u;
-      place += std::ldexp(Real(value ^ flip), -1 - digit);
-      node = 2 * node + value;
-    }
-    return place - 0.5L;
-  };
-  return { coordinate(false), coordinate(true) };
-}
-
-/// Where in the source, and where in their pixels, the rays of a pass start.
+/// Where in the source, and where in their pixels, the rays of a pass start: multiples of irrational numbers.
 std::pair<Pair, Pair> startsOf(const Scene& scene, int pass)
 {
   const LightSource& source = scene.source;
-  const Real width = source.width;
+  const Real width = source.width, plastic = 1.32471795724474602596L;
   const Real a = pass * (1 + std::sqrt(5.0L)) / 2, b = pass * std::sqrt(2.0L);
   const auto centred = [](Real x) { return x - std::floor(x + 0.5L); };
-  const Pair offset = inPixel(pass, scene.seed);
+  const Pair offset{ centred(pass / plastic), centred(pass / (plastic * plastic)) };
   if (source.shape == SourceShape::Point || scene.cutoff == Cutoff::Background)
   {
     return { 0, offset };
