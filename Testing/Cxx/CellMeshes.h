@@ -8,10 +8,12 @@
 
 #include "Schlieren.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
 #include "vtkPoints.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 using Mesh = vtkSmartPointer<vtkUnstructuredGrid>;
@@ -177,4 +179,55 @@ inline Vec pointOf(const schlieren::Lattice& lattice, std::size_t i)
     x[axis] = lattice.first[axis] + static_cast<double>(index[axis]) * lattice.spacing[axis];
   }
   return x;
+}
+
+/// The same mesh of hexahedra, with these points of every `each`-th one in each other's place.
+inline Mesh withSwapped(
+  vtkUnstructuredGrid* mesh, const std::vector<std::array<vtkIdType, 2>>& pairs, vtkIdType each = 1)
+{
+  auto result = Mesh::New();
+  result->DeepCopy(mesh);
+  vtkNew<vtkCellArray> cells;
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    vtkNew<vtkIdList> ids;
+    mesh->GetCellPoints(i, ids);
+    for (const auto& [one, other] : pairs)
+    {
+      if (i % each == 0)
+      {
+        std::swap(*ids->GetPointer(one), *ids->GetPointer(other));
+      }
+    }
+    cells->InsertNextCell(ids);
+  }
+  result->SetCells(VTK_HEXAHEDRON, cells);
+  return result;
+}
+
+/// Pairs of points of a hexahedron whose lower face is above.
+inline const std::vector<std::array<vtkIdType, 2>> upsideDown{ { 0, 4 }, { 1, 5 }, { 2, 6 },
+  { 3, 7 } };
+
+/// A ball of hexahedra around its poles, where edges, faces or all but a wedge of them are collapsed.
+inline vtkSmartPointer<vtkStructuredGrid> ballWithPoles()
+{
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  grid->SetDimensions(6, 9, 17);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int k = 0; k < 17; ++k)
+  {
+    for (int j = 0; j < 9; ++j)
+    {
+      for (int i = 0; i < 6; ++i)
+      {
+        const double r = i / 5., a = pi * j / 8, b = 2 * pi * k / 16;
+        points->InsertNextPoint(
+          r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b), r * std::cos(a));
+      }
+    }
+  }
+  grid->SetPoints(points);
+  return grid;
 }

@@ -314,20 +314,7 @@ TEST(CellSampler, BadCellsHarmNoOthers)
     }
   }
   // Inside out.
-  auto turned = Mesh::New();
-  turned->DeepCopy(good);
-  vtkNew<vtkCellArray> cells;
-  for (vtkIdType i = 0; i < good->GetNumberOfCells(); ++i)
-  {
-    vtkNew<vtkIdList> ids;
-    good->GetCellPoints(i, ids);
-    for (vtkIdType k = 0; k < 4; ++k)
-    {
-      std::swap(*ids->GetPointer(k), *ids->GetPointer(k + 4));
-    }
-    cells->InsertNextCell(ids);
-  }
-  turned->SetCells(VTK_HEXAHEDRON, cells);
+  const Mesh turned = withSwapped(good, upsideDown);
   setN(turned, linear);
   EXPECT_LT(errorOf(sampled({ turned }, lattice), lattice), 1e-15);
 }
@@ -335,23 +322,7 @@ TEST(CellSampler, BadCellsHarmNoOthers)
 // A hexahedron with edges, faces or all but a wedge collapsed, as around the axis of a mesh.
 TEST(CellSampler, CollapsedHexahedraLeaveNoHoles)
 {
-  vtkNew<vtkStructuredGrid> grid; // a ball, with poles
-  grid->SetDimensions(6, 9, 17);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int k = 0; k < 17; ++k)
-  {
-    for (int j = 0; j < 9; ++j)
-    {
-      for (int i = 0; i < 6; ++i)
-      {
-        const double r = i / 5., a = pi * j / 8, b = 2 * pi * k / 16;
-        points->InsertNextPoint(
-          r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b), r * std::cos(a));
-      }
-    }
-  }
-  grid->SetPoints(points);
+  const auto grid = ballWithPoles();
   setN(grid, linear);
   for (const int n : { 5, 17, 32 })
   {

@@ -8,8 +8,6 @@
 #include "Cells/CellSampler.h"
 #include "Cells/FoldedCells.h"
 
-#include "vtkStructuredGrid.h"
-
 #include <cstdint>
 
 using filters::CellTree;
@@ -75,26 +73,6 @@ Mesh mirrored(vtkUnstructuredGrid* mesh)
   return result;
 }
 
-/// The same mesh, with every `each`-th hexahedron numbered upside down.
-Mesh renumbered(vtkUnstructuredGrid* mesh, vtkIdType each)
-{
-  auto result = Mesh::New();
-  result->DeepCopy(mesh);
-  vtkNew<vtkCellArray> cells;
-  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
-  {
-    vtkNew<vtkIdList> ids;
-    mesh->GetCellPoints(i, ids);
-    for (vtkIdType k = 0; k < 4 && i % each == 0; ++k)
-    {
-      std::swap(*ids->GetPointer(k), *ids->GetPointer(k + 4));
-    }
-    cells->InsertNextCell(ids);
-  }
-  result->SetCells(VTK_HEXAHEDRON, cells);
-  return result;
-}
-
 /// Moves the point that is nearest to `from`.
 void move(vtkUnstructuredGrid* mesh, const Vec& from, const Vec& by)
 {
@@ -148,7 +126,7 @@ TEST(FoldedCells, AreNoneWhereCellsAreNumberedTheOtherWayRound)
   const Mesh mesh = meshOf(VTK_HEXAHEDRON, 6, { unitCell(VTK_HEXAHEDRON, 8) }, 0.1, false);
   for (const vtkIdType each : { 1, 2, 7, 100 })
   {
-    const Mesh one = renumbered(mesh, each);
+    const Mesh one = withSwapped(mesh, upsideDown, each);
     EXPECT_EQ(foldedIn(one).count, 0) << each;
     EXPECT_LT(errorOf(one), 1e-10) << each;
   }
@@ -158,41 +136,14 @@ TEST(FoldedCells, AreNoneWhereCellsAreNumberedTheOtherWayRound)
 TEST(FoldedCells, AreThoseWithPointsInAWrongOrder)
 {
   const Mesh mesh = meshOf(VTK_HEXAHEDRON, 4, { unitCell(VTK_HEXAHEDRON, 8) }, 0.1, false);
-  auto wrong = Mesh::New();
-  wrong->DeepCopy(mesh);
-  vtkNew<vtkCellArray> cells;
-  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
-  {
-    vtkNew<vtkIdList> ids;
-    mesh->GetCellPoints(i, ids);
-    std::swap(*ids->GetPointer(2), *ids->GetPointer(3));
-    std::swap(*ids->GetPointer(6), *ids->GetPointer(7));
-    cells->InsertNextCell(ids);
-  }
-  wrong->SetCells(VTK_HEXAHEDRON, cells);
+  const Mesh wrong = withSwapped(mesh, { { 2, 3 }, { 6, 7 } });
   EXPECT_EQ(foldedIn(wrong).count, mesh->GetNumberOfCells());
 }
 
 // Around the axis of a mesh, edges and corners have no volume.
 TEST(FoldedCells, AreNoneInCollapsedHexahedra)
 {
-  vtkNew<vtkStructuredGrid> grid; // a ball, with poles
-  grid->SetDimensions(6, 9, 17);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int k = 0; k < 17; ++k)
-  {
-    for (int j = 0; j < 9; ++j)
-    {
-      for (int i = 0; i < 6; ++i)
-      {
-        const double r = i / 5., a = pi * j / 8, b = 2 * pi * k / 16;
-        points->InsertNextPoint(
-          r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b), r * std::cos(a));
-      }
-    }
-  }
-  grid->SetPoints(points);
+  const auto grid = ballWithPoles();
   addPointArray(grid, "N", linear);
   EXPECT_EQ(foldedIn(grid).count, 0);
 }

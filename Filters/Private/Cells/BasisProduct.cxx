@@ -83,20 +83,6 @@ vtkDoubleArray* rationalWeightsOf(vtkCell* cell)
   return weights && weights->GetNumberOfTuples() > 0 ? weights : nullptr;
 }
 
-/// Returns the number of different values, less one.
-int orderAlong(const std::vector<double>& places, std::size_t axis)
-{
-  std::vector<double> values;
-  for (std::size_t i = axis; i < places.size(); i += 3)
-  {
-    values.push_back(places[i]);
-  }
-  std::sort(values.begin(), values.end());
-  const auto end = std::unique(
-    values.begin(), values.end(), [](double a, double b) { return std::abs(a - b) < 1e-6; });
-  return static_cast<int>(end - values.begin()) - 1;
-}
-
 /// Evaluates Silvester's polynomial, the product of (n x - m) / (m + 1), and its slope.
 void lagrange(int order, int node, double x, double& value, double& slope)
 {
@@ -123,6 +109,19 @@ void bernstein(int node, double x, double& value, double& slope)
 }
 
 } // namespace
+
+int orderAlong(const std::vector<double>& places, std::size_t axis)
+{
+  std::vector<double> values;
+  for (std::size_t i = axis; i < places.size(); i += 3)
+  {
+    values.push_back(places[i]);
+  }
+  std::sort(values.begin(), values.end());
+  const auto end = std::unique(
+    values.begin(), values.end(), [](double a, double b) { return std::abs(a - b) < 1e-6; });
+  return static_cast<int>(end - values.begin()) - 1;
+}
 
 BasisProduct::Factor BasisProduct::factorOf(int dimension, int order)
 {

@@ -14,6 +14,10 @@ class vtkGenericCell;
 namespace filters
 {
 
+/// Returns the number of different parametric coordinates along an axis, less one. `places`: three of
+/// each point.
+int orderAlong(const std::vector<double>& places, std::size_t axis);
+
 /**
  * Interpolates in curved cells of any order by products of polynomials of Lagrange (equidistant
  * nodes) or of Bernstein (Bezier cells, also rational ones). Hexahedra are products of three lines,

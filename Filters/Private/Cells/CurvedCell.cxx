@@ -33,20 +33,6 @@ Reference referenceOf(CellShape skeleton)
     : (skeleton == CellShape::Wedge ? Reference::Wedge : Reference::Box);
 }
 
-/// Returns the number of different values along an axis, less one.
-int orderAlong(const std::vector<double>& places, std::size_t axis)
-{
-  std::vector<double> values;
-  for (std::size_t i = axis; i < places.size(); i += 3)
-  {
-    values.push_back(places[i]);
-  }
-  std::sort(values.begin(), values.end());
-  const auto end = std::unique(
-    values.begin(), values.end(), [](double a, double b) { return std::abs(a - b) < 1e-6; });
-  return static_cast<int>(end - values.begin()) - 1;
-}
-
 double nodeOf(int order, int i) { return -1 + 2. * i / order; }
 
 /// Returns the matrix from values at equidistant nodes to coefficients of powers, row by row, by

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Compiles SCHLIEREN_CODE_FOR_PACKS, functions for packs of `lanes` numbers, for two lanes, for
-// four with AVX2 and for eight with AVX-512, in a namespace each. If SCHLIEREN_HAS_AVX is defined,
-// callers check what the processor has.
+// four with AVX2 and for eight with AVX-512, in a namespace each. SCHLIEREN_VARIANTS_OF(function) returns
+// those for the instructions that this processor has, slowest first.
 
 // For functions with packs as arguments.
 #define SCHLIEREN_INLINE inline __attribute__((always_inline))
@@ -11,13 +11,12 @@
 namespace two
 {
 constexpr int lanes = 2;
+#include "Packs.inl"
 #include SCHLIEREN_CODE_FOR_PACKS
 } // namespace two
 
 // Sets the instructions for types, too, because GCC else compares them lane by lane.
 #if defined(__x86_64__)
-#define SCHLIEREN_HAS_AVX
-
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
 #else
@@ -27,6 +26,7 @@ constexpr int lanes = 2;
 namespace four
 {
 constexpr int lanes = 4;
+#include "Packs.inl"
 #include SCHLIEREN_CODE_FOR_PACKS
 } // namespace four
 #if defined(__clang__)
@@ -41,6 +41,7 @@ constexpr int lanes = 4;
 namespace eight
 {
 constexpr int lanes = 8;
+#include "Packs.inl"
 #include SCHLIEREN_CODE_FOR_PACKS
 } // namespace eight
 #if defined(__clang__)
@@ -48,4 +49,23 @@ constexpr int lanes = 8;
 #else
 #pragma GCC pop_options
 #endif
+
+template <class Function>
+std::vector<Function> variants(Function ofTwo, Function ofFour, Function ofEight)
+{
+  std::vector<Function> functions = { ofTwo };
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+  {
+    functions.push_back(ofFour);
+  }
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
+  {
+    functions.push_back(ofEight);
+  }
+  return functions;
+}
+#define SCHLIEREN_VARIANTS_OF(function) variants(&two::function, &four::function, &eight::function)
+#else
+#define SCHLIEREN_VARIANTS_OF(function) { &two::function }
 #endif

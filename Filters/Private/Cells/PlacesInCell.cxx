@@ -24,21 +24,6 @@ constexpr double nothing = 1e-14; // residual, relative to the edges; holds in c
 
 } // namespace
 
-std::vector<LocateInCell> functionsToLocate()
-{
-  std::vector<LocateInCell> functions = { two::locate };
-#if defined(SCHLIEREN_HAS_AVX)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-  {
-    functions.push_back(four::locate);
-  }
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
-  {
-    functions.push_back(eight::locate);
-  }
-#endif
-  return functions;
-}
+std::vector<LocateInCell> functionsToLocate() { return SCHLIEREN_VARIANTS_OF(locate); }
 
 } // namespace filters

@@ -4,37 +4,9 @@
 // Defines LocateInCell for packs of `lanes` points. PlacesInCell.cxx includes it once for each set
 // of instructions.
 
-typedef double Real __attribute__((vector_size(sizeof(double) * lanes)));
-typedef std::int64_t Mask __attribute__((vector_size(sizeof(double) * lanes)));
-
-SCHLIEREN_INLINE void load(const double* from, Real& pack)
-{
-  __builtin_memcpy(&pack, from, sizeof(pack));
-}
-
-SCHLIEREN_INLINE void store(const Real& pack, double* to)
-{
-  __builtin_memcpy(to, &pack, sizeof(pack));
-}
-
 SCHLIEREN_INLINE void maximum(const Real& a, const Real& b, Real& result)
 {
   result = a > b ? a : b;
-}
-
-SCHLIEREN_INLINE void choose(const Mask& mask, const Real& a, const Real& b, Real& result)
-{
-  result = (Real)(((Mask)a & mask) | ((Mask)b & ~mask));
-}
-
-SCHLIEREN_INLINE bool all(const Mask& mask)
-{
-  std::int64_t each = -1;
-  for (int i = 0; i < lanes; ++i)
-  {
-    each &= mask[i];
-  }
-  return each != 0;
 }
 
 inline void locate(const NormalCell& cell, int count, CellPoints& points)

@@ -28,21 +28,6 @@ constexpr double starts[attempts][3] = { { 0, 0, 0 }, { 0.6, 0.5, -0.4 } };
 
 } // namespace
 
-std::vector<LocateInPart> functionsToLocateInPart()
-{
-  std::vector<LocateInPart> functions = { two::locate };
-#if defined(SCHLIEREN_HAS_AVX)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-  {
-    functions.push_back(four::locate);
-  }
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
-  {
-    functions.push_back(eight::locate);
-  }
-#endif
-  return functions;
-}
+std::vector<LocateInPart> functionsToLocateInPart() { return SCHLIEREN_VARIANTS_OF(locate); }
 
 } // namespace filters

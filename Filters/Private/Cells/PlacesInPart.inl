@@ -4,39 +4,11 @@
 // Defines LocateInPart for packs of `lanes` points. PlacesInPart.cxx includes it once for each set
 // of instructions.
 
-typedef double Real __attribute__((vector_size(sizeof(double) * lanes)));
-typedef std::int64_t Mask __attribute__((vector_size(sizeof(double) * lanes)));
-
-SCHLIEREN_INLINE void load(const double* from, Real& pack)
-{
-  __builtin_memcpy(&pack, from, sizeof(pack));
-}
-
-SCHLIEREN_INLINE void store(const Real& pack, double* to)
-{
-  __builtin_memcpy(to, &pack, sizeof(pack));
-}
-
-SCHLIEREN_INLINE void choose(const Mask& mask, const Real& a, const Real& b, Real& result)
-{
-  result = (Real)(((Mask)a & mask) | ((Mask)b & ~mask));
-}
-
 SCHLIEREN_INLINE void largest(const Real& a, const Real& b, const Real& c, Real& result)
 {
   const Real absA = a < 0 ? -a : a, absB = b < 0 ? -b : b, absC = c < 0 ? -c : c;
   const Real more = absA > absB ? absA : absB;
   result = more > absC ? more : absC;
-}
-
-SCHLIEREN_INLINE bool all(const Mask& mask)
-{
-  std::int64_t each = -1;
-  for (int i = 0; i < lanes; ++i)
-  {
-    each &= mask[i];
-  }
-  return each != 0;
 }
 
 /// Evaluates a polynomial and its slopes by Horner's rule.

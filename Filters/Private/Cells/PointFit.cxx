@@ -47,21 +47,6 @@ void PointFit::clear(std::size_t most, Values ofWhat)
   std::fill(std::begin(this->counts), std::end(this->counts), 0);
 }
 
-std::vector<FitPoints> functionsToFit()
-{
-  std::vector<FitPoints> functions = { two::fit };
-#if defined(SCHLIEREN_HAS_AVX)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-  {
-    functions.push_back(four::fit);
-  }
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
-  {
-    functions.push_back(eight::fit);
-  }
-#endif
-  return functions;
-}
+std::vector<FitPoints> functionsToFit() { return SCHLIEREN_VARIANTS_OF(fit); }
 
 } // namespace filters

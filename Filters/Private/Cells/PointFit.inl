@@ -3,19 +3,6 @@
 //
 // FitPoints for packs of `lanes` points. PointFit.cxx includes this once for each set of instructions.
 
-typedef double Real __attribute__((vector_size(sizeof(double) * lanes)));
-typedef std::int64_t Mask __attribute__((vector_size(sizeof(double) * lanes)));
-
-SCHLIEREN_INLINE void load(const double* from, Real& pack)
-{
-  __builtin_memcpy(&pack, from, sizeof(pack));
-}
-
-SCHLIEREN_INLINE void store(const Real& pack, double* to)
-{
-  __builtin_memcpy(to, &pack, sizeof(pack));
-}
-
 /// Units for moments: those of a lower triangular matrix, and what a symmetric one makes of them.
 struct Units
 {
