@@ -7,6 +7,7 @@
 #include "Common/AvailableMemory.h"
 #include "Common/Guarded.h"
 #include "Common/Threads.h"
+#include "Image/ImageLegend.h"
 #include "Image/ImageOutput.h"
 #include "Image/MeanImage.h"
 #include "Image/Preview.h"
@@ -423,13 +424,11 @@ bool vtkSchlierenFilter::Show(
   ++this->PictureCount;
   output->Initialize();
   histogram->Initialize();
+  addLegend(output, *this, scene, image, isKept, this->PathModel == DIFFERENCE);
   setOutput(output, image, this->PathModel == DIFFERENCE);
   if (!image.color.empty())
   {
-    const ColorScale colors = this->HasOwnColor() ? ColorScale::Srgb
-      : CutoffHasScreen(this->Cutoff)             ? ColorScale::LinearToTwice
-                                                  : ColorScale::Linear;
-    addColor(output, image, colors);
+    addColor(output, image, colorScaleOf(*this));
   }
   if (schlieren::techniqueOf(scene.cutoff).hasFringes && scene.fringes.finite)
   {

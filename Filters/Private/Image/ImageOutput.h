@@ -5,6 +5,7 @@
 #include <string>
 
 class vtkImageData;
+struct SchlierenSettings;
 
 namespace schlieren
 {
@@ -32,6 +33,12 @@ enum class ColorScale
   LinearToTwice, ///< shadowgraphs, whose undisturbed light is 1: 2 is 255
   Srgb           ///< true colours (IEC 61966-2-1): 1 is 255
 };
+
+/// Returns how the images of these settings map their light.
+ColorScale colorScaleOf(const SchlierenSettings& settings);
+
+/// Returns the byte of linear light.
+unsigned char byteOf(float light, ColorScale scale);
 
 /// Adds the colours of an image and makes them the scalars.
 void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale);
