@@ -424,11 +424,14 @@ bool vtkSchlierenFilter::Show(
   ++this->PictureCount;
   output->Initialize();
   histogram->Initialize();
-  addLegend(output, *this, scene, image, isKept, this->PathModel == DIFFERENCE);
+  const ColorScale colors = this->HasOwnColor() ? ColorScale::Srgb
+    : CutoffHasScreen(this->Cutoff)             ? ColorScale::LinearToTwice
+                                                : ColorScale::Linear;
+  addLegend(output, *this, scene, image, isKept, this->PathModel == DIFFERENCE, colors);
   setOutput(output, image, this->PathModel == DIFFERENCE);
   if (!image.color.empty())
   {
-    addColor(output, image, colorScaleOf(*this));
+    addColor(output, image, colors);
   }
   if (schlieren::techniqueOf(scene.cutoff).hasFringes && scene.fringes.finite)
   {

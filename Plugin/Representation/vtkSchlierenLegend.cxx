@@ -14,6 +14,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPen.h"
 #include "vtkPointData.h"
+#include "vtkRect.h"
 #include "vtkRenderWindow.h"
 #include "vtkStringArray.h"
 #include "vtkTextProperty.h"
@@ -42,8 +43,8 @@ constexpr float sideOfPlane = 7;
 constexpr float sizeOfIcon = 2.4f;
 constexpr float heightOfRuler = 0.5f;
 
-constexpr int opacityOfPanel = 170;
-constexpr double largestShareOfView = 0.5; // of its width, and of its height
+constexpr int opacityOfPanel = 235;
+constexpr double largestShareOfView = 0.6; // of its width, and of its height
 
 double numberIn(vtkFieldData* data, const char* name, vtkIdType index, double otherwise)
 {
@@ -118,7 +119,6 @@ public:
 
   int Corner = LOWER_RIGHT;
   int FontSize = 10;
-  int DPI = 72;
   double MetresPerPixel = 0; // of the view; 0: unknown
 
   std::string Title, Label, Unit;
@@ -157,6 +157,8 @@ private:
   void DrawTicks(const Pencil& pencil, float bottom) const;
   void DrawRuler(const Pencil& pencil, float bottom) const;
   void UseText(vtkContext2D* painter, int justification, bool isBold = false) const;
+  /// Measures the font, whose size in pixels depends on the screen, and of screenshots on how they are made.
+  static float HeightOfFont(vtkContext2D* painter);
 };
 
 vtkStandardNewMacro(vtkSchlierenLegend::Panel);
@@ -194,6 +196,15 @@ void vtkSchlierenLegend::Panel::UseText(vtkContext2D* painter, int justification
   text->SetJustification(justification);
   text->SetVerticalJustificationToBottom();
   painter->ApplyTextProp(text);
+}
+
+//------------------------------------------------------------------------------
+float vtkSchlierenLegend::Panel::HeightOfFont(vtkContext2D* painter)
+{
+  constexpr float bySize = 0.92f; // of a capital with a descender
+  float bounds[4];
+  painter->ComputeStringBounds("Ag", bounds);
+  return std::max(1.f, bounds[3] / bySize);
 }
 
 //------------------------------------------------------------------------------
@@ -304,9 +315,9 @@ bool vtkSchlierenLegend::Panel::Paint(vtkContext2D* painter)
     (this->HasScale() ? 1 : 0) + (this->MetresPerPixel > 0 ? 1 : 0);
   const float height =
     heightOfHead + lineHeight * lines + (this->HasScale() ? side + 0.3f : 0) + 2 * padding;
-  const float font = static_cast<float>(this->FontSize * this->DPI) / 72.f;
 
   this->UseText(painter, VTK_TEXT_LEFT);
+  const float font = this->HeightOfFont(painter);
   float width = widthOfScale;
   const auto widen = [&](const std::string& text, float indent = 0)
   {
@@ -471,7 +482,6 @@ int vtkSchlierenLegend::RenderOverlay(vtkViewport* viewport)
   }
   const double* port = viewport->GetViewport();
   const double columns = (port[2] - port[0]) * window->GetSize()[0];
-  this->Shown->DPI = window->GetDPI();
   this->Shown->MetresPerPixel = columns >= 1 ? this->Shown->MetresAcross / columns : 0;
   return this->Superclass::RenderOverlay(viewport);
 }

@@ -7,21 +7,21 @@
  * Draws the name of the technique, the stop with the side that it covers, the light over the
  * deflection, path or intensity that it stands for, notes such as k, and a ruler. All of this comes
  * from the field data of the image. A panel behind it makes it legible on any image. Nothing is
- * drawn in views that it would cover half of.
+ * drawn in views that it would cover most of.
  */
 #ifndef vtkSchlierenLegend_h
 #define vtkSchlierenLegend_h
 
-#include "vtkContextActor.h"
+#include "vtkOpenGLContextActor.h"
 #include "vtkSmartPointer.h"
 
 class vtkImageData;
 
-class vtkSchlierenLegend : public vtkContextActor
+class vtkSchlierenLegend : public vtkOpenGLContextActor
 {
 public:
   static vtkSchlierenLegend* New();
-  vtkTypeMacro(vtkSchlierenLegend, vtkContextActor);
+  vtkTypeMacro(vtkSchlierenLegend, vtkOpenGLContextActor);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum Corners

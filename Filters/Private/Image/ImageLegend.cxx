@@ -131,7 +131,8 @@ void addNumber(vtkFieldData* data, const char* name, double number)
 
 //------------------------------------------------------------------------------
 void addLegend(vtkImageData* output, const SchlierenSettings& settings,
-  const schlieren::Scene& scene, const schlieren::Image& image, bool isKept, bool isDifference)
+  const schlieren::Scene& scene, const schlieren::Image& image, bool isKept, bool isDifference,
+  ColorScale colors)
 {
   const schlieren::Legend legend =
     isDifference ? schlieren::Legend{} : schlieren::legendOf(scene, image.kScale);
@@ -155,15 +156,14 @@ void addLegend(vtkImageData* output, const SchlierenSettings& settings,
   size->InsertNextValue(legend.width);
   size->InsertNextValue(legend.height);
   data->AddArray(size);
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetName("LegendColors");
-  colors->SetNumberOfComponents(3);
-  const ColorScale bytes = colorScaleOf(settings);
+  vtkNew<vtkUnsignedCharArray> bytes;
+  bytes->SetName("LegendColors");
+  bytes->SetNumberOfComponents(3);
   for (const float light : legend.light)
   {
-    colors->InsertNextValue(byteOf(light, bytes));
+    bytes->InsertNextValue(byteOf(light, colors));
   }
-  data->AddArray(colors);
+  data->AddArray(bytes);
   addNumber(data, "LengthScale", settings.LengthScale);
   if (legend.quantity == Quantity::Deflection)
   {

@@ -5,8 +5,6 @@
 #include "Image/ImageStatus.h"
 
 #include "Common/AvailableMemory.h"
-#include "SchlierenSettings.h"
-#include "vtkSchlierenFilter.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -187,16 +185,6 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
     addFieldValue<vtkDoubleArray>(output, "StepSize", image.stepSize);
     addFieldValue<vtkIntArray>(output, "SamplesPerPixel", image.samplesPerPixel);
   }
-}
-
-//------------------------------------------------------------------------------
-ColorScale colorScaleOf(const SchlierenSettings& settings)
-{
-  return vtkSchlierenFilter::CutoffHasColor(
-           settings.Cutoff, settings.WhiteLight, settings.BackgroundPattern)
-    ? ColorScale::Srgb
-    : vtkSchlierenFilter::CutoffHasScreen(settings.Cutoff) ? ColorScale::LinearToTwice
-                                                           : ColorScale::Linear;
 }
 
 //------------------------------------------------------------------------------

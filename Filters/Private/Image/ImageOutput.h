@@ -5,7 +5,6 @@
 #include <string>
 
 class vtkImageData;
-struct SchlierenSettings;
 
 namespace schlieren
 {
@@ -33,9 +32,6 @@ enum class ColorScale
   LinearToTwice, ///< shadowgraphs, whose undisturbed light is 1: 2 is 255
   Srgb           ///< true colours (IEC 61966-2-1): 1 is 255
 };
-
-/// Returns how the images of these settings map their light.
-ColorScale colorScaleOf(const SchlierenSettings& settings);
 
 /// Returns the byte of linear light.
 unsigned char byteOf(float light, ColorScale scale);
