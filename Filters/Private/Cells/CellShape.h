@@ -18,6 +18,11 @@
 namespace filters
 {
 
+// Tolerances of parametric coordinates. Cells with plane faces meet without gaps; others get the
+// tolerance of VTK's hexahedra.
+constexpr double toleranceOfPlaneFaces = 1e-6;
+constexpr double toleranceOfCurvedFaces = 1e-3;
+
 /// Maximum distance of curved cells beyond the box of their points, relative to its lengths.
 constexpr double bulge = 0.05;
 

@@ -161,7 +161,7 @@ FoldedCells foldedIn(const CellTree& tree)
     [&](vtkIdType begin, vtkIdType end)
     {
       Found found{ std::vector<Signs>(tree.blocks()), 0 };
-      MeshCell curved(-1);
+      MeshCell curved;
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
       {
         tree.fetchAhead(i, count, [](std::size_t place) { return place; });
@@ -200,7 +200,7 @@ FoldedCells foldedIn(const CellTree& tree)
   const bool haveBoth = std::any_of(all.signs.begin(), all.signs.end(),
     [](const Signs& signs) { return signs.positive > 0 && signs.negative > 0; });
   std::size_t tested = 0;
-  MeshCell other(-1);
+  MeshCell other;
   for (std::size_t i = 0; haveBoth && i < count && tested < maxTested; ++i)
   {
     const CellTree::Cell cell = tree.cell(tree.number(i));

@@ -89,7 +89,19 @@ private:
   bool isThin(const Index& at) const;
 
   template <class Visit>
-  void forPoints(const Visit& visit) const;
+  void forPoints(const Visit& visit) const
+  {
+    for (int k = 0; k < this->Lattice.points[2]; ++k)
+    {
+      for (int j = 0; j < this->Lattice.points[1]; ++j)
+      {
+        for (int i = 0; i < this->Lattice.points[0]; ++i)
+        {
+          visit(Index{ i, j, k });
+        }
+      }
+    }
+  }
   template <class Visit>
   void forNeighbours(const Index& at, const Visit& visit) const;
   static Point placeOf(const Index& at)
