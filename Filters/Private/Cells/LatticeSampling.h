@@ -86,6 +86,8 @@ private:
   static double separationOf(
     const std::vector<const Near*>& walls, const Point& from, const Point& to);
   void separate(const Index& low);
+  void separate(const Index& low, const std::array<std::size_t, 8>& numbers,
+    const std::array<Point, 8>& places, std::size_t count);
   bool isThin(const Index& at) const;
 
   template <class Visit>

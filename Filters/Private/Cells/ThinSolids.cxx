@@ -219,6 +219,13 @@ void LatticeSampling::separate(const Index& low)
   {
     return;
   }
+  this->separate(low, numbers, places, count);
+}
+
+/// Marks those of some corners that a wall separates from others.
+void LatticeSampling::separate(const Index& low, const std::array<std::size_t, 8>& numbers,
+  const std::array<Point, 8>& places, std::size_t count)
+{
   if (this->StartsOfRows.empty())
   {
     this->findSolidsOfRows();
