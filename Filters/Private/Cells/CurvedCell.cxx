@@ -150,6 +150,59 @@ std::size_t CurvedCell::axisToSplit(const Part& part) const
   return best;
 }
 
+/// Returns bounds of the powers of coordinates in a part, with the tolerance at the faces of the cell.
+CurvedCell::Powers CurvedCell::powersIn(const Part& part) const
+{
+  Powers powers{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double half = part.half[axis], at = part.middle[axis];
+    const bool isAtFace =
+      this->Of->reference != Reference::Box || at < 1.5 * half || at > 1 - 1.5 * half;
+    const double farthest = 1 + (isAtFace ? tolerance / half : 1e-6);
+    powers.along[axis][0] = 1;
+    for (int power = 0; power < this->Of->orders[axis]; ++power)
+    {
+      powers.along[axis][power + 1] = powers.along[axis][power] * farthest;
+    }
+  }
+  return powers;
+}
+
+/// Returns whether a part is outside of the face that cuts the box of parametric coordinates.
+bool CurvedCell::isBeyondSlant(const Part& part) const
+{
+  double nearest = 0;
+  const std::size_t slanting = this->Of->reference == Reference::Simplex
+    ? 3
+    : (this->Of->reference == Reference::Wedge ? 2 : 0);
+  for (std::size_t axis = 0; axis < slanting; ++axis)
+  {
+    nearest += part.middle[axis] - part.half[axis];
+  }
+  return nearest > 1 + 2 * tolerance;
+}
+
+void CurvedCell::show(const std::vector<double>& coefficients, const Part& part, bool isRegular,
+  const Vector rows[3], const Vector& extent) const
+{
+  const std::size_t size = this->Of->size();
+  CurvedPart found{};
+  found.reference = this->Of->reference;
+  std::copy_n(this->Of->orders.begin(), 3, found.orders);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    found.coefficients[axis] = this->Normal.data() + axis * size;
+  }
+  found.coefficients[3] = coefficients.data() + 3 * size;
+  std::copy_n(part.middle.begin(), 3, found.middle);
+  std::copy_n(part.half.begin(), 3, found.half);
+  found.isRegular = isRegular;
+  found.tolerance = tolerance;
+  const Vector middle = { coefficients[0], coefficients[size], coefficients[2 * size] };
+  (*this->OnVisit)(found, this->Origin + middle, rows, extent);
+}
+
 void CurvedCell::divide(int depth, const Part& part, Visited visited)
 {
   const std::size_t size = this->Of->size();
@@ -157,22 +210,7 @@ void CurvedCell::divide(int depth, const Part& part, Visited visited)
   const Vector middle = { coefficients[0], coefficients[size], coefficients[2 * size] };
   const std::array<std::size_t, 3> counts = this->Of->counts();
   const std::size_t linear[3] = { counts[1] * counts[2], counts[2], 1 };
-  // Allows for the tolerance at the faces of the cell.
-  double powers[3][CurvedKind::maxOrder + 1];
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double half = part.half[axis], at = part.middle[axis];
-    const bool isAtFace =
-      this->Of->reference != Reference::Box || at < 1.5 * half || at > 1 - 1.5 * half;
-    const double farthest = 1 + (isAtFace ? tolerance / half : 1e-6);
-    powers[axis][0] = 1;
-    for (int power = 0; power < this->Of->orders[axis]; ++power)
-    {
-      powers[axis][power + 1] = powers[axis][power] * farthest;
-    }
-  }
-  const auto most = [&](const std::array<int, 3>& of)
-  { return powers[0][of[0]] * powers[1][of[1]] * powers[2][of[2]]; };
+  const Powers most = this->powersIn(part);
   Vector spread{};
   this->Of->forTerms(
     [&](std::size_t term, const std::array<int, 3>& of)
@@ -182,19 +220,8 @@ void CurvedCell::divide(int depth, const Part& part, Visited visited)
         spread[axis] += most(of) * std::abs(coefficients[axis * size + term]);
       }
     });
-  if (!(*this->OnEnter)(this->Origin + middle - spread, this->Origin + middle + spread))
-  {
-    return;
-  }
-  double nearest = 0; // to the face that cuts the box of parametric coordinates
-  const std::size_t slanting = this->Of->reference == Reference::Simplex
-    ? 3
-    : (this->Of->reference == Reference::Wedge ? 2 : 0);
-  for (std::size_t axis = 0; axis < slanting; ++axis)
-  {
-    nearest += part.middle[axis] - part.half[axis];
-  }
-  if (nearest > 1 + 2 * tolerance)
+  if (this->isBeyondSlant(part) ||
+    !(*this->OnEnter)(this->Origin + middle - spread, this->Origin + middle + spread))
   {
     return;
   }
@@ -250,19 +277,7 @@ void CurvedCell::divide(int depth, const Part& part, Visited visited)
   }
   if (isRegular || isLast)
   {
-    CurvedPart found{};
-    found.reference = this->Of->reference;
-    std::copy_n(this->Of->orders.begin(), 3, found.orders);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      found.coefficients[axis] = this->Normal.data() + axis * size;
-    }
-    found.coefficients[3] = coefficients.data() + 3 * size;
-    std::copy_n(part.middle.begin(), 3, found.middle);
-    std::copy_n(part.half.begin(), 3, found.half);
-    found.isRegular = isRegular;
-    found.tolerance = tolerance;
-    (*this->OnVisit)(found, this->Origin + middle, rows, extent);
+    this->show(coefficients, part, isRegular, rows, extent);
     return;
   }
   const std::size_t axis = this->axisToSplit(part);

@@ -57,6 +57,20 @@ private:
     Others
   };
 
+  struct Powers
+  {
+    double along[3][CurvedKind::maxOrder + 1];
+
+    double operator()(const std::array<int, 3>& of) const // of a term
+    {
+      return this->along[0][of[0]] * this->along[1][of[1]] * this->along[2][of[2]];
+    }
+  };
+
+  Powers powersIn(const Part& part) const;
+  bool isBeyondSlant(const Part& part) const;
+  void show(const std::vector<double>& coefficients, const Part& part, bool isRegular,
+    const Vector rows[3], const Vector& extent) const;
   void split(int from, std::size_t axis, bool isUpper);
   void divide(int depth, const Part& part, Visited visited);
   std::size_t axisToSplit(const Part& part) const;

@@ -88,7 +88,7 @@ private:
   };
   static constexpr std::int32_t maxInLeaf = 4;
 
-  /// Calls enter(node, its number), which returns whether to go on below it, and visit(triangle) for
+  /// Calls enter(node, its number), which returns whether to continue below it, and visit(triangle) for
   /// those of leaves until it returns true. Returns whether it has.
   template <class Enter, class Visit>
   bool walk(const Enter& enter, const Visit& visit) const
