@@ -118,28 +118,9 @@ void LatticeInCells::add(std::size_t place)
   this->Cell = static_cast<std::uint32_t>(place);
   this->Number = this->Tree.number(place);
   const CellTree::Cell cell = this->Tree.cell(this->Number);
-  bool isNormal = false;
-  switch (shapeOf(cell.block->type(cell.id)))
-  {
-    case CellShape::Tetrahedron:
-      isNormal = this->addNormal<CellShape::Tetrahedron>(cell);
-      break;
-    case CellShape::Wedge:
-      isNormal = this->addNormal<CellShape::Wedge>(cell);
-      break;
-    case CellShape::Pyramid:
-      isNormal = this->addNormal<CellShape::Pyramid>(cell);
-      break;
-    case CellShape::Hexahedron:
-      isNormal = this->addNormal<CellShape::Hexahedron>(cell);
-      break;
-    case CellShape::Voxel:
-      isNormal = this->addNormal<CellShape::Voxel>(cell);
-      break;
-    case CellShape::Other:
-      break;
-  }
-  if (isNormal)
+  const CellShape shape = shapeOf(cell.block->type(cell.id));
+  if (shape != CellShape::Other &&
+    withShape(shape, [&](const auto of) { return this->addNormal<decltype(of)::value>(cell); }))
   {
     return;
   }

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 namespace filters
 {
@@ -146,21 +147,29 @@ Polynomial polynomialOf(const double* c)
   }
 }
 
-inline Polynomial polynomialOf(CellShape shape, const double* corners)
+/// Returns act(constant) for a shape other than Other.
+template <class Act>
+auto withShape(CellShape shape, const Act& act)
 {
   switch (shape)
   {
     case CellShape::Tetrahedron:
-      return polynomialOf<CellShape::Tetrahedron>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Tetrahedron>());
     case CellShape::Wedge:
-      return polynomialOf<CellShape::Wedge>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Wedge>());
     case CellShape::Pyramid:
-      return polynomialOf<CellShape::Pyramid>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Pyramid>());
     case CellShape::Voxel:
-      return polynomialOf<CellShape::Voxel>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Voxel>());
     default:
-      return polynomialOf<CellShape::Hexahedron>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Hexahedron>());
   }
+}
+
+inline Polynomial polynomialOf(CellShape shape, const double* corners)
+{
+  return withShape(
+    shape, [&](const auto of) { return polynomialOf<decltype(of)::value>(corners); });
 }
 
 /// Computes the rows of the inverse of a matrix of three columns. Returns whether it is regular.
