@@ -89,4 +89,5 @@ assert traced == added, [(name, added[name], traced[name]) for name in added
                          if added[name] != traced[name]]
 (_, view) = views()[1]
 frame_view(view, 0.015)
+display.SchlierenLegend = 0
 assert np.abs(pixels_of(view, SIZE) - seen).max() <= 1
