@@ -212,7 +212,7 @@ public:
     }
     if (this->Pattern)
     {
-      return { true, true, "Set as the selected one is." };
+      return { true, true, "The new views have the settings of the selected image." };
     }
     return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
