@@ -166,6 +166,32 @@ struct Scene
   std::size_t memoryBudget = std::size_t{ 1 } << 30;
 };
 
+/// What an image's light stands for: the light of evenly spaced values of what makes it, as a legend shows it.
+struct Legend
+{
+  enum class Quantity
+  {
+    None,            ///< of a pattern behind the flow: nothing that a scale could show
+    Deflection,      ///< along the knife edge's normal, radians
+    DeflectionSize,  ///< |eps|, radians
+    DeflectionPlane, ///< along u and v, radians
+    Light,           ///< by undisturbed light
+    Path             ///< optical path difference, metres
+  };
+
+  Quantity quantity = Quantity::None;
+  double lowest = 0, highest = 0; ///< at the outer edges of the first and the last value
+  int width = 0, height = 0;      ///< numbers of values, along u and, of DeflectionPlane, along v
+  std::vector<float>
+    light; ///< red, green and blue of each, linear, the lowest first; 1 is full light
+};
+
+/// The legend of a scene that has been validated, for its sensitivity k > 0 (where it has one). A knife edge's, a graded
+/// filter's and a stop's goes from all of one end of their light to the other; a shadowgraph's from 0 to 2; an
+/// interferogram's from a fringe below to one above undisturbed light, in white light from three to three at
+/// Scene::wavelength. What is shown is the formula of the cutoff, without a carrier.
+Legend legendOf(const Scene& scene, double k);
+
 /// What a Bench has done so far: lets a caller (and the tests) see that nothing is done twice.
 struct Work
 {

@@ -7,6 +7,7 @@
 #include "Common/AvailableMemory.h"
 #include "Common/Guarded.h"
 #include "Common/Threads.h"
+#include "Image/ImageLegend.h"
 #include "Image/ImageOutput.h"
 #include "Image/MeanImage.h"
 #include "Image/Preview.h"
@@ -423,12 +424,13 @@ bool vtkSchlierenFilter::Show(
   ++this->PictureCount;
   output->Initialize();
   histogram->Initialize();
+  const ColorScale colors = this->HasOwnColor() ? ColorScale::Srgb
+    : CutoffHasScreen(this->Cutoff)             ? ColorScale::LinearToTwice
+                                                : ColorScale::Linear;
+  addLegend(output, *this, scene, image, isKept, this->PathModel == DIFFERENCE, colors);
   setOutput(output, image, this->PathModel == DIFFERENCE);
   if (!image.color.empty())
   {
-    const ColorScale colors = this->HasOwnColor() ? ColorScale::Srgb
-      : CutoffHasScreen(this->Cutoff)             ? ColorScale::LinearToTwice
-                                                  : ColorScale::Linear;
     addColor(output, image, colors);
   }
   if (schlieren::techniqueOf(scene.cutoff).hasFringes && scene.fringes.finite)

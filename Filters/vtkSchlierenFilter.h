@@ -35,7 +35,12 @@
  * reflected at the exit), `StepsTaken` (of all rays), `TraceSeconds` (0 without tracing), and the
  * accuracy: `DisplacementBound` (maximum displacement of rays, data units) and `SkippingBound`
  * (maximum error of direction cosines by skipping), each omitted where it is not useful, and
- * `MomentumDrift` (maximum relative error of |p| = n at the exit of refracted rays; else 0).
+ * `MomentumDrift` (maximum relative error of |p| = n at the exit of refracted rays; else 0). For a
+ * legend: `LegendTitle` (the cutoff's name), `LegendLabel` (texts: what the light stands for, and
+ * its unit: rad, m or none), `LegendRange` (the first and last value, in that unit), `LegendSize`
+ * (numbers of values; both 0 without a scale, the second above 1 for deflections along u and v),
+ * `LegendColors` (3 unsigned chars each, the lowest value first), `LegendNotes` (texts, such as k),
+ * `LegendAngle` (degrees, of an edge: the direction of the deflection) and `LengthScale`.
  *
  * The second output is the histogram of the light on the cutoff plane: an image with a point at the
  * centre of each bin, whose coordinates are the deflections along u and v, with the array `Rays`

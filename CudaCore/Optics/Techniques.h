@@ -49,6 +49,7 @@ enum class Coloring
 struct Technique
 {
   Cutoff cutoff;
+  const char* name; ///< as users read it
   /// The k |eps| that automatic k makes of strong deflections: 1/2 where light can become more or less than in the middle,
   /// else 1. 0: k is not used.
   double fullScale;
@@ -62,16 +63,20 @@ struct Technique
 
 /// The table, in the order of Cutoff.
 constexpr std::array<Technique, 9> techniques = { {
-  // cutoff, full scale, edge, fringes, plane, colours
-  { Cutoff::KnifeEdge, 0.5, true, false, RecordedPlane::Focus, Coloring::None },
-  { Cutoff::Shadowgraph, 0, false, false, RecordedPlane::Screen, Coloring::None },
-  { Cutoff::Circular, 1, false, false, RecordedPlane::Focus, Coloring::None },
-  { Cutoff::CircularComplement, 1, false, false, RecordedPlane::Focus, Coloring::None },
-  { Cutoff::GradedFilter, 0.5, true, false, RecordedPlane::Focus, Coloring::None },
-  { Cutoff::ColorFilter, 1, false, false, RecordedPlane::Focus, Coloring::Always },
-  { Cutoff::Interferogram, 0, false, true, RecordedPlane::Focus, Coloring::InWhiteLight },
-  { Cutoff::Background, 0, false, false, RecordedPlane::Background, Coloring::OfBackgroundImage },
-  { Cutoff::NumericalSchlieren, 1, false, false, RecordedPlane::Focus, Coloring::None },
+  // cutoff, name, full scale, edge, fringes, plane, colours
+  { Cutoff::KnifeEdge, "Knife Edge", 0.5, true, false, RecordedPlane::Focus, Coloring::None },
+  { Cutoff::Shadowgraph, "Shadowgraph", 0, false, false, RecordedPlane::Screen, Coloring::None },
+  { Cutoff::Circular, "Circular", 1, false, false, RecordedPlane::Focus, Coloring::None },
+  { Cutoff::CircularComplement, "Circular Complement", 1, false, false, RecordedPlane::Focus,
+    Coloring::None },
+  { Cutoff::GradedFilter, "Graded Filter", 0.5, true, false, RecordedPlane::Focus, Coloring::None },
+  { Cutoff::ColorFilter, "Color Filter", 1, false, false, RecordedPlane::Focus, Coloring::Always },
+  { Cutoff::Interferogram, "Interferogram", 0, false, true, RecordedPlane::Focus,
+    Coloring::InWhiteLight },
+  { Cutoff::Background, "Background Oriented", 0, false, false, RecordedPlane::Background,
+    Coloring::OfBackgroundImage },
+  { Cutoff::NumericalSchlieren, "Numerical Schlieren", 1, false, false, RecordedPlane::Focus,
+    Coloring::None },
 } };
 
 constexpr const Technique& techniqueOf(Cutoff cutoff)

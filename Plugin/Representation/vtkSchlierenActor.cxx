@@ -4,6 +4,7 @@
 
 #include "SceneBehind.h"
 #include "vtkSchlierenFilter.h"
+#include "vtkSchlierenLegend.h"
 
 #include "Private/Common/Guarded.h"
 
@@ -250,6 +251,7 @@ void vtkSchlierenActor::SetFillsView(vtkRenderer* renderer)
 void vtkSchlierenActor::AddTo(vtkRenderer* renderer)
 {
   renderer->AddActor(this);
+  renderer->AddViewProp(this->Legend);
   // Suspends FXAA around the compositing between processes, which also restores it.
   constexpr float beforeAllOthers = 100, afterAllOthers = -100;
   renderer->AddObserver(vtkCommand::StartEvent, this->SuspendFXAA, beforeAllOthers);
@@ -260,6 +262,7 @@ void vtkSchlierenActor::AddTo(vtkRenderer* renderer)
 void vtkSchlierenActor::RemoveFrom(vtkRenderer* renderer)
 {
   renderer->RemoveActor(this);
+  renderer->RemoveViewProp(this->Legend);
   renderer->RemoveObserver(this->SuspendFXAA);
   renderer->RemoveObserver(this->RestoreFXAA);
 }
@@ -410,6 +413,7 @@ int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
 //------------------------------------------------------------------------------
 int vtkSchlierenActor::DrawImage(vtkViewport* viewport)
 {
+  this->Legend->SetImage(nullptr);
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
   if (!renderer || this->IsHidden(renderer))
   {
@@ -438,6 +442,7 @@ int vtkSchlierenActor::DrawImage(vtkViewport* viewport)
   const int* size = this->Pixels->GetDimensions();
   this->GetTexture()->SetInterpolate(size[0] != view.Size[0] || size[1] != view.Size[1]);
   this->PlaceQuad(renderer);
+  this->Legend->SetImage(this->Pixels);
   return this->Superclass::RenderOpaqueGeometry(viewport);
 }
 
@@ -485,6 +490,7 @@ void vtkSchlierenActor::UpdatePixels()
     this->Pixels->SetDimensions(image->GetDimensions());
     this->Pixels->SetOrigin(image->GetOrigin());
     this->Pixels->SetSpacing(image->GetSpacing());
+    vtkSchlierenLegend::CopyFieldData(image, this->Pixels);
     vtkPointData* arrays = image->GetPointData();
     if (vtkDataArray* color = arrays->GetArray("Color"))
     {

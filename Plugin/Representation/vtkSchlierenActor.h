@@ -27,6 +27,7 @@ class vtkImageData;
 class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkSchlierenFilter;
+class vtkSchlierenLegend;
 
 class vtkSchlierenActor : public vtkOpenGLActor
 {
@@ -47,6 +48,9 @@ public:
     std::array<int, 2> Size{};
     bool operator==(const View& other) const;
   };
+
+  /// Returns what is drawn over the image.
+  vtkSchlierenLegend* GetLegend() const { return this->Legend; }
 
   enum Occasions
   {
@@ -173,6 +177,7 @@ private:
   vtkNew<vtkCallbackCommand> SuspendFXAA;
   vtkNew<vtkCallbackCommand> RestoreFXAA;
   bool IsWithoutFXAA = false;
+  vtkNew<vtkSchlierenLegend> Legend;
   vtkNew<vtkPolyData> Quad;
   vtkNew<vtkPolyDataMapper> QuadMapper;
   vtkNew<vtkImageData> Pixels;

@@ -4,12 +4,62 @@
 
 #include "vtkSchlierenRepresentation.h"
 
+#include "vtkCharArray.h"
 #include "vtkClientServerStream.h"
+#include "vtkCommunicator.h"
+#include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
+
+namespace
+{
+
+constexpr int rgb = 3;
+
+/// Returns one of the three channels of a grey image, and others as they are.
+vtkSmartPointer<vtkUnsignedCharArray> withoutEqualChannels(vtkUnsignedCharArray* colors)
+{
+  const unsigned char* from = colors->GetPointer(0);
+  const vtkIdType pixels = colors->GetNumberOfTuples();
+  bool isGrey = colors->GetNumberOfComponents() == rgb;
+  for (vtkIdType i = 0; isGrey && i < pixels; ++i)
+  {
+    isGrey = from[rgb * i] == from[rgb * i + 1] && from[rgb * i] == from[rgb * i + 2];
+  }
+  if (!isGrey)
+  {
+    return colors;
+  }
+  auto grey = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  grey->SetNumberOfValues(pixels);
+  for (vtkIdType i = 0; i < pixels; ++i)
+  {
+    grey->SetValue(i, from[rgb * i]);
+  }
+  return grey;
+}
+
+/// Undoes withoutEqualChannels().
+vtkSmartPointer<vtkUnsignedCharArray> withChannels(vtkUnsignedCharArray* colors)
+{
+  if (colors->GetNumberOfComponents() != 1)
+  {
+    return colors;
+  }
+  auto all = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  all->SetNumberOfComponents(rgb);
+  all->SetNumberOfTuples(colors->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < all->GetNumberOfValues(); ++i)
+  {
+    all->SetValue(i, colors->GetValue(i / rgb));
+  }
+  return all;
+}
+
+} // namespace
 
 vtkStandardNewMacro(vtkSchlierenImageInformation);
 
@@ -47,73 +97,47 @@ void vtkSchlierenImageInformation::AddInformation(vtkPVInformation* other)
 void vtkSchlierenImageInformation::CopyToStream(vtkClientServerStream* stream)
 {
   stream->Reset();
-  auto* bytes = this->Image
+  vtkNew<vtkCharArray> bytes;
+  auto* colors = this->Image
     ? vtkUnsignedCharArray::SafeDownCast(this->Image->GetPointData()->GetScalars())
     : nullptr;
-  *stream << vtkClientServerStream::Reply << (bytes ? 1 : 0);
-  if (bytes)
+  if (colors)
   {
-    // Sends one of the three equal bytes of a grey image.
-    const unsigned char* rgb = bytes->GetPointer(0);
-    const vtkIdType pixels = bytes->GetNumberOfTuples();
-    bool isGrey = bytes->GetNumberOfComponents() == 3;
-    for (vtkIdType i = 0; isGrey && i < pixels; ++i)
-    {
-      isGrey = rgb[3 * i] == rgb[3 * i + 1] && rgb[3 * i] == rgb[3 * i + 2];
-    }
-    vtkNew<vtkUnsignedCharArray> grey;
-    for (vtkIdType i = 0; isGrey && i < pixels; ++i)
-    {
-      grey->InsertNextValue(rgb[3 * i]);
-    }
-    const auto* sent = isGrey ? grey.Get() : bytes;
-    *stream << vtkClientServerStream::InsertArray(this->Image->GetDimensions(), 3)
-            << vtkClientServerStream::InsertArray(this->Image->GetOrigin(), 3)
-            << vtkClientServerStream::InsertArray(this->Image->GetSpacing(), 3)
-            << vtkClientServerStream::InsertArray(
-                 const_cast<vtkUnsignedCharArray*>(sent)->GetPointer(0),
-                 static_cast<int>(sent->GetNumberOfValues()));
+    vtkNew<vtkImageData> sent;
+    sent->ShallowCopy(this->Image);
+    sent->GetPointData()->SetScalars(withoutEqualChannels(colors));
+    vtkCommunicator::MarshalDataObject(sent, bytes);
   }
-  *stream << vtkClientServerStream::End;
+  *stream << vtkClientServerStream::Reply
+          << vtkClientServerStream::InsertArray(
+               bytes->GetPointer(0), static_cast<int>(bytes->GetNumberOfValues()))
+          << vtkClientServerStream::End;
 }
 
 //------------------------------------------------------------------------------
 void vtkSchlierenImageInformation::CopyFromStream(const vtkClientServerStream* stream)
 {
   this->Image = nullptr;
-  int isThere = 0, size[3];
-  double origin[3], spacing[3];
   vtkTypeUInt32 count = 0;
-  if (!stream->GetArgument(0, 0, &isThere) || !isThere || !stream->GetArgument(0, 1, size, 3) ||
-    !stream->GetArgument(0, 2, origin, 3) || !stream->GetArgument(0, 3, spacing, 3) ||
-    !stream->GetArgumentLength(0, 4, &count))
+  vtkNew<vtkCharArray> bytes;
+  if (!stream->GetArgumentLength(0, 0, &count) || count == 0)
   {
     return;
   }
-  vtkNew<vtkUnsignedCharArray> sent;
-  sent->SetNumberOfValues(count);
-  const vtkIdType pixels = static_cast<vtkIdType>(size[0]) * size[1];
-  const vtkIdType channels = pixels > 0 ? count / pixels : 0;
-  if (channels < 1 || channels * pixels != static_cast<vtkIdType>(count) ||
-    !stream->GetArgument(0, 4, sent->GetPointer(0), count))
+  bytes->SetNumberOfValues(count);
+  vtkSmartPointer<vtkDataObject> received;
+  if (stream->GetArgument(0, 0, bytes->GetPointer(0), count))
+  {
+    received = vtkCommunicator::UnMarshalDataObject(bytes);
+  }
+  auto* image = vtkImageData::SafeDownCast(received);
+  auto* colors =
+    image ? vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetScalars()) : nullptr;
+  if (!colors)
   {
     vtkErrorMacro(<< "An image from the server is damaged, and not shown.");
     return;
   }
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(pixels);
-  for (vtkIdType i = 0; i < pixels; ++i)
-  {
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      colors->SetValue(
-        3 * i + channel, sent->GetValue(channels * i + (channels < 3 ? 0 : channel)));
-    }
-  }
-  this->Image = vtkSmartPointer<vtkImageData>::New();
-  this->Image->SetDimensions(size);
-  this->Image->SetOrigin(origin);
-  this->Image->SetSpacing(spacing);
-  this->Image->GetPointData()->SetScalars(colors);
+  image->GetPointData()->SetScalars(withChannels(colors));
+  this->Image = image;
 }

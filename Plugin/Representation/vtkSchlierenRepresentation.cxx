@@ -4,6 +4,7 @@
 
 #include "vtkSchlierenActor.h"
 #include "vtkSchlierenFilter.h"
+#include "vtkSchlierenLegend.h"
 
 #include "Private/Common/Guarded.h"
 
@@ -133,6 +134,32 @@ void vtkSchlierenRepresentation::SetVisibility(bool isVisible)
 {
   this->Superclass::SetVisibility(isVisible);
   this->Actor->SetVisibility(isVisible);
+  this->ShowOrHideLegend();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenRepresentation::ShowOrHideLegend()
+{
+  this->Actor->GetLegend()->SetVisibility(this->HasLegend && this->GetVisibility());
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenRepresentation::SetLegend(bool isShown)
+{
+  this->HasLegend = isShown;
+  this->ShowOrHideLegend();
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenRepresentation::SetLegendCorner(int corner)
+{
+  this->Actor->GetLegend()->SetCorner(corner);
+}
+
+//------------------------------------------------------------------------------
+void vtkSchlierenRepresentation::SetLegendFontSize(int points)
+{
+  this->Actor->GetLegend()->SetFontSize(points);
 }
 
 //------------------------------------------------------------------------------

@@ -43,6 +43,16 @@ public:
    */
   void SetTimeSlice(double seconds);
 
+  ///@{
+  /**
+   * Set whether a legend is drawn (default: on), its corner, one of vtkSchlierenLegend::Corners
+   * (default: lower right), and the size of its font, points (default: 10).
+   */
+  void SetLegend(bool isShown);
+  void SetLegendCorner(int corner);
+  void SetLegendFontSize(int points);
+  ///@}
+
   /**
    * Return whether the last image is complete, and its reduction; see vtkSchlierenActor.
    */
@@ -93,6 +103,7 @@ private:
   int RespondToView(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output);
   void PassTimeToBench();
+  void ShowOrHideLegend();
   void UseRequest();
   /// Reports once, until that changes, that another flow is shown instead.
   void TellIfHidden();
@@ -103,6 +114,7 @@ private:
   vtkNew<vtkPolyData>
     Nothing; // delivered data: only the image leaves this process, as part of the view
   bool IsHidden = false;
+  bool HasLegend = true;
   double Bounds[6];
 };
 

@@ -50,7 +50,7 @@ Found eachCell(const std::vector<vtkDataSet*>& blocks, const Lattice& lattice)
   for (std::size_t i = 0; i < static_cast<std::size_t>(lattice.size()); ++i)
   {
     const Vec x = pointOf(lattice, i);
-    filters::MeshCell cell(-1);
+    filters::MeshCell cell;
     double value = 0;
     float least = HUGE_VALF;
     for (vtkDataSet* block : blocks)

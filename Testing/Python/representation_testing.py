@@ -18,9 +18,10 @@ GREY_LEVEL = 0.5 + 1e-4
 OF_THE_VIEW = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "ImageSize"}
 
 
-def show(flow, view, **settings):
+def show(flow, view, legend=False, **settings):
     display = simple.Show(flow, view)
     display.SetRepresentationType("Schlieren")
+    display.SchlierenLegend = legend
     simple.SetProperties(display.SchlierenBench, **settings)
     return display
 

@@ -21,6 +21,9 @@ enum class CellState : unsigned char
 };
 
 /// Collects the faces between gas and other cells, each as large as the smaller cell beside it.
+/// Looks at solid cells only: the surfaces of those with gas (vtkThreshold and vtkGeometryFilter, which
+/// do not divide the faces of coarser cells) make the first image of 2.1 million cells take 1.6 times
+/// as long.
 class AmrFaces
 {
 public:

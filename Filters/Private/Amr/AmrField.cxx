@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -26,11 +25,6 @@ constexpr int reach = 3;
 
 constexpr double rounding = 1e-6;           // of positions, in cells
 constexpr double atBorder = 0.5 - rounding; // distance from a cell's centre
-
-void inTurn(std::ptrdiff_t rows, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& work)
-{
-  work(0, rows);
-}
 
 /// Assigns positions on a face between cells to the cell behind it, regardless of rounding.
 double onFaces(double cells)
@@ -285,7 +279,7 @@ std::vector<double> AmrField::valuesIn(std::size_t number, const CellBox& box) c
     {
       middles.push_back((i + 0.5) / ratio[axis] - 0.5 - coarse.begin[axis]);
     }
-    resampleAxis(values, cells, axis, middles, 1. / ratio[axis], inTurn);
+    resampleAxis(values, cells, axis, middles, 1. / ratio[axis]);
   }
   forCells(missing.begin, missing.size(),
     [&](int i, int j, int k)

@@ -95,39 +95,33 @@ struct LinesAlong
 
 /// Replaces the cells along one axis of a box by means over intervals of `width` cells around
 /// `middles`, relative to the first cell's centre. A mean is NaN if the cell of its middle is NaN
-/// or outside; other means ignore such cells. `forRows(count, work)` calls work(begin, end) for
-/// intervals of 0 ... count.
-template <class ForRows>
-void resampleAxis(std::vector<double>& values, Counts& cells, std::size_t axis,
-  const std::vector<double>& middles, double width, const ForRows& forRows)
+/// or outside; other means ignore such cells.
+inline void resampleAxis(std::vector<double>& values, Counts& cells, std::size_t axis,
+  const std::vector<double>& middles, double width)
 {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const int n = cells[axis];
   const auto count = static_cast<std::ptrdiff_t>(middles.size());
   const LinesAlong lines(cells, axis);
   const std::ptrdiff_t stride = lines.stride;
   std::vector<double> result(static_cast<std::size_t>(lines.count * count));
-  forRows(lines.count / stride * count,
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+  for (std::ptrdiff_t row = 0; row < lines.count / stride * count; ++row)
+  {
+    const double middle = middles[static_cast<std::size_t>(row % count)];
+    const int cell = static_cast<int>(std::lround(std::clamp(middle, -1., n + 0.)));
+    const Reconstruction mean(middle - cell, width);
+    const double* line = values.data() + row / count * n * stride;
+    for (std::ptrdiff_t k = 0; k < stride; ++k)
     {
-      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-      for (std::ptrdiff_t row = begin; row < end; ++row)
+      std::array<double, 5> around;
+      for (int i = 0; i < 5; ++i)
       {
-        const double middle = middles[static_cast<std::size_t>(row % count)];
-        const int cell = static_cast<int>(std::lround(std::clamp(middle, -1., n + 0.)));
-        const Reconstruction mean(middle - cell, width);
-        const double* line = values.data() + row / count * n * stride;
-        for (std::ptrdiff_t k = 0; k < stride; ++k)
-        {
-          std::array<double, 5> around;
-          for (int i = 0; i < 5; ++i)
-          {
-            const int at = cell + i - 2;
-            around[static_cast<std::size_t>(i)] = at < 0 || at >= n ? nan : line[at * stride + k];
-          }
-          result[static_cast<std::size_t>(row * stride + k)] = mean(around);
-        }
+        const int at = cell + i - 2;
+        around[static_cast<std::size_t>(i)] = at < 0 || at >= n ? nan : line[at * stride + k];
       }
-    });
+      result[static_cast<std::size_t>(row * stride + k)] = mean(around);
+    }
+  }
   values = std::move(result);
   cells[axis] = static_cast<int>(count);
 }

@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Cells/CellSampler.h"
 
-#include "Cells/CurvedCell.h"
-#include "Cells/MeshCell.h"
-#include "Cells/PlacesInCell.h"
-#include "Cells/PlacesInPart.h"
-
-#include "vtkDataSet.h"
+#include "Cells/LatticeInCells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +16,6 @@ namespace filters
 namespace
 {
 
-// Tolerances of parametric coordinates; see MeshCell.cxx.
-constexpr double toleranceOfPlaneFaces = 1e-6;
-constexpr double toleranceOfCurvedFaces = 1e-3;
-
 /// Prefers the earlier block for points on its faces, regardless of rounding.
 constexpr double nothing = 1e-9;
 
@@ -34,68 +25,10 @@ constexpr double bendOfParallelepipeds = 1e-12;
 const LocateInCell locateInCell = functionsToLocate().back();
 const LocateInPart locateInPart = functionsToLocateInPart().back();
 
-/// The points of a lattice, and the cells found so far.
-class Brick
-{
-public:
-  Brick(const CellTree& tree, const schlieren::Lattice& lattice, double* values);
+} // namespace
 
-  /// Sets the box for add(). Returns whether it contains points.
-  bool enter(const CellTree::Steps& box);
-  /// Sets the box to that of the points between these places.
-  bool enter(const Vector& low, const Vector& high);
-  void add(std::size_t place);
-  /// Adds a cell that is known to contain these points, and no others.
-  void add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end);
-  std::size_t countFound() const;
-  void finish(unsigned char* found, CellsOfLattice* cells) const;
-
-private:
-  template <CellShape shape>
-  bool addNormal(const CellTree::Cell& cell);
-  template <CellShape shape>
-  void findSlabs(const double corners[4][8], const Polynomial place[3], const Vector rows[3]);
-  bool hasUnsettled() const;
-  void addCurved();
-  void addOther(const CellTree::Cell& cell);
-  void setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3]);
-  void locateInOther();
-  void scan(const NormalCell& cell, const Vector& middle, const Vector rows[3]);
-  void flush(const NormalCell& cell);
-  bool isSettled(std::size_t point) const
-  {
-    return this->Misses[point] == 0 && this->Owners[point] <= this->Number;
-  }
-  void set(std::size_t point, double miss, double value);
-
-  const CellTree& Tree;
-  const schlieren::Lattice& Lattice;
-  double* Values;
-  // Converts steps of the tree's boxes to indices of points.
-  double PerStep[3], AtOrigin[3], Rounding[3], Slack[3];
-  int First[3], Last[3]; // of the last box
-
-  // Misses and values of the best cells so far.
-  std::vector<float> Misses;
-  std::vector<CellTree::Number> Owners;
-  std::vector<std::uint32_t> Cells; // these cells' places in the tree
-
-  CellTree::Number Number = 0;
-  std::uint32_t Cell = 0;
-  const std::uint16_t *GivenBegin = nullptr, *GivenEnd = nullptr;
-  double Tolerance = 0;
-  double Low[4],
-    High[4]; // of normal coordinates, and of their sum for slanting faces
-  CellPoints Points;
-  std::size_t Places[CellPoints::most];
-  int Count = 0;
-  std::unique_ptr<CurvedCell> Curved;
-  const CurvedPart* Part = nullptr; // of a curved cell; null: another cell
-  std::unique_ptr<MeshCell> Other;
-  const double* OtherValues = nullptr;
-};
-
-Brick::Brick(const CellTree& tree, const schlieren::Lattice& lattice, double* values)
+LatticeInCells::LatticeInCells(
+  const CellTree& tree, const schlieren::Lattice& lattice, double* values)
   : Tree(tree)
   , Lattice(lattice)
   , Values(values)
@@ -116,7 +49,7 @@ Brick::Brick(const CellTree& tree, const schlieren::Lattice& lattice, double* va
   std::fill_n(values, size, 0.);
 }
 
-bool Brick::enter(const CellTree::Steps& box)
+bool LatticeInCells::enter(const CellTree::Steps& box)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -140,7 +73,7 @@ bool Brick::enter(const CellTree::Steps& box)
   return true;
 }
 
-bool Brick::enter(const Vector& low, const Vector& high)
+bool LatticeInCells::enter(const Vector& low, const Vector& high)
 {
   bool hasPoints = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -156,7 +89,7 @@ bool Brick::enter(const Vector& low, const Vector& high)
   return hasPoints;
 }
 
-void Brick::set(std::size_t point, double miss, double value)
+void LatticeInCells::set(std::size_t point, double miss, double value)
 {
   if (!(miss <= this->Tolerance) || miss == std::numeric_limits<double>::infinity())
   {
@@ -173,40 +106,21 @@ void Brick::set(std::size_t point, double miss, double value)
   }
 }
 
-void Brick::add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end)
+void LatticeInCells::add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end)
 {
   this->GivenBegin = begin;
   this->GivenEnd = end;
   this->add(place);
 }
 
-void Brick::add(std::size_t place)
+void LatticeInCells::add(std::size_t place)
 {
   this->Cell = static_cast<std::uint32_t>(place);
   this->Number = this->Tree.number(place);
   const CellTree::Cell cell = this->Tree.cell(this->Number);
-  bool isNormal = false;
-  switch (shapeOf(cell.block->type(cell.id)))
-  {
-    case CellShape::Tetrahedron:
-      isNormal = this->addNormal<CellShape::Tetrahedron>(cell);
-      break;
-    case CellShape::Wedge:
-      isNormal = this->addNormal<CellShape::Wedge>(cell);
-      break;
-    case CellShape::Pyramid:
-      isNormal = this->addNormal<CellShape::Pyramid>(cell);
-      break;
-    case CellShape::Hexahedron:
-      isNormal = this->addNormal<CellShape::Hexahedron>(cell);
-      break;
-    case CellShape::Voxel:
-      isNormal = this->addNormal<CellShape::Voxel>(cell);
-      break;
-    case CellShape::Other:
-      break;
-  }
-  if (isNormal)
+  const CellShape shape = shapeOf(cell.block->type(cell.id));
+  if (shape != CellShape::Other &&
+    withShape(shape, [&](const auto of) { return this->addNormal<decltype(of)::value>(cell); }))
   {
     return;
   }
@@ -227,7 +141,8 @@ void Brick::add(std::size_t place)
 
 /// Finds the bounds of the normal coordinates in a cell.
 template <CellShape shape>
-void Brick::findSlabs(const double corners[4][8], const Polynomial place[3], const Vector rows[3])
+void LatticeInCells::findSlabs(
+  const double corners[4][8], const Polynomial place[3], const Vector rows[3])
 {
   constexpr bool isSimplex = shape == CellShape::Tetrahedron || shape == CellShape::Wedge;
   // Uses that interpolation, and so the cell, is bounded by the corners.
@@ -263,7 +178,7 @@ void Brick::findSlabs(const double corners[4][8], const Polynomial place[3], con
 
 /// Returns whether the cell has a volume at its middle.
 template <CellShape shape>
-bool Brick::addNormal(const CellTree::Cell& cell)
+bool LatticeInCells::addNormal(const CellTree::Cell& cell)
 {
   constexpr int count = cornersOf(shape);
   vtkIdType points[8];
@@ -371,7 +286,7 @@ bool Brick::addNormal(const CellTree::Cell& cell)
 }
 
 /// Collects the points that may be in the cell, row by row.
-void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows[3])
+void LatticeInCells::scan(const NormalCell& cell, const Vector& middle, const Vector rows[3])
 {
   constexpr double parallel = 1e300; // 1 / 0, but without NaN
   const bool isSimplex = cell.shape == CellShape::Tetrahedron || cell.shape == CellShape::Wedge;
@@ -473,7 +388,7 @@ void Brick::scan(const NormalCell& cell, const Vector& middle, const Vector rows
   this->flush(cell);
 }
 
-void Brick::flush(const NormalCell& cell)
+void LatticeInCells::flush(const NormalCell& cell)
 {
   if (cell.shape == CellShape::Other && !this->Part)
   {
@@ -499,181 +414,13 @@ void Brick::flush(const NormalCell& cell)
   this->Count = 0;
 }
 
-/// Returns whether the best cell is not yet known of one of the points between First and Last.
-bool Brick::hasUnsettled() const
-{
-  const auto row = static_cast<std::size_t>(this->Lattice.points[0]);
-  const auto rows = static_cast<std::size_t>(this->Lattice.points[1]);
-  for (int k = this->First[2]; k <= this->Last[2]; ++k)
-  {
-    for (int j = this->First[1]; j <= this->Last[1]; ++j)
-    {
-      const std::size_t first =
-        (static_cast<std::size_t>(k) * rows + static_cast<std::size_t>(j)) * row;
-      for (int i = this->First[0]; i <= this->Last[0]; ++i)
-      {
-        if (!this->isSettled(first + static_cast<std::size_t>(i)))
-        {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
-}
-
-/// Locates points in the parts of a curved cell, within the cell's box.
-void Brick::addCurved()
-{
-  int first[3], last[3];
-  std::copy_n(this->First, 3, first);
-  std::copy_n(this->Last, 3, last);
-  const auto enter = [&](const Vector& low, const Vector& high)
-  {
-    if (this->GivenBegin)
-    {
-      return true;
-    }
-    bool hasPoints = this->enter(low, high);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->First[axis] = std::max(this->First[axis], first[axis]);
-      this->Last[axis] = std::min(this->Last[axis], last[axis]);
-      hasPoints = hasPoints && this->First[axis] <= this->Last[axis];
-    }
-    return hasPoints && this->hasUnsettled();
-  };
-  NormalCell other{};
-  other.shape = CellShape::Other;
-  this->Curved->forParts(enter,
-    [&](const CurvedPart& part, const Vector& middle, const Vector rows[3], const Vector& extent)
-    {
-      this->Part = &part;
-      this->Tolerance = part.tolerance;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        this->Low[axis] = -extent[axis];
-        this->High[axis] = extent[axis];
-      }
-      this->scan(other, middle, rows);
-    });
-  this->Part = nullptr;
-}
-
-/// Locates points by MeshCell. Skips most points outside by a linear cell with the same corners,
-/// out of which curved ones do not reach far.
-void Brick::addOther(const CellTree::Cell& cell)
-{
-  const double infinity = std::numeric_limits<double>::infinity();
-  Vector rows[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
-  Vector origin = {};
-  std::fill_n(this->Low, 4, -infinity);
-  std::fill_n(this->High, 4, infinity);
-  const CellShape skeleton = skeletonOf(cell.block->type(cell.id));
-  if (skeleton != CellShape::Other)
-  {
-    const int count = cornersOf(skeleton);
-    vtkIdType points[8];
-    cell.block->points(cell.id, count, points);
-    double corners[3][8];
-    cell.block->coordinates(points[0], origin.data());
-    for (int i = 0; i < count; ++i)
-    {
-      double x[3];
-      cell.block->coordinates(points[i], x);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        corners[axis][i] = x[axis] - origin[axis];
-      }
-    }
-    Vector columns[3];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const Polynomial place = polynomialOf(skeleton, corners[axis]);
-      for (std::size_t along = 0; along < 3; ++along)
-      {
-        columns[along][axis] = place[along + 1];
-      }
-    }
-    if (invert(columns, rows))
-    {
-      this->setLimits(cell, origin, rows);
-    }
-    else
-    {
-      rows[0] = { 1, 0, 0 };
-      rows[1] = { 0, 1, 0 };
-      rows[2] = { 0, 0, 1 };
-    }
-  }
-  if (!this->Other)
-  {
-    this->Other = std::make_unique<MeshCell>(-1);
-  }
-  this->Other->set(cell.block->data(), cell.id);
-  this->OtherValues = cell.block->values();
-  this->Tolerance = infinity; // MeshCell has its own tolerance
-  NormalCell other{};
-  other.shape = CellShape::Other;
-  this->scan(other, origin, rows);
-}
-
-/// Bounds the normal coordinates by all points of a cell.
-void Brick::setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3])
-{
-  std::fill_n(this->Low, 3, std::numeric_limits<double>::infinity());
-  std::fill_n(this->High, 3, -std::numeric_limits<double>::infinity());
-  cell.block->forPoints(cell.id,
-    [&](vtkIdType point)
-    {
-      Vector x;
-      cell.block->coordinates(point, x.data());
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        x[axis] -= origin[axis];
-      }
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double at = dot(rows[axis], x);
-        this->Low[axis] = std::min(this->Low[axis], at);
-        this->High[axis] = std::max(this->High[axis], at);
-      }
-    });
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double more = bulge * (this->High[axis] - this->Low[axis]);
-    this->Low[axis] -= more;
-    this->High[axis] += more;
-  }
-}
-
-void Brick::locateInOther()
-{
-  const auto row = static_cast<std::size_t>(this->Lattice.points[0]);
-  const std::size_t layer = row * static_cast<std::size_t>(this->Lattice.points[1]);
-  for (int i = 0; i < this->Count; ++i)
-  {
-    const std::size_t point = this->Places[i];
-    const std::size_t index[3] = { point % row, point % layer / row, point / layer };
-    double x[3], coordinates[3], miss;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      x[axis] =
-        this->Lattice.first[axis] + static_cast<double>(index[axis]) * this->Lattice.spacing[axis];
-    }
-    const bool isFound = this->Other->find(x, coordinates, miss);
-    this->Points.miss[i] = isFound ? miss : std::numeric_limits<double>::infinity();
-    this->Points.value[i] = isFound ? this->Other->valueAt(x, coordinates, this->OtherValues) : 0;
-  }
-}
-
-std::size_t Brick::countFound() const
+std::size_t LatticeInCells::countFound() const
 {
   return static_cast<std::size_t>(std::count_if(this->Misses.begin(), this->Misses.end(),
     [](float miss) { return miss < std::numeric_limits<float>::infinity(); }));
 }
 
-void Brick::finish(unsigned char* found, CellsOfLattice* cells) const
+void LatticeInCells::finish(unsigned char* found, CellsOfLattice* cells) const
 {
   std::transform(this->Misses.begin(), this->Misses.end(), found,
     [](float miss) -> unsigned char
@@ -731,8 +478,6 @@ void Brick::finish(unsigned char* found, CellsOfLattice* cells) const
   cells->cells.shrink_to_fit();
 }
 
-} // namespace
-
 CellSampler::CellSampler(const CellTree& tree)
   : Tree(tree)
 {
@@ -741,24 +486,24 @@ CellSampler::CellSampler(const CellTree& tree)
 void CellSampler::sample(const schlieren::Lattice& lattice, double* values, unsigned char* found,
   CellsOfLattice* cells) const
 {
-  Brick brick(this->Tree, lattice, values);
-  this->Tree.walk([&](const CellTree::Steps& box) { return brick.enter(box); },
-    [&](std::size_t place) { brick.add(place); });
-  brick.finish(found, cells);
+  LatticeInCells points(this->Tree, lattice, values);
+  this->Tree.walk([&](const CellTree::Steps& box) { return points.enter(box); },
+    [&](std::size_t place) { points.add(place); });
+  points.finish(found, cells);
 }
 
 bool CellSampler::sample(
   const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const
 {
-  Brick brick(this->Tree, lattice, values);
+  LatticeInCells points(this->Tree, lattice, values);
   for (std::size_t i = 0; i < cells.cells.size(); ++i)
   {
     this->Tree.fetchAhead(
       i, cells.cells.size(), [&](std::size_t n) { return std::size_t{ cells.cells[n] }; });
-    brick.add(cells.cells[i], cells.points.data() + cells.starts[i],
+    points.add(cells.cells[i], cells.points.data() + cells.starts[i],
       cells.points.data() + cells.starts[i + 1]);
   }
-  return brick.countFound() == cells.points.size();
+  return points.countFound() == cells.points.size();
 }
 
 } // namespace filters

@@ -13,10 +13,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
+#include <type_traits>
 
 namespace filters
 {
+
+// Tolerances of parametric coordinates. Cells with plane faces meet without gaps; others get the
+// tolerance of VTK's hexahedra.
+constexpr double toleranceOfPlaneFaces = 1e-6;
+constexpr double toleranceOfCurvedFaces = 1e-3;
 
 /// Maximum distance of curved cells beyond the box of their points, relative to its lengths.
 constexpr double bulge = 0.05;
@@ -99,56 +104,7 @@ constexpr int cornersOf(CellShape shape)
   }
 }
 
-/// Returns the edges between a cell's corners; none if their order is unknown.
-inline const std::vector<std::array<int, 2>>& edgesOf(CellShape shape)
-{
-  using Edges = std::vector<std::array<int, 2>>;
-  static const Edges tetrahedron{ { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
-  static const Edges wedge{ { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 }, { 0, 3 },
-    { 1, 4 }, { 2, 5 } };
-  static const Edges pyramid{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 }, { 2, 4 },
-    { 3, 4 } };
-  static const Edges hexahedron{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 },
-    { 6, 7 }, { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } };
-  static const Edges voxel{ { 0, 1 }, { 2, 3 }, { 0, 2 }, { 1, 3 }, { 4, 5 }, { 6, 7 }, { 4, 6 },
-    { 5, 7 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } };
-  static const Edges none;
-  switch (shape)
-  {
-    case CellShape::Tetrahedron:
-      return tetrahedron;
-    case CellShape::Wedge:
-      return wedge;
-    case CellShape::Pyramid:
-      return pyramid;
-    case CellShape::Hexahedron:
-      return hexahedron;
-    case CellShape::Voxel:
-      return voxel;
-    default:
-      return none;
-  }
-}
-
-/// Returns the middle of the cell in parametric coordinates, the origin of u, v, w.
-inline const Vector& middleOf(CellShape shape)
-{
-  static constexpr Vector tetrahedron = { 0.25, 0.25, 0.25 }, wedge = { 1. / 3, 1. / 3, 0.5 },
-                          pyramid = { 0.5, 0.5, 0.25 }, box = { 0.5, 0.5, 0.5 };
-  switch (shape)
-  {
-    case CellShape::Tetrahedron:
-      return tetrahedron;
-    case CellShape::Wedge:
-      return wedge;
-    case CellShape::Pyramid:
-      return pyramid;
-    default:
-      return box;
-  }
-}
-
-/// Coefficients of 1, u, v, w, uv, vw, uw and uvw.
+/// Coefficients of 1, u, v, w, uv, vw, uw and uvw: coordinates from the middle of the cell.
 using Polynomial = std::array<double, 8>;
 
 /// Returns the polynomial with these values at a cell's corners, in VTK's order.
@@ -191,21 +147,29 @@ Polynomial polynomialOf(const double* c)
   }
 }
 
-inline Polynomial polynomialOf(CellShape shape, const double* corners)
+/// Returns act(constant) for a shape other than Other.
+template <class Act>
+auto withShape(CellShape shape, const Act& act)
 {
   switch (shape)
   {
     case CellShape::Tetrahedron:
-      return polynomialOf<CellShape::Tetrahedron>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Tetrahedron>());
     case CellShape::Wedge:
-      return polynomialOf<CellShape::Wedge>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Wedge>());
     case CellShape::Pyramid:
-      return polynomialOf<CellShape::Pyramid>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Pyramid>());
     case CellShape::Voxel:
-      return polynomialOf<CellShape::Voxel>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Voxel>());
     default:
-      return polynomialOf<CellShape::Hexahedron>(corners);
+      return act(std::integral_constant<CellShape, CellShape::Hexahedron>());
   }
+}
+
+inline Polynomial polynomialOf(CellShape shape, const double* corners)
+{
+  return withShape(
+    shape, [&](const auto of) { return polynomialOf<decltype(of)::value>(corners); });
 }
 
 /// Computes the rows of the inverse of a matrix of three columns. Returns whether it is regular.

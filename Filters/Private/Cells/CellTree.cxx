@@ -256,17 +256,8 @@ std::array<double, 2> CellTree::rangeOf(const Cell& one) const
       });
     return { low, high };
   }
-  switch (cornersOf(shape))
-  {
-    case 4:
-      return rangeOfCorners<4>(one);
-    case 5:
-      return rangeOfCorners<5>(one);
-    case 6:
-      return rangeOfCorners<6>(one);
-    default:
-      return rangeOfCorners<8>(one);
-  }
+  return withShape(
+    shape, [&](const auto of) { return rangeOfCorners<cornersOf(decltype(of)::value)>(one); });
 }
 
 Vector CellTree::sizeOf(const Cell& one) const

@@ -28,7 +28,8 @@ namespace filters
  *
  * Cells are in the order of a Hilbert curve. Eight cells in a row form a group, eight groups a
  * larger one, and so on: without pointers, about 40 bytes for each cell. VTK's locators do not know
- * values.
+ * values, and find the cell of one point at a time: for 1.9 million points of a far field of 1.2 million
+ * cells, as many as its first image has voxels, vtkStaticCellLocator takes as long as all of that image.
  *
  * Hidden cells, and cells with points or values that are not finite, are omitted. Results depend on
  * the datasets alone, not on the number of threads. All functions but the constructor, which works

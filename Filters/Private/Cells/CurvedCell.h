@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Cells/CellTree.h"
-#include "Cells/PlacesInPart.h"
+#include "Cells/CurvedKind.h"
 #include "Common/Vectors.h"
 
 #include "vtkGenericCell.h"
@@ -45,27 +45,6 @@ private:
   // Of regular parts that are visited first, and of all.
   static constexpr int maxSplitsOfRegular = 9, maxSplits = 12, maxSplitsAlongAxis = 6;
 
-  /// All cells of one type with the same parametric coordinates.
-  struct Kind
-  {
-    int type = 0;
-    bool isUsable = false;
-    Reference reference = Reference::Box;
-    std::array<int, 3> orders{};
-    std::vector<double> places;  // parametric coordinates of the cell's points
-    std::vector<double> factors; // of each point, to the coefficients
-    std::array<std::array<std::vector<double>, 2>, 3> halves; // matrices, by axis
-
-    std::size_t size() const // of a polynomial
-    {
-      std::size_t product = 1;
-      for (const int order : this->orders)
-      {
-        product *= static_cast<std::size_t>(order) + 1;
-      }
-      return product;
-    }
-  };
   struct Part
   {
     std::array<double, 3> middle, half;
@@ -78,17 +57,25 @@ private:
     Others
   };
 
-  /// Returns the kind of a cell, which is made once for all.
-  static std::shared_ptr<const Kind> kindOf(vtkGenericCell* cell, int type);
-  static bool isLike(const Kind& kind, vtkGenericCell* cell, int type);
-  static bool make(Kind& kind, vtkGenericCell* cell);
-  template <class Act>
-  static void forTerms(const Kind& kind, const Act& act);
+  struct Powers
+  {
+    double along[3][CurvedKind::maxOrder + 1];
+
+    double operator()(const std::array<int, 3>& of) const // of a term
+    {
+      return this->along[0][of[0]] * this->along[1][of[1]] * this->along[2][of[2]];
+    }
+  };
+
+  Powers powersIn(const Part& part) const;
+  bool isBeyondSlant(const Part& part) const;
+  void show(const std::vector<double>& coefficients, const Part& part, bool isRegular,
+    const Vector rows[3], const Vector& extent) const;
   void split(int from, std::size_t axis, bool isUpper);
   void divide(int depth, const Part& part, Visited visited);
   std::size_t axisToSplit(const Part& part) const;
 
-  std::shared_ptr<const Kind> Of;
+  std::shared_ptr<const CurvedKind> Of;
   Vector Origin{};
   vtkNew<vtkGenericCell> Cell;
   std::vector<double> Coefficients[maxSplits + 1]; // of x, y, z and the value, by depth

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <vector>
 
@@ -38,26 +39,17 @@ using Edges = std::array<int, 3>;
 
 const std::vector<Edges>& edgesFrom(CellShape shape)
 {
-  static const std::vector<Edges> tetrahedron{ { 1, 2, 3 } }; // each corner has the same volume
-  static const std::vector<Edges> wedge{ { 1, 2, 3 }, { 2, 0, 4 }, { 0, 1, 5 }, { 5, 4, 0 },
-    { 3, 5, 1 }, { 4, 3, 2 } };
-  static const std::vector<Edges> pyramid{ { 1, 3, 4 }, { 2, 0, 4 }, { 3, 1, 4 }, { 0, 2, 4 } };
-  static const std::vector<Edges> hexahedron{ { 1, 3, 4 }, { 2, 0, 5 }, { 3, 1, 6 }, { 0, 2, 7 },
-    { 7, 5, 0 }, { 4, 6, 1 }, { 5, 7, 2 }, { 6, 4, 3 } };
-  static const std::vector<Edges> none; // voxels are boxes
-  switch (shape)
-  {
-    case CellShape::Tetrahedron:
-      return tetrahedron;
-    case CellShape::Wedge:
-      return wedge;
-    case CellShape::Pyramid:
-      return pyramid;
-    case CellShape::Hexahedron:
-      return hexahedron;
-    default:
-      return none;
-  }
+  static const std::map<CellShape, std::vector<Edges>> all{
+    { CellShape::Tetrahedron, { { 1, 2, 3 } } }, // each corner has the same volume
+    { CellShape::Wedge,
+      { { 1, 2, 3 }, { 2, 0, 4 }, { 0, 1, 5 }, { 5, 4, 0 }, { 3, 5, 1 }, { 4, 3, 2 } } },
+    { CellShape::Pyramid, { { 1, 3, 4 }, { 2, 0, 4 }, { 3, 1, 4 }, { 0, 2, 4 } } },
+    { CellShape::Hexahedron,
+      { { 1, 3, 4 }, { 2, 0, 5 }, { 3, 1, 6 }, { 0, 2, 7 }, { 7, 5, 0 }, { 4, 6, 1 }, { 5, 7, 2 },
+        { 6, 4, 3 } } },
+    { CellShape::Voxel, {} } // boxes
+  };
+  return all.at(shape);
 }
 
 Orientation orientationOf(const CellTree::Cell& cell, CellShape shape)
@@ -161,7 +153,7 @@ FoldedCells foldedIn(const CellTree& tree)
     [&](vtkIdType begin, vtkIdType end)
     {
       Found found{ std::vector<Signs>(tree.blocks()), 0 };
-      MeshCell curved(-1);
+      MeshCell curved;
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
       {
         tree.fetchAhead(i, count, [](std::size_t place) { return place; });
@@ -200,7 +192,7 @@ FoldedCells foldedIn(const CellTree& tree)
   const bool haveBoth = std::any_of(all.signs.begin(), all.signs.end(),
     [](const Signs& signs) { return signs.positive > 0 && signs.negative > 0; });
   std::size_t tested = 0;
-  MeshCell other(-1);
+  MeshCell other;
   for (std::size_t i = 0; haveBoth && i < count && tested < maxTested; ++i)
   {
     const CellTree::Cell cell = tree.cell(tree.number(i));

@@ -86,10 +86,24 @@ private:
   static double separationOf(
     const std::vector<const Near*>& walls, const Point& from, const Point& to);
   void separate(const Index& low);
+  void separate(const Index& low, const std::array<std::size_t, 8>& numbers,
+    const std::array<Point, 8>& places, std::size_t count);
   bool isThin(const Index& at) const;
 
   template <class Visit>
-  void forPoints(const Visit& visit) const;
+  void forPoints(const Visit& visit) const
+  {
+    for (int k = 0; k < this->Lattice.points[2]; ++k)
+    {
+      for (int j = 0; j < this->Lattice.points[1]; ++j)
+      {
+        for (int i = 0; i < this->Lattice.points[0]; ++i)
+        {
+          visit(Index{ i, j, k });
+        }
+      }
+    }
+  }
   template <class Visit>
   void forNeighbours(const Index& at, const Visit& visit) const;
   static Point placeOf(const Index& at)

@@ -4,24 +4,23 @@
 
 #include "Cells/CellMeans.h"
 #include "Common/CellTypes.h"
-#include "Input/RefractivityValues.h"
+#include "Common/Leaf.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
-#include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkSMPTools.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <array>
 
 namespace filters
@@ -121,51 +120,19 @@ void MeshArrays::setPoints()
   }
 }
 
-bool MeshArrays::setStructure(const int dimensions[3])
-{
-  if (dimensions[0] < 2 || dimensions[1] < 2 || dimensions[2] < 2)
-  {
-    return false;
-  }
-  this->CellsAlong = dimensions[0] - 1;
-  this->CellsAcross = dimensions[1] - 1;
-  this->Row = dimensions[0];
-  this->Layer = this->Row * dimensions[1];
-  return true;
-}
-
 void MeshArrays::setCells()
 {
   // Reads hidden cells from the ghost array instead of from their types, which would be empty.
-  if (auto* grid = vtkStructuredGrid::SafeDownCast(this->Data))
+  const std::array<int, 3> dimensions = structureOf(this->Data);
+  if (*std::min_element(dimensions.begin(), dimensions.end()) > 1)
   {
-    this->Type = VTK_HEXAHEDRON;
-    int dimensions[3];
-    grid->GetDimensions(dimensions);
-    if (this->setStructure(dimensions))
-    {
-      return;
-    }
-  }
-  this->IsVoxel = true;
-  this->Type = VTK_VOXEL;
-  if (auto* image = vtkImageData::SafeDownCast(this->Data))
-  {
-    int dimensions[3];
-    image->GetDimensions(dimensions);
-    if (this->setStructure(dimensions))
-    {
-      return;
-    }
-  }
-  if (auto* grid = vtkRectilinearGrid::SafeDownCast(this->Data))
-  {
-    int dimensions[3];
-    grid->GetDimensions(dimensions);
-    if (this->setStructure(dimensions))
-    {
-      return;
-    }
+    this->IsVoxel = vtkStructuredGrid::SafeDownCast(this->Data) == nullptr;
+    this->Type = this->IsVoxel ? VTK_VOXEL : VTK_HEXAHEDRON;
+    this->CellsAlong = dimensions[0] - 1;
+    this->CellsAcross = dimensions[1] - 1;
+    this->Row = dimensions[0];
+    this->Layer = this->Row * dimensions[1];
+    return;
   }
   if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(this->Data))
   {

@@ -209,7 +209,6 @@ private:
 
   void setPoints();
   void setCells();
-  bool setStructure(const int dimensions[3]);
   void copyCells();
 
   /// Finds the points of a structured cell. The order of voxels differs from that of hexahedra.

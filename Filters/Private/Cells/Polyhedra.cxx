@@ -3,7 +3,6 @@
 #include "Cells/Polyhedra.h"
 
 #include "Cells/CellMeans.h"
-#include "Common/CellTypes.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -19,6 +18,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 
 namespace filters
 {
@@ -73,27 +73,55 @@ int cornersOfPrism(int type)
 
 bool isCut(int type) { return type == VTK_POLYHEDRON || cornersOfPrism(type) > 0; }
 
+/// Returns whether there is a cell to cut. VTK would compute a list of distinct types for each dataset.
+bool hasAnyToCut(vtkUnstructuredGrid* mesh)
+{
+  vtkIdType cell = 0;
+  while (cell < mesh->GetNumberOfCells() && !isCut(mesh->GetCellType(cell)))
+  {
+    ++cell;
+  }
+  return cell < mesh->GetNumberOfCells();
+}
+
+/// Cuts a prism with so many corners at each end from its lowest one, by add(type, corners).
+template <class Add>
+void cutPrism(const vtkIdType* low, int count, const Add& add)
+{
+  const vtkIdType* high = low + count;
+  const auto first = static_cast<int>(std::min_element(low, high) - low);
+  for (int i = 1; i + 1 < count; ++i)
+  {
+    const int second = (first + i) % count, third = (first + i + 1) % count;
+    add(VTK_WEDGE, { low[first], low[second], low[third], high[first], high[second], high[third] });
+  }
+}
+
+/// Joins triangles of a polyhedron's faces with its middle. `faces`: for each face the number of points, and the points.
+template <class Add>
+void cutPolyhedron(vtkIdList* faces, vtkIdType middle, const Add& add)
+{
+  vtkIdType at = 1;
+  for (vtkIdType face = 0; face < faces->GetId(0); ++face)
+  {
+    const vtkIdType count = faces->GetId(at++);
+    const vtkIdType* corners = faces->GetPointer(at);
+    at += count;
+    const vtkIdType first = std::min_element(corners, corners + count) - corners;
+    for (vtkIdType i = 1; i + 1 < count; ++i)
+    {
+      add(VTK_TETRA,
+        { corners[first], corners[(first + i) % count], corners[(first + i + 1) % count], middle });
+    }
+  }
+}
+
 } // namespace
 
 vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
 {
-  // Avoids the list of distinct types, which VTK computes for each dataset.
   auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
-  bool hasAny = false;
-  if (auto* types = vtkUnsignedCharArray::SafeDownCast(mesh ? cellTypesOf(mesh) : nullptr))
-  {
-    const unsigned char* first = types->GetPointer(0);
-    const unsigned char* end = first + types->GetNumberOfValues();
-    hasAny = std::any_of(first, end, isCut);
-  }
-  else
-  {
-    for (vtkIdType cell = 0; mesh && !hasAny && cell < mesh->GetNumberOfCells(); ++cell)
-    {
-      hasAny = isCut(mesh->GetCellType(cell));
-    }
-  }
-  if (!hasAny)
+  if (!mesh || !hasAnyToCut(mesh))
   {
     return data;
   }
@@ -121,46 +149,26 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
   {
     const unsigned char ghost = ghosts ? ghosts->GetValue(cell) : 0;
     const int type = mesh->GetCellType(cell);
+    const auto add = [&](int ofPart, std::initializer_list<vtkIdType> corners)
+    {
+      cut->InsertNextCell(ofPart, static_cast<vtkIdType>(corners.size()), corners.begin());
+      kept->InsertNextValue(ghost);
+    };
+    if (type == VTK_POLYHEDRON)
+    {
+      const vtkIdType middle = addMiddle(mesh, cell, points, values, around);
+      mesh->GetFaceStream(cell, ids);
+      cutPolyhedron(ids, middle, add);
+      continue;
+    }
+    mesh->GetCellPoints(cell, ids);
     if (const int count = cornersOfPrism(type))
     {
-      mesh->GetCellPoints(cell, ids);
-      const vtkIdType* low = ids->GetPointer(0);
-      const vtkIdType* high = low + count;
-      const auto first = static_cast<int>(std::min_element(low, high) - low);
-      for (int i = 1; i + 1 < count; ++i)
-      {
-        const int second = (first + i) % count, third = (first + i + 1) % count;
-        const vtkIdType wedge[6] = { low[first], low[second], low[third], high[first], high[second],
-          high[third] };
-        cut->InsertNextCell(VTK_WEDGE, 6, wedge);
-        kept->InsertNextValue(ghost);
-      }
+      cutPrism(ids->GetPointer(0), count, add);
       continue;
     }
-    if (type != VTK_POLYHEDRON)
-    {
-      mesh->GetCellPoints(cell, ids);
-      cut->InsertNextCell(type, ids);
-      kept->InsertNextValue(ghost);
-      continue;
-    }
-    const vtkIdType middle = addMiddle(mesh, cell, points, values, around);
-    mesh->GetFaceStream(cell, ids); // for each face the number of points, and the points
-    vtkIdType at = 1;
-    for (vtkIdType face = 0; face < ids->GetId(0); ++face)
-    {
-      const vtkIdType count = ids->GetId(at++);
-      const vtkIdType* corners = ids->GetPointer(at);
-      at += count;
-      const vtkIdType first = std::min_element(corners, corners + count) - corners;
-      for (vtkIdType i = 1; i + 1 < count; ++i)
-      {
-        const vtkIdType tetrahedron[4] = { corners[first], corners[(first + i) % count],
-          corners[(first + i + 1) % count], middle };
-        cut->InsertNextCell(VTK_TETRA, 4, tetrahedron);
-        kept->InsertNextValue(ghost);
-      }
-    }
+    cut->InsertNextCell(type, ids);
+    kept->InsertNextValue(ghost);
   }
   cut->SetPoints(points);
   cut->GetPointData()->SetScalars(values);

@@ -17,7 +17,8 @@ namespace filters
 /// number, so both of its cells cut it alike. VTK decides by random numbers, common to all threads,
 /// whether a point is inside a polyhedron, which crashes with several threads; and it locates
 /// points beside those prisms inside them, up to a third of their volume, with values that are not
-/// linear for linear data.
+/// linear for linear data. vtkDataSetTriangleFilter takes three times as long as the whole first image of
+/// 27 000 polyhedra.
 vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* mesh);
 
 } // namespace filters

@@ -177,16 +177,9 @@ int TriangleTree::nearest(const Point& place) const
 
 bool TriangleTree::hasBeyond(const Point& normal, double offset) const
 {
-  std::int32_t stack[64];
-  int waiting = 0;
-  if (!this->Nodes.empty())
+  bool isBeyond = false; // all of a node
+  const auto mayBeBeyond = [&](const Node& node, std::size_t)
   {
-    stack[waiting++] = 0;
-  }
-  while (waiting > 0)
-  {
-    const std::int32_t number = stack[--waiting];
-    const Node& node = this->Nodes[static_cast<std::size_t>(number)];
     double most = 0, least = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -194,33 +187,17 @@ bool TriangleTree::hasBeyond(const Point& normal, double offset) const
       most += std::max(low, high);
       least += std::min(low, high);
     }
-    if (!(most > offset))
-    {
-      continue;
-    }
-    if (least > offset)
-    {
-      return true;
-    }
-    if (node.count == 0)
-    {
-      stack[waiting++] = node.first;
-      stack[waiting++] = number + 1;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-    {
-      const auto triangle = static_cast<std::size_t>(this->Order[static_cast<std::size_t>(i)]);
-      for (std::size_t corner = 0; corner < 3; ++corner)
-      {
-        if (dot(normal, this->Surface.corner(triangle, corner)) > offset)
-        {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
+    isBeyond = isBeyond || least > offset;
+    return most > offset && !isBeyond;
+  };
+  const auto hasCornerBeyond = [&](std::int32_t triangle)
+  {
+    const Triangles::Corners& corners = this->Surface.corners[static_cast<std::size_t>(triangle)];
+    return std::any_of(corners.begin(), corners.end(),
+      [&](std::int32_t corner)
+      { return dot(normal, this->Surface.points[static_cast<std::size_t>(corner)]) > offset; });
+  };
+  return this->walk(mayBeBeyond, hasCornerBeyond) || isBeyond;
 }
 
 void TriangleTree::findPlanes()
@@ -264,44 +241,24 @@ void TriangleTree::findPlanes()
 bool TriangleTree::isBehindAny(const Point& place) const
 {
   constexpr double rounding = 1e-9;
-  std::int32_t stack[64];
-  int waiting = 0;
-  if (!this->Nodes.empty())
-  {
-    stack[waiting++] = 0;
-  }
   const Point from = place - this->Centre;
   const double slack = rounding * norm(from);
-  while (waiting > 0)
+  const auto mayHave = [&](const Node&, std::size_t number)
   {
-    const std::int32_t number = stack[--waiting];
-    const Planes& planes = this->PlanesOfNodes[static_cast<std::size_t>(number)];
+    const Planes& planes = this->PlanesOfNodes[number];
     double least = -planes.offset;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       least += std::min(planes.low[axis] * from[axis], planes.high[axis] * from[axis]);
     }
-    if (least > slack + rounding * std::abs(planes.offset))
+    return !(least > slack + rounding * std::abs(planes.offset));
+  };
+  return this->walk(mayHave,
+    [&](std::int32_t triangle)
     {
-      continue;
-    }
-    const Node& node = this->Nodes[static_cast<std::size_t>(number)];
-    if (node.count == 0)
-    {
-      stack[waiting++] = node.first;
-      stack[waiting++] = number + 1;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-    {
-      const auto t = static_cast<std::size_t>(this->Order[static_cast<std::size_t>(i)]);
-      if (dot(this->Surface.normal(t), place - this->Surface.corner(t, 0)) < 0)
-      {
-        return true;
-      }
-    }
-  }
-  return false;
+      const auto t = static_cast<std::size_t>(triangle);
+      return dot(this->Surface.normal(t), place - this->Surface.corner(t, 0)) < 0;
+    });
 }
 
 double squaredDistance(const Triangles& surface, std::size_t triangle, const Point& place)

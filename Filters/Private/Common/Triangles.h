@@ -88,6 +88,37 @@ private:
   };
   static constexpr std::int32_t maxInLeaf = 4;
 
+  /// Calls enter(node, its number), which returns whether to continue below it, and visit(triangle) for
+  /// those of leaves until it returns true. Returns whether it has.
+  template <class Enter, class Visit>
+  bool walk(const Enter& enter, const Visit& visit) const
+  {
+    std::int32_t stack[64];
+    int waiting = 0;
+    stack[waiting++] = 0;
+    while (waiting > 0 && !this->Nodes.empty())
+    {
+      const std::int32_t number = stack[--waiting];
+      const Node& node = this->Nodes[static_cast<std::size_t>(number)];
+      if (!enter(node, static_cast<std::size_t>(number)))
+      {
+        continue;
+      }
+      if (node.count == 0)
+      {
+        stack[waiting++] = node.first;
+        stack[waiting++] = number + 1;
+      }
+      for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+      {
+        if (visit(this->Order[static_cast<std::size_t>(i)]))
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
   void build(std::int32_t begin, std::int32_t end, const std::vector<Point>& centres);
   void around(std::int32_t triangle, Node& node) const;
   static bool meets(const Point& low, const Point& high, const schlieren::Box& box)
@@ -112,38 +143,17 @@ bool meets(const Triangles& surface, std::size_t triangle, const schlieren::Box&
 template <class Visit>
 void TriangleTree::forTrianglesAt(const schlieren::Box& box, const Visit& visit) const
 {
-  if (this->Nodes.empty())
-  {
-    return;
-  }
-  std::int32_t stack[64];
-  int waiting = 0;
-  stack[waiting++] = 0;
-  while (waiting > 0)
-  {
-    const std::int32_t number = stack[--waiting];
-    const Node& node = this->Nodes[static_cast<std::size_t>(number)];
-    if (!meets(node.low, node.high, box))
+  this->walk([&](const Node& node, std::size_t) { return meets(node.low, node.high, box); },
+    [&](std::int32_t triangle)
     {
-      continue;
-    }
-    if (node.count == 0)
-    {
-      stack[waiting++] = node.first;
-      stack[waiting++] = number + 1;
-      continue;
-    }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-    {
-      const std::int32_t triangle = this->Order[static_cast<std::size_t>(i)];
       Node own;
       this->around(triangle, own);
       if (meets(own.low, own.high, box))
       {
         visit(triangle);
       }
-    }
-  }
+      return false;
+    });
 }
 
 } // namespace filters

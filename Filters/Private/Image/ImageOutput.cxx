@@ -188,20 +188,23 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
 }
 
 //------------------------------------------------------------------------------
+unsigned char byteOf(float light, ColorScale scale)
+{
+  const float white = scale == ColorScale::LinearToTwice ? 2 : 1;
+  const float fraction = std::clamp(light / white, 0.f, 1.f);
+  return static_cast<unsigned char>(
+    (scale == ColorScale::Srgb ? srgbFromLinear(fraction) : fraction) * 255.f + 0.5f);
+}
+
+//------------------------------------------------------------------------------
 void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale)
 {
   vtkNew<vtkUnsignedCharArray> array;
   array->SetName("Color");
   array->SetNumberOfComponents(3);
   setTuples(array, static_cast<vtkIdType>(image.color.size()) / 3);
-  const float white = scale == ColorScale::LinearToTwice ? 2 : 1;
   std::transform(image.color.begin(), image.color.end(), array->GetPointer(0),
-    [white, scale](float light)
-    {
-      const float fraction = std::clamp(light / white, 0.f, 1.f);
-      return static_cast<unsigned char>(
-        (scale == ColorScale::Srgb ? srgbFromLinear(fraction) : fraction) * 255.f + 0.5f);
-    });
+    [scale](float light) { return byteOf(light, scale); });
   output->GetPointData()->AddArray(array); // SetScalars would remove the intensity
   output->GetPointData()->SetActiveScalars("Color");
 }

@@ -33,6 +33,9 @@ enum class ColorScale
   Srgb           ///< true colours (IEC 61966-2-1): 1 is 255
 };
 
+/// Returns the byte of linear light.
+unsigned char byteOf(float light, ColorScale scale);
+
 /// Adds the colours of an image and makes them the scalars.
 void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale);
 

@@ -70,22 +70,6 @@ std::string accuracyInWords(const schlieren::Image& image, const schlieren::Scen
                         : "straight rays, displaced by up to " + textOf(pixels) + " pixels";
 }
 
-/// Returns a text such as ", error 0.0031 of full scale (target 0.0039), limited by rays per pixel".
-std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::Scene& scene)
-{
-  if (!(accuracy.target > 0))
-  {
-    return "";
-  }
-  const schlieren::Technique& technique = schlieren::techniqueOf(scene.cutoff);
-  const char* unit = technique.hasFringes                     ? " fringes"
-    : technique.plane == schlieren::RecordedPlane::Background ? " pixels of displacement"
-    : technique.plane == schlieren::RecordedPlane::Screen     ? " of the undisturbed light"
-                                                              : " of full scale";
-  return (accuracy.isKept() ? ", error " : ", target error not kept: ") + textOf(accuracy.reached) +
-    unit + " (target " + textOf(accuracy.target) + "), limited by " + limitInWords(accuracy);
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -108,6 +92,18 @@ std::string limitInWords(const schlieren::Accuracy& accuracy)
 }
 
 //------------------------------------------------------------------------------
+std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::Scene& scene)
+{
+  const schlieren::Technique& technique = schlieren::techniqueOf(scene.cutoff);
+  const char* unit = technique.hasFringes                     ? " fringes"
+    : technique.plane == schlieren::RecordedPlane::Background ? " pixels of displacement"
+    : technique.plane == schlieren::RecordedPlane::Screen     ? " of the undisturbed light"
+                                                              : " of full scale";
+  return (accuracy.isKept() ? "error " : "target error not kept: ") + textOf(accuracy.reached) +
+    unit + " (target " + textOf(accuracy.target) + ")";
+}
+
+//------------------------------------------------------------------------------
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond)
 {
@@ -117,7 +113,9 @@ std::string statusInWords(
     words += speedInWords(raysPerSecond) + " on ";
   }
   return words + deviceInWords(image) + ", " + accuracyInWords(image, scene) +
-    errorInWords(image.accuracy, scene);
+    (image.accuracy.target > 0 ? ", " + errorInWords(image.accuracy, scene) + ", limited by " +
+          limitInWords(image.accuracy)
+                               : "");
 }
 
 } // namespace filters

@@ -19,7 +19,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
@@ -31,6 +30,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -109,10 +109,8 @@ void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, const Plane&
   auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
   grid->SetDimensions(points.data());
   grid->SetPoints(places);
-  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
-  {
-    to.cells->InsertNextId(cell);
-  }
+  to.cells->SetNumberOfIds(data->GetNumberOfCells());
+  std::iota(to.cells->begin(), to.cells->end(), vtkIdType{ 0 });
   to.data = grid;
 }
 
@@ -315,32 +313,6 @@ vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat, dou
     ? changedBodies(
         bodies, [flat, depth](vtkPolyData* surface) { return turnedSurface(surface, flat, depth); })
     : vtkSmartPointer<vtkDataObject>(bodies);
-}
-
-std::array<int, 3> structureOf(vtkDataSet* data)
-{
-  std::array<int, 3> points{};
-  if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    image->GetDimensions(points.data());
-  }
-  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data))
-  {
-    const int* extent = rectilinear->GetExtent();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      points[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
-    }
-  }
-  else if (auto* grid = vtkStructuredGrid::SafeDownCast(data))
-  {
-    const int* extent = grid->GetExtent();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      points[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
-    }
-  }
-  return points;
 }
 
 int dimensionOfCell(vtkDataSet* data, vtkIdType cell)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Common/CellTypes.h"
 #include "Input/RefractivitySource.h"
 
 #include "vtkIdList.h"
@@ -36,9 +37,6 @@ double depthOfImage(vtkImageData* image, int flat, double given);
 
 /// Returns a warning about an extrusion of unknown depth; empty if the user gave the depth.
 std::string warningOfExtrusion(const Source& source, int flat);
-
-/// Returns the number of points along each axis of structured data; 0 for others.
-std::array<int, 3> structureOf(vtkDataSet* data);
 
 /// Returns, by rows, the rotation that maps z to the axis across the plane and keeps the order of
 /// the other axes; -1: the identity.

@@ -5,8 +5,8 @@
 #include "Input/FlatData.h"
 
 #include "vtkBoundingBox.h"
-#include "vtkCell.h"
 #include "vtkDataArray.h"
+#include "vtkGenericCell.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkMatrix3x3.h"
@@ -19,6 +19,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -168,10 +169,8 @@ void flattenStructured(const Leaf& leaf, std::array<int, 3> points, int across,
       }
     }
   }
-  for (vtkIdType cell = 0; cell < leaf.data->GetNumberOfCells(); ++cell)
-  {
-    made.cells->InsertNextId(cell);
-  }
+  made.cells->SetNumberOfIds(leaf.data->GetNumberOfCells());
+  std::iota(made.cells->begin(), made.cells->end(), vtkIdType{ 0 });
   if (auto* image = vtkImageData::SafeDownCast(leaf.data))
   {
     made.data = planeOfImage(image, across);
@@ -182,18 +181,6 @@ void flattenStructured(const Leaf& leaf, std::array<int, 3> points, int across,
   grid->SetPoints(places);
   made.data = grid;
 }
-
-/// A face by its corners; -1: fewer corners.
-struct Face
-{
-  int corners[4];
-};
-constexpr Face facesOfHexahedron[] = { { { 0, 4, 7, 3 } }, { { 1, 2, 6, 5 } }, { { 0, 1, 5, 4 } },
-  { { 3, 7, 6, 2 } }, { { 0, 3, 2, 1 } }, { { 4, 5, 6, 7 } } };
-constexpr Face facesOfVoxel[] = { { { 0, 4, 6, 2 } }, { { 1, 3, 7, 5 } }, { { 0, 1, 5, 4 } },
-  { { 2, 6, 7, 3 } }, { { 0, 2, 3, 1 } }, { { 4, 5, 7, 6 } } };
-constexpr Face facesOfWedge[] = { { { 0, 1, 2, -1 } }, { { 3, 5, 4, -1 } }, { { 0, 3, 4, 1 } },
-  { { 1, 4, 5, 2 } }, { { 2, 5, 3, 0 } } };
 
 /// Finds the front faces of cells in a mesh of one layer.
 class Layer
@@ -219,21 +206,23 @@ public:
   /// Returns the ordered corners of a cell's front face, until the next call; empty: none.
   std::vector<vtkIdType>& front(vtkIdType cell)
   {
-    this->Data->GetCellPoints(cell, this->Ids);
-    switch (this->Data->GetCellType(cell))
+    this->Data->GetCell(cell, this->Cell);
+    for (int i = 0; i < this->Cell->GetNumberOfFaces(); ++i)
     {
-      case VTK_HEXAHEDRON:
-        this->findFront(facesOfHexahedron, 6);
-        break;
-      case VTK_VOXEL:
-        this->findFront(facesOfVoxel, 6);
-        break;
-      case VTK_WEDGE:
-        this->findFront(facesOfWedge, 5);
-        break;
-      default:
-        this->findFront(this->Data->GetCell(cell));
+      this->Corners.clear();
+      vtkCell* side = this->Cell->GetFace(i);
+      vtkIdList* ids = side->GetPointIds();
+      if (side->GetCellType() == VTK_PIXEL)
+      {
+        std::swap(*ids->GetPointer(2), *ids->GetPointer(3)); // makes it a quadrilateral
+      }
+      std::for_each(ids->begin(), ids->end(), [this](vtkIdType point) { this->add(point); });
+      if (this->areInFront())
+      {
+        return this->Corners;
+      }
     }
+    this->Corners.clear();
     return this->Corners;
   }
 
@@ -242,9 +231,9 @@ public:
   {
     vtkIdType found = -1;
     double least = this->Nearest * this->Nearest;
-    for (vtkIdType i = 0; i < this->Ids->GetNumberOfIds(); ++i)
+    for (int i = 0; i < this->Cell->GetNumberOfPoints(); ++i)
     {
-      const vtkIdType other = this->Ids->GetId(i);
+      const vtkIdType other = this->Cell->GetPointId(i);
       if (this->sideOf(other) == Back)
       {
         const double distance =
@@ -275,48 +264,12 @@ private:
       std::all_of(begin, end, [this](vtkIdType i) { return this->sideOf(i) <= Both; }) &&
       std::any_of(begin, end, [this](vtkIdType i) { return this->sideOf(i) == Front; });
   }
-  void findFront(const Face* faces, int count)
-  {
-    for (int i = 0; i < count; ++i)
-    {
-      this->Corners.clear();
-      for (const int corner : faces[i].corners)
-      {
-        if (corner >= 0)
-        {
-          this->add(this->Ids->GetId(corner));
-        }
-      }
-      if (this->areInFront())
-      {
-        return;
-      }
-    }
-    this->Corners.clear();
-  }
-  void findFront(vtkCell* cell)
-  {
-    for (int i = 0; i < cell->GetNumberOfFaces(); ++i)
-    {
-      this->Corners.clear();
-      vtkIdList* ids = cell->GetFace(i)->GetPointIds();
-      for (vtkIdType corner = 0; corner < ids->GetNumberOfIds(); ++corner)
-      {
-        this->add(ids->GetId(corner));
-      }
-      if (this->areInFront())
-      {
-        return;
-      }
-    }
-    this->Corners.clear();
-  }
 
   vtkDataSet* Data;
   const Sides& Of;
   double Nearest;            // tolerance of the distance of a pair in the plane
   std::vector<Place> Places; // projections to the plane
-  vtkNew<vtkIdList> Ids;
+  vtkNew<vtkGenericCell> Cell;
   std::vector<vtkIdType> Corners;
 };
 
@@ -495,9 +448,8 @@ LayerBounds layerBoundsOf(vtkDataSet* data)
   data->GetBounds(layer.bounds.data());
   const double tolerance = planeTolerance * vtkBoundingBox(layer.bounds.data()).GetMaxLength();
   layer.isAtBounds.fill(true);
-  const auto isAtAny = [&]
-  { return layer.isAtBounds[0] || layer.isAtBounds[1] || layer.isAtBounds[2]; };
-  for (vtkIdType point = 0; point < data->GetNumberOfPoints() && isAtAny(); ++point)
+  const std::array<bool, 3> none{};
+  for (vtkIdType point = 0; point < data->GetNumberOfPoints() && layer.isAtBounds != none; ++point)
   {
     const Place place = placeOf(data, point);
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -588,19 +540,14 @@ std::optional<std::array<double, 2>> anglesOf(
   return std::array<double, 2>{ angles[0], angles[1] };
 }
 
-double sizeOf(const Source& source) { return boundsOfLayers(source).GetMaxLength(); }
-
 } // namespace
 
 std::optional<Wedge> findWedge(const Source& source, const std::array<double, 3>& origin)
 {
-  if (!boundsOfLayers(source).IsValid())
-  {
-    return std::nullopt;
-  }
+  const double size = boundsOfLayers(source).GetMaxLength();
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (const auto angles = anglesOf(source, axis, origin, sizeOf(source)))
+    if (const auto angles = anglesOf(source, axis, origin, size))
     {
       const double middle = (*angles)[0] + 0.5 * turn((*angles)[0], (*angles)[1]);
       const bool isAlongNext = std::abs(std::cos(middle)) >= std::abs(std::sin(middle));
@@ -616,7 +563,7 @@ void flattenWedge(Source& source, const Wedge& wedge, const std::array<double, 3
   const auto axis = static_cast<std::size_t>(wedge.axis),
              across = static_cast<std::size_t>(wedge.across);
   const std::size_t away = 3 - axis - across;
-  const double size = sizeOf(source);
+  const double size = boundsOfLayers(source).GetMaxLength();
   const auto angles = anglesOf(source, axis, origin, size);
   Planes planes;
   planes.tolerance = planeTolerance * size;

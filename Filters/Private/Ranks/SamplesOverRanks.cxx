@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/SamplesOverRanks.h"
 
-#include "Common/ForEach.h"
-
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -16,6 +14,21 @@ namespace
 {
 
 constexpr schlieren::MediumSource::FieldRange nowhere{ 1, 0 };
+
+/// Calls work(i) for i < count in so many threads; 0: one per core. Several threads may call it at
+/// once, unlike vtkSMPTools, whose list of threads such calls corrupt.
+template <class Work>
+void forEach(std::size_t count, int threads, const Work& work)
+{
+  schlieren::parallelFor(static_cast<std::int64_t>(count), 1, threads,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        work(static_cast<std::size_t>(i));
+      }
+    });
+}
 
 /// Returns whether two boxes have a point in common.
 bool meet(const schlieren::Box& a, const schlieren::Box& b)

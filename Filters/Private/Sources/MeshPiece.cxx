@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace filters
@@ -65,8 +66,10 @@ MeshPiece::MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> me
   };
   for (std::size_t number = 0; number < leaves.fields.size(); ++number)
   {
-    this->Fields.add(leaves.fields[number], this->Cells.mesh(),
-      progress.part(begunAt(number), begunAt(number + 1)));
+    const MeshLeaves& field = leaves.fields[number];
+    this->Fields.push_back(std::unique_ptr<const Field>(new Field{ field,
+      CellTree(pointersTo(field), this->Cells.mesh(),
+        progress.part(begunAt(number), begunAt(number + 1))) }));
   }
 }
 
@@ -124,7 +127,7 @@ void MeshPiece::sample(const schlieren::Lattice& lattice, double* refractivity,
   this->Values.sample(lattice, refractivity, found, cells);
   if (fields)
   {
-    this->Fields.sample(lattice, cells, fields);
+    this->sampleFields(lattice, cells, fields);
   }
 }
 
@@ -134,9 +137,43 @@ bool MeshPiece::sampleIn(const CellsOfLattice& cells, const schlieren::Lattice& 
   const bool areSame = this->Values.sample(lattice, cells, refractivity);
   if (areSame && fields)
   {
-    this->Fields.sample(lattice, &cells, fields);
+    this->sampleFields(lattice, &cells, fields);
   }
   return areSame;
+}
+
+schlieren::MediumSource::FieldRange MeshPiece::rangeOfField(
+  int field, const schlieren::Box& box) const
+{
+  const CellTree& cells = this->Fields[static_cast<std::size_t>(field)]->cells;
+  const CellTree::Content content = cells.content({ box.low, box.high });
+  return { content.lowest, content.highest };
+}
+
+/// Interpolates in the lattice's cells, field after field; NaN where a field has no value. `cells`:
+/// null: to be searched.
+void MeshPiece::sampleFields(
+  const schlieren::Lattice& lattice, const CellsOfLattice* cells, double* values) const
+{
+  const auto size = static_cast<std::size_t>(lattice.size());
+  std::vector<unsigned char> isFound(size, 0);
+  for (const std::uint16_t point : cells ? cells->points : std::vector<std::uint16_t>())
+  {
+    isFound[point] = 1;
+  }
+  for (const auto& field : this->Fields)
+  {
+    const CellSampler sampler(field->cells);
+    if (!cells || !sampler.sample(lattice, *cells, values))
+    {
+      sampler.sample(lattice, values, isFound.data());
+    }
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      values[i] = isFound[i] ? values[i] : std::numeric_limits<double>::quiet_NaN();
+    }
+    values += size;
+  }
 }
 
 /// Finds the faces, and keeps their contributions.

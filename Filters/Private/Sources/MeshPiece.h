@@ -4,7 +4,6 @@
 
 #include "Cells/CellSampler.h"
 #include "Cells/CellTree.h"
-#include "Cells/FieldsOfMesh.h"
 #include "Common/WorkProgress.h"
 #include "Sources/DataPiece.h"
 #include "Sources/PreparedLeaves.h"
@@ -61,12 +60,9 @@ public:
   Facts facts() const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
-  int fields() const override { return this->Fields.count(); }
+  int fields() const override { return static_cast<int>(this->Fields.size()); }
   schlieren::MediumSource::FieldRange rangeOfField(
-    int field, const schlieren::Box& box) const override
-  {
-    return this->Fields.rangeOf(field, box);
-  }
+    int field, const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
     double* fields, CellsOfLattice* cells) const override;
   bool sampleIn(const CellsOfLattice& cells, const schlieren::Lattice& lattice,
@@ -82,13 +78,22 @@ public:
 private:
   schlieren::Box bounds() const;
   Faces findFaces() const;
+  void sampleFields(
+    const schlieren::Lattice& lattice, const CellsOfLattice* cells, double* values) const;
+
+  /// Another field at the points, for tints by its gradients.
+  struct Field
+  {
+    MeshLeaves leaves;
+    CellTree cells;
+  };
 
   MeshLeaves Leaves;
   std::vector<std::uint32_t> Datasets;
   std::shared_ptr<PieceMesh> Mesh;
   CellTree Cells;
   CellSampler Values;
-  FieldsOfMesh Fields;
+  std::vector<std::unique_ptr<const Field>> Fields;
   int FlatAxis;
 };
 

@@ -7,8 +7,9 @@
 
 #include "vtkBoundingBox.h"
 #include "vtkCell.h"
+#include "vtkCellData.h"
+#include "vtkCellDataToPointData.h"
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
@@ -142,32 +143,16 @@ Source withValuesAtPoints(const Source& source)
     {
       continue;
     }
-    const vtkIdType points = leaf.data->GetNumberOfPoints();
-    std::vector<double> sums(static_cast<std::size_t>(points), 0.);
-    std::vector<int> counts(static_cast<std::size_t>(points), 0);
-    vtkNew<vtkIdList> ids;
-    for (vtkIdType cell = 0; cell < leaf.data->GetNumberOfCells(); ++cell)
-    {
-      leaf.data->GetCellPoints(cell, ids);
-      for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
-      {
-        sums[static_cast<std::size_t>(ids->GetId(i))] += leaf.arrays[0]->GetComponent(cell, 0);
-        ++counts[static_cast<std::size_t>(ids->GetId(i))];
-      }
-    }
-    auto copy = vtkSmartPointer<vtkDataSet>::Take(leaf.data->NewInstance());
-    copy->CopyStructure(leaf.data);
-    vtkNew<vtkDoubleArray> means;
-    means->SetName(arrayName);
-    for (std::size_t i = 0; i < sums.size(); ++i)
-    {
-      means->InsertNextValue(counts[i] > 0 ? sums[i] / counts[i] : 0);
-    }
-    copy->GetPointData()->AddArray(means);
-    leaf.data = copy;
+    auto cells = vtkSmartPointer<vtkDataSet>::Take(leaf.data->NewInstance());
+    cells->CopyStructure(leaf.data);
+    cells->GetCellData()->SetScalars(leaf.arrays[0]);
+    vtkNew<vtkCellDataToPointData> mean;
+    mean->SetInputData(cells);
+    mean->Update();
+    leaf.data = mean->GetOutput();
     leaf.ofCells = false;
-    leaf.arrays = { means };
-    result.made.emplace_back(copy);
+    leaf.arrays = { leaf.data->GetPointData()->GetScalars() };
+    result.made.emplace_back(leaf.data);
   }
   return result;
 }

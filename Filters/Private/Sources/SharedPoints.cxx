@@ -41,7 +41,7 @@ constexpr double fewOfAll = 0.25;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the smallest edge, approximately for cells of unknown shape.
+/// Returns the smallest distance of corners, approximately for cells of unknown shape.
 double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
 {
   constexpr double roundedAway = 1e-14;
@@ -61,29 +61,15 @@ double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
       ++points;
     });
   double smallest = infinity;
-  const auto look = [&](std::size_t i, std::size_t k)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    const Point edge = x[i] - x[k];
-    const double squared = dot(edge, edge);
-    if (squared > roundedAway * dot(x[i], x[i]) * roundedAway)
+    for (std::size_t k = i + 1; k < count; ++k)
     {
-      smallest = std::min(smallest, squared);
-    }
-  };
-  if (isKnown && count == corners)
-  {
-    for (const std::array<int, 2>& edge : edgesOf(shape))
-    {
-      look(static_cast<std::size_t>(edge[0]), static_cast<std::size_t>(edge[1]));
-    }
-  }
-  else
-  {
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      for (std::size_t k = i + 1; k < count; ++k)
+      const Point edge = x[i] - x[k];
+      const double squared = dot(edge, edge);
+      if (squared > roundedAway * dot(x[i], x[i]) * roundedAway)
       {
-        look(i, k);
+        smallest = std::min(smallest, squared);
       }
     }
   }

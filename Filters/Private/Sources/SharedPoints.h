@@ -15,6 +15,8 @@ class vtkUnstructuredGrid;
 namespace filters
 {
 
+class MeshArrays;
+
 /**
  * Merges points of datasets of an input that coincide (see CoincidentPoints.h): those of blocks, of
  * appended meshes, and of the cells of discontinuous finite elements, so that cells become
@@ -52,6 +54,8 @@ private:
     vtkSmartPointer<vtkUnstructuredGrid> mesh; // without values
   };
 
+  static std::vector<unsigned char> leaveOutDuplicates(
+    const std::vector<MeshArrays>& meshes, Group& group);
   void addGroup(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, Group group);
   static vtkSmartPointer<vtkDataSet> joinedOf(
     const Group& group, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);

@@ -106,16 +106,10 @@ void copyShapes(const std::vector<std::size_t>& group,
 
 } // namespace
 
-/// Makes the mesh of a group.
-void SharedPoints::addGroup(const Leaves& leaves, Group group)
+/// Leaves out duplicate cells of a group. Returns how many points each merged one has, at most 2.
+std::vector<unsigned char> SharedPoints::leaveOutDuplicates(
+  const std::vector<MeshArrays>& meshes, Group& group)
 {
-  std::vector<MeshArrays> meshes;
-  meshes.reserve(group.leaves.size());
-  for (const std::size_t leaf : group.leaves)
-  {
-    meshes.emplace_back(leaves[leaf]);
-  }
-  // Finds duplicate cells.
   std::vector<unsigned char> points(
     static_cast<std::size_t>(group.points), 0); // merged points of each
   for (const std::vector<std::int32_t>& numbers : group.numbers)
@@ -170,7 +164,19 @@ void SharedPoints::addGroup(const Leaves& leaves, Group group)
       }
     }
   }
+  return points;
+}
 
+/// Makes the mesh of a group.
+void SharedPoints::addGroup(const Leaves& leaves, Group group)
+{
+  std::vector<MeshArrays> meshes;
+  meshes.reserve(group.leaves.size());
+  for (const std::size_t leaf : group.leaves)
+  {
+    meshes.emplace_back(leaves[leaf]);
+  }
+  const std::vector<unsigned char> points = leaveOutDuplicates(meshes, group);
   group.mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
   vtkNew<vtkPoints> places;
   places->SetDataTypeToDouble();
