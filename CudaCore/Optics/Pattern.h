@@ -6,6 +6,7 @@
 #pragma once
 
 #include "Math/HostDevice.h"
+#include "Math/RandomBits.h"
 #include "Math/Trigonometry.h"
 #include "Optics/Color.h"
 #include "Optics/ColorFilter.h"
@@ -62,14 +63,7 @@ struct Dots
   SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
 
 private:
-  /// Random bits of a cell: the mixing of splitmix64 (Steele, Lea & Flood 2014).
-  SCHLIEREN_HD static std::uint64_t mixed(std::uint64_t bits)
-  {
-    bits += 0x9e3779b97f4a7c15u;
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-    return bits ^ (bits >> 31);
-  }
+  /// Random bits of a cell.
   SCHLIEREN_HD std::uint64_t bitsOf(std::int64_t column, std::int64_t row) const
   {
     return mixed(

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/Light.h"
 
+#include "Math/RandomBits.h"
 #include "Math/Units.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -115,6 +117,44 @@ double numberOf(std::int64_t pass, std::uint32_t seed)
 {
   constexpr double passesPerSeed = 65537;
   return static_cast<double>(pass) + passesPerSeed * (static_cast<double>(seed) - 1);
+}
+
+constexpr std::uint32_t firstSeed = 1;
+
+/// Rows of the first 64 points of a pixel, in 64ths of it. Columns are those of columnDigits. Point 4 ... 7 are at odd eighths,
+/// point 8 ... 15 at odd sixteenths of both axes, and so on. Among these orders of rows the search of
+/// Testing/Benchmarks/PixelPoints.py has found this one.
+constexpr std::array<std::uint32_t, 64> firstRows{ 0, 16, 32, 48, 24, 40, 56, 8, 52, 60, 44, 36, 4,
+  12, 20, 28, 14, 6, 58, 2, 42, 22, 34, 18, 62, 30, 10, 38, 26, 54, 50, 46, 51, 23, 47, 7, 1, 11,
+  13, 57, 15, 37, 39, 25, 9, 41, 43, 45, 21, 63, 55, 17, 35, 27, 61, 3, 33, 53, 5, 49, 19, 59, 29,
+  31 };
+constexpr int digitsOfFirst = 6;
+
+/// The binary digits of a point's column: those of its number, the last one first (van der Corput 1935).
+std::uint32_t columnDigits(std::uint32_t number)
+{
+  std::uint32_t digits = 0;
+  for (int n = 0; n < 32; ++n)
+  {
+    digits |= (number >> n & 1u) << (31 - n);
+  }
+  return digits;
+}
+
+/// The binary digits of a point's row. Each further 64 points have the rows of the first ones, moved by the second coordinate
+/// of Sobol's sequence (1967) as a fraction of the pixel and, so that they are between the others, of a 64th of it.
+std::uint32_t rowDigits(std::uint32_t number)
+{
+  std::uint32_t moved = 0;
+  std::uint32_t column = std::uint32_t{ 1 }
+    << 31; // of the generator matrix: powers of 1 + x, modulo 2
+  for (std::uint32_t rest = number >> digitsOfFirst; rest != 0; rest >>= 1)
+  {
+    moved ^= (rest & 1u) * column;
+    column ^= column >> 1;
+  }
+  return (firstRows[number % firstRows.size()] << (32 - digitsOfFirst)) + moved +
+    (moved >> digitsOfFirst);
 }
 
 } // namespace
@@ -318,14 +358,17 @@ std::array<double, 2> sourcePoint(
 
 PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed)
 {
-  if (pass == 0)
+  const std::uint64_t choice = seed == firstSeed ? 0 : mixed(seed);
+  const auto first = static_cast<std::uint32_t>(choice & 3u);
+  const auto coordinate = [&](std::uint32_t (&digits)(std::uint32_t), bool isMirrored)
   {
-    return { 0, 0 };
-  }
-  constexpr double plasticNumber = 1.32471795724474602596;
-  const double n = numberOf(pass, seed);
-  return { fraction(0.5 + n / plasticNumber) - 0.5,
-    fraction(0.5 + n / (plasticNumber * plasticNumber)) - 0.5 };
+    const std::uint32_t off = digits(static_cast<std::uint32_t>(pass) ^ first) - digits(first);
+    return std::ldexp(
+      static_cast<double>(static_cast<std::int32_t>(isMirrored ? 0 - off : off)), -32);
+  };
+  const double a = coordinate(columnDigits, (choice & 4u) != 0);
+  const double b = coordinate(rowDigits, (choice & 8u) != 0);
+  return (choice & 16u) != 0 ? PixelOffset{ b, a } : PixelOffset{ a, b };
 }
 
 } // namespace schlieren

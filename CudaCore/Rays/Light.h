@@ -114,8 +114,9 @@ Vector placeOf(const Grid& grid, const Vec3<double>& index);
 std::int64_t maxMargin(const View& view);
 
 /// Where in its pixel the ray of pass `pass` starts, relative to the centre, in [-1/2, 1/2).
-/// Pass 0 is the centre; later passes follow the two-dimensional golden-ratio sequence R2 (Roberts
-/// 2018, "The unreasonable effectiveness of quasirandom sequences"), begun elsewhere for each seed.
+/// Pass 0 is the centre. Along both axes the first 4, 8, 16 ... 4096 passes are evenly spaced, so that an edge along a pixel's
+/// sides is wrong by one ray at the most. Of 4, 8, 16, 32 and 64 such points these are the ones that cover half-planes of
+/// any angle best, about. Each seed mirrors and exchanges the axes, and begins with another of the first four points.
 /// The offset is the same in all pixels of a pass: a pass is a lattice, and bilinear splats of an undisturbed
 /// lattice add up to an exactly even film, so undisturbed light carries no sampling noise.
 PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReferenceTracer.h"
 
+#include "Rays/Light.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -414,14 +416,15 @@ struct Bench
   }
 };
 
-/// Where in the source, and where in their pixels, the rays of a pass start: multiples of irrational numbers.
+/// Where in the source, and where in their pixels, the rays of a pass start.
 std::pair<Pair, Pair> startsOf(const Scene& scene, int pass)
 {
   const LightSource& source = scene.source;
-  const Real width = source.width, plastic = 1.32471795724474602596L;
+  const Real width = source.width;
   const Real a = pass * (1 + std::sqrt(5.0L)) / 2, b = pass * std::sqrt(2.0L);
   const auto centred = [](Real x) { return x - std::floor(x + 0.5L); };
-  const Pair offset{ centred(pass / plastic), centred(pass / (plastic * plastic)) };
+  const PixelOffset inPixel = pixelOffset(pass, scene.seed);
+  const Pair offset{ inPixel.column, inPixel.row };
   if (source.shape == SourceShape::Point || scene.cutoff == Cutoff::Background)
   {
     return { 0, offset };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What images should be: Documentation/theory.md as directly as it can be written. It shares nothing with the tracer but the
-// description of what is wanted (Scene, Grid), is exact to about 1e-12 of the refractivity, and slow: some thousand rays a second.
+// description of what is wanted (Scene, Grid) and the points of a pixel (pixelOffset), is exact to about 1e-12 of the refractivity, and slow: some thousand rays a second.
 #pragma once
 
 #include "Schlieren.h"

@@ -3,11 +3,16 @@
 // Automatic k, and the film on which light is summed up.
 #include "Fields.h"
 #include "Film/Film.h"
+#include "Math/Units.h"
 #include "Optics/AutomaticK.h"
 #include "Rays/Light.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <set>
+#include <utility>
 
 namespace schlieren
 {
@@ -151,7 +156,96 @@ TEST(Light, FirstRayOfEachPixelIsItsCentre)
     EXPECT_EQ(pixelOffset(0, seed).column, 0);
     EXPECT_EQ(pixelOffset(0, seed).row, 0);
   }
-  EXPECT_NE(pixelOffset(1, 1).column, pixelOffset(1, 2).column);
+}
+
+TEST(Light, SeedsMoveRaysWithinTheirPixel)
+{
+  std::set<std::pair<double, double>> places;
+  for (std::uint32_t seed = 0; seed < 64; ++seed)
+  {
+    const PixelOffset offset = pixelOffset(41, seed);
+    places.insert({ offset.column, offset.row });
+    EXPECT_EQ(offset.column, pixelOffset(41, seed).column);
+  }
+  EXPECT_GE(places.size(), 16u);
+}
+
+/// Of 4, 8, 16 ... passes there is one in each of as many columns, and in each of as many rows.
+TEST(Light, PassesAreEvenAlongBothAxes)
+{
+  for (const std::uint32_t seed : { 0u, 1u, 2u, 3u, 5u, 4294967295u })
+  {
+    for (int passes = 4; passes <= 4096; passes *= 2)
+    {
+      std::set<double> columns, rows;
+      for (int pass = 0; pass < passes; ++pass)
+      {
+        const PixelOffset offset = pixelOffset(pass, seed);
+        columns.insert(std::floor(passes * (offset.column + 0.5)));
+        rows.insert(std::floor(passes * (offset.row + 0.5)));
+      }
+      EXPECT_EQ(columns.size(), static_cast<std::size_t>(passes)) << seed;
+      EXPECT_EQ(rows.size(), static_cast<std::size_t>(passes)) << seed;
+    }
+  }
+}
+
+/// The light on a pixel of a half-plane: bilinear splats of so many rays in each pixel.
+double lightOfHalfPlane(double degrees, double distance, int passes, std::uint32_t seed)
+{
+  const double cosine = std::cos(degrees * radiansPerDegree);
+  const double sine = std::sin(degrees * radiansPerDegree);
+  double light = 0;
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    const PixelOffset offset = pixelOffset(pass, seed);
+    for (int near = 0; near < 9; ++near)
+    {
+      const double x = offset.column + near % 3 - 1, y = offset.row + near / 3 - 1;
+      const double weight = std::max(0., 1 - std::abs(x)) * std::max(0., 1 - std::abs(y));
+      light += x * cosine + y * sine > distance ? weight : 0;
+    }
+  }
+  return light / passes;
+}
+
+/// What is wrong with few rays at edges of all angles, root of the mean square over the distances of an edge. Points of Sobol's
+/// sequence would be wrong by 0.10, 0.044 and 0.018 at 45 degrees.
+TEST(Light, EdgesOfAnyAngleAreCovered)
+{
+  for (const std::uint32_t seed : { 1u, 2u, 3u })
+  {
+    double worst[3] = { 0, 0, 0 }, alongAxes[3] = { 0, 0, 0 };
+    for (double degrees = 0; degrees < 180; degrees += 7.5)
+    {
+      constexpr int distances = 53;
+      double squares[3] = { 0, 0, 0 };
+      for (int n = 0; n < distances; ++n)
+      {
+        const double distance = 1.45 * ((n + 0.5) / distances * 2 - 1);
+        const double truth = lightOfHalfPlane(degrees, distance, 2048, seed);
+        for (int k = 0; k < 3; ++k)
+        {
+          const double error = lightOfHalfPlane(degrees, distance, 4 << (2 * k), seed) - truth;
+          squares[k] += error * error / distances;
+        }
+      }
+      for (int k = 0; k < 3; ++k)
+      {
+        worst[k] = std::max(worst[k], std::sqrt(squares[k]));
+        if (degrees == 0 || degrees == 90)
+        {
+          alongAxes[k] = std::max(alongAxes[k], std::sqrt(squares[k]));
+        }
+      }
+    }
+    const double limits[3] = { 0.063, 0.031, 0.0105 };
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_LT(worst[k], limits[k]) << k;
+      EXPECT_LT(alongAxes[k], 0.2 / (4 << (2 * k))) << k;
+    }
+  }
 }
 
 /// A low-discrepancy sequence: each of 8 x 8 squares gets its fraction of 1024 rays, nearly.
