@@ -4,6 +4,9 @@
 // Small patches of an image, made with other settings than the image, to find out how much these change it.
 #pragma once
 
+#include "Bench/Differences.h"
+#include "Bench/Patches.h"
+#include "Bench/Scouts.h"
 #include "Film/Shading.h"
 #include "Medium/Medium.h"
 #include "Optics/AutomaticK.h"
@@ -32,17 +35,6 @@ struct PilotBench
   std::int64_t margin; ///< pixels around the image from which light may be bent into it
 };
 
-/// What a few rays all over the image have met.
-struct PilotView
-{
-  std::int64_t crossed = 0;     ///< rays that have crossed the data and reach the film
-  double strongDeflection = 0;  ///< see strongDeflection(), for automatic k
-  double largestDeflection = 0; ///< |eps|
-  double path = 0;              ///< metres: range of the optical path difference
-  double steepestPath =
-    0; ///< metres: its change over a pixel, which 99 % of the rays do not exceed
-};
-
 /// The longest step that is tried, voxels.
 constexpr double longestStep = 2;
 
@@ -52,21 +44,7 @@ inline double adaptiveToleranceFor(double step, double tolerance)
   return tolerance * (2 * step) * (2 * step) * (2 * step);
 }
 
-/// A difference between two images at a pixel whose light has crossed the data, in the unit of Scene::targetError.
-struct Difference
-{
-  double value;
-  double pixels; ///< of the whole image that it stands for
-};
-using Differences = std::vector<Difference>;
-
-/// The value that 99 % of the pixels do not exceed; 0 if there are none.
-double percentile99(Differences differences);
-double largestOf(const Differences& differences);
-
-/// Images of patches of pixels. They are closer together where the few pixels are that have the largest errors: beside
-/// bodies, and where rays differ most from their neighbours. Where light is displaced all over the image there is one patch,
-/// the image. Rays are traced once for each setting.
+/// Images of patches of pixels, see PatchLayout. Rays are traced once for each setting.
 template <class Real>
 class Pilot
 {
@@ -82,7 +60,7 @@ public:
   Pilot(PilotBench<Real> bench, const DeflectionErrors& errors);
 
   const PilotBench<Real>& bench() const { return bench_; }
-  const PilotView& view() const { return view_; }
+  const PilotView& view() const { return scouts_.view(); }
 
   /// Exposes patches by another cutoff of a scene with the same rays from now on. The cutoff's table stays with its owner.
   void setCutoff(const Scene& scene, const Cutoffs& cutoff)
@@ -107,18 +85,6 @@ public:
     Patches patches, const Settings& a, const Settings& b, const Monitor& monitor);
 
 private:
-  /// A rectangle of pixels on the film, and the one around which the rays start that land there.
-  struct Patch
-  {
-    std::int64_t column, row; ///< its lower left pixel
-    double weight;            ///< how many pixels of the image each of its own stands for
-    std::int64_t fromColumn, fromRow;
-    std::int64_t margin = 0; ///< pixels around that
-    std::int64_t columns = edge, rows = edge;
-
-    static constexpr std::int64_t edge = 4; ///< pixels, but for a patch that is the whole image
-  };
-  using PatchList = std::vector<Patch>;
   /// What of a patch's image is compared.
   struct Values
   {
@@ -131,37 +97,12 @@ private:
   using Traced = std::vector<TracedPass>; ///< of each patch
   using Exposed = std::vector<Values>;    ///< of each patch
 
-  /// A ray that has looked at the view, and how far it is moved on the film, pixels.
-  struct Scout
-  {
-    RayFate fate;
-    double deflection[2], moved[2];
-  };
-  /// A square of pixels that may be a patch.
-  struct Cell
-  {
-    std::int64_t column, row;
-    double variation; ///< how much the rays there differ from their neighbours
-  };
-  using Cells = std::vector<Cell>;
-
   RayTask<Real> taskFor(double step) const;
-  void scout(const DeflectionErrors& errors);
-  /// Null outside of the view.
-  const Scout* scoutAt(std::int64_t column, std::int64_t row) const;
-  double variationAt(std::int64_t column, std::int64_t row) const;
-  std::vector<double> variationsOnFilm() const;
-  void layOut();
-  void takeWholeIfCheaper();
-  void spread(const Cells& cells, double pixels);
-  /// Aims a patch at where the light comes from that lands on it. False if that is from all over the image.
-  bool findOrigin(Patch& patch) const;
   /// A set of patches.
   std::size_t indexOf(Patches patches) const
   {
-    return isWhole_ ? 0 : static_cast<std::size_t>(patches);
+    return layout_.isWhole ? 0 : static_cast<std::size_t>(patches);
   }
-  bool isShifted() const;
   Pass passOf(const Patch& patch, std::int64_t number) const;
   /// The rays of all patches of a set; null if aborted.
   const Traced* trace(Patches patches, double step, int number, const Monitor& monitor);
@@ -174,13 +115,8 @@ private:
 
   PilotBench<Real> bench_;
   const Cutoffs* cutoff_ = nullptr;
-  PilotView view_;
-  std::vector<Scout> scouts_; ///< row by row
-  std::int64_t scoutColumns_ = 0, scoutRows_ = 0;
-  std::int64_t stride_ = 1; ///< pixels between them
-  std::int64_t lost_ = 0;   ///< patches whose light comes from all over the image
-  bool isWhole_ = false;    ///< both sets are one patch, the image
-  PatchList patches_[2];
+  Scouts scouts_;
+  PatchLayout layout_;
   std::map<std::pair<double, int>, Traced> traced_[2];   ///< by step and pass
   std::map<std::pair<double, int>, Exposed> exposed_[2]; ///< by step and rays per pixel
 };

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Bench/Scouts.h"
+#include "Schlieren.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace schlieren
+{
+
+/// A rectangle of pixels on the film, and the one around which the rays start that land there.
+struct Patch
+{
+  std::int64_t column, row; ///< its lower left pixel
+  double weight;            ///< how many pixels of the image each of its own stands for
+  std::int64_t fromColumn, fromRow;
+  std::int64_t margin = 0; ///< pixels around that
+  std::int64_t columns = edge, rows = edge;
+
+  static constexpr std::int64_t edge = 4; ///< pixels, but for a patch that is the whole image
+};
+using PatchList = std::vector<Patch>;
+
+/// Two sets of patches that have no pixel in common, some thousand pixels each. They are closer together where the few
+/// pixels are that have the largest errors: beside bodies, and where rays differ most from their neighbours. Where light
+/// is displaced all over the image there is one patch, the image.
+struct PatchLayout
+{
+  PatchList sets[2];
+  bool isWhole = false; ///< set 0 is the image, and set 1 is empty
+};
+
+/// `margin`: pixels around the image from which light may be bent into it.
+PatchLayout layOutPatches(const Scouts& scouts, const View& view, std::int64_t margin);
+
+} // namespace schlieren
