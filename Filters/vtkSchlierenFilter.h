@@ -39,7 +39,8 @@
  * legend: `LegendTitle` (the cutoff's name), `LegendLabel` (texts: what the light stands for, and
  * its unit: rad, m or none), `LegendRange` (the first and last value, in that unit), `LegendSize`
  * (numbers of values; both 0 without a scale, the second above 1 for deflections along u and v),
- * `LegendColors` (3 unsigned chars each, the lowest value first), `LegendNotes` (texts, such as k),
+ * `LegendColors` (3 unsigned chars each, the lowest value first), `LegendNotes` (texts, such as k; these
+ * two only if there are any),
  * `LegendAngle` (degrees, of an edge: the direction of the deflection) and `LengthScale`.
  *
  * The second output is the histogram of the light on the cutoff plane: an image with a point at the

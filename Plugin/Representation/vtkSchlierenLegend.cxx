@@ -446,7 +446,7 @@ void vtkSchlierenLegend::SetImage(vtkImageData* image)
     data ? vtkUnsignedCharArray::SafeDownCast(data->GetArray("LegendColors")) : nullptr;
   const auto title = data ? textsIn(data, "LegendTitle") : std::vector<std::string>();
   const auto label = data ? textsIn(data, "LegendLabel") : std::vector<std::string>();
-  if (!colors || title.empty() || label.size() < 2)
+  if (title.empty() || label.size() < 2)
   {
     return;
   }
@@ -461,13 +461,17 @@ void vtkSchlierenLegend::SetImage(vtkImageData* image)
   }
   shown.HasAngle = data->HasArray("LegendAngle") != 0;
   shown.Angle = numberIn(data, "LegendAngle", 0, 0);
-  if (vtkIdType{ shown.Size[0] } * shown.Size[1] != colors->GetNumberOfTuples())
+  const vtkIdType count = vtkIdType{ shown.Size[0] } * shown.Size[1];
+  if (!colors || count != colors->GetNumberOfTuples())
   {
     shown.Size[0] = shown.Size[1] = 0;
   }
-  shown.Colors->Initialize();
-  shown.Colors->SetDimensions(shown.Size[0], shown.Size[1], 1);
-  shown.Colors->GetPointData()->SetScalars(colors);
+  else
+  {
+    shown.Colors->Initialize();
+    shown.Colors->SetDimensions(shown.Size[0], shown.Size[1], 1);
+    shown.Colors->GetPointData()->SetScalars(colors);
+  }
   shown.MetresAcross =
     numberIn(data, "LengthScale", 0, 0) * image->GetSpacing()[0] * image->GetDimensions()[0];
 }

@@ -145,7 +145,11 @@ void addLegend(vtkImageData* output, const SchlierenSettings& settings,
   vtkFieldData* data = output->GetFieldData();
   addTexts(data, "LegendTitle", { schlieren::techniqueOf(scene.cutoff).name });
   addTexts(data, "LegendLabel", { label, unit });
-  addTexts(data, "LegendNotes", notesOn(settings, scene, image, isKept));
+  const std::vector<std::string> notes = notesOn(settings, scene, image, isKept);
+  if (!notes.empty()) // scripts read the first value of each array
+  {
+    addTexts(data, "LegendNotes", notes);
+  }
   vtkNew<vtkDoubleArray> range;
   range->SetName("LegendRange");
   range->InsertNextValue(scale * legend.lowest);
@@ -156,14 +160,17 @@ void addLegend(vtkImageData* output, const SchlierenSettings& settings,
   size->InsertNextValue(legend.width);
   size->InsertNextValue(legend.height);
   data->AddArray(size);
-  vtkNew<vtkUnsignedCharArray> bytes;
-  bytes->SetName("LegendColors");
-  bytes->SetNumberOfComponents(3);
-  for (const float light : legend.light)
+  if (!legend.light.empty())
   {
-    bytes->InsertNextValue(byteOf(light, colors));
+    vtkNew<vtkUnsignedCharArray> bytes;
+    bytes->SetName("LegendColors");
+    bytes->SetNumberOfComponents(3);
+    for (const float light : legend.light)
+    {
+      bytes->InsertNextValue(byteOf(light, colors));
+    }
+    data->AddArray(bytes);
   }
-  data->AddArray(bytes);
   addNumber(data, "LengthScale", settings.LengthScale);
   if (legend.quantity == Quantity::Deflection)
   {
