@@ -41,6 +41,7 @@ constexpr float widthOfScale = 15;
 constexpr float heightOfScale = 1.1f;
 constexpr float sideOfPlane = 7;
 constexpr float sizeOfIcon = 2.4f;
+constexpr float shareOfSource = 0.7f; // of the icon: the image of the light source
 constexpr float heightOfRuler = 0.5f;
 
 constexpr int opacityOfPanel = 235;
@@ -216,7 +217,6 @@ void vtkSchlierenLegend::Panel::DrawIcon(const Pencil& pencil, float left, float
   vtkContext2D* to = pencil.To;
   to->GetPen()->SetLineType(vtkPen::NO_PEN);
   to->GetBrush()->SetColor(255, 255, 255, 255);
-  constexpr float shareOfSource = 0.7f;
   to->DrawEllipticArc(x, y, shareOfSource * radius, shareOfSource * radius, 0, 360);
   to->GetBrush()->SetColor(110, 110, 110, 255);
   if (!this->HasAngle)
@@ -254,7 +254,7 @@ void vtkSchlierenLegend::Panel::DrawStop(const Pencil& pencil, float x, float y,
   }
   else
   {
-    const float outer = radius / 0.7f;
+    const float outer = radius / shareOfSource;
     pencil.To->DrawEllipseWedge(x, y, outer, outer, small * radius, small * radius, 0, 360);
   }
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlowDefaults.h"
 
+#include "Common/NumberText.h"
+
 #include "Gas/ArrayNames.h"
 #include "Schlieren.h"
 
@@ -17,6 +19,8 @@ using filters::Understood;
 
 namespace
 {
+
+using filters::textOf;
 
 const std::set<std::string> indices = { "n", "ior", "refractiveindex", "indexofrefraction",
   "refractionindex" };
@@ -95,13 +99,6 @@ bool isFraction(const FlowArray& array, Fraction& fraction)
 }
 
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
-
-std::string textOf(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 std::string rangeInWords(const FlowArray& array)
 {

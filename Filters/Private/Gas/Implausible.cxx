@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlowDefaults.h"
+
+#include "Common/NumberText.h"
 #include "Gas/ArrayNames.h"
 
 #include <cstdio>
@@ -10,6 +12,8 @@ using filters::ArrayName;
 namespace
 {
 
+using filters::textOf;
+
 // Limits of n - 1: air at 0 C and 15 atm, exceeded by few engines only; the thinnest liquids; air
 // at less than 1 % of the atmosphere's pressure.
 constexpr double densestSurroundings = 4e-3;
@@ -18,17 +22,11 @@ constexpr double thinnestGas = 2e-6;
 // Tolerance for undershoots of solvers.
 constexpr double undershoot = 1e-3;
 
-std::string textOf(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 /// Formats a name and a range: "'rho' (1 to 2)".
 std::string described(const FlowArray& array)
 {
-  return "'" + array.name + "' (" + textOf(array.range[0]) + " to " + textOf(array.range[1]) + ")";
+  return "'" + array.name + "' (" + textOf(array.range[0], 3) + " to " + textOf(array.range[1], 3) +
+    ")";
 }
 
 /// Checks what holds for any state of a gas.
@@ -74,7 +72,7 @@ Implausible ofDensity(const FlowInUse& flow)
   if (low == high && flow.indexModel == MediumSettings::GladstoneDale)
   {
     return { "constant",
-      "The density '" + array.name + "' is " + textOf(array.range[0]) +
+      "The density '" + array.name + "' is " + textOf(array.range[0], 3) +
         " everywhere, as in incompressible flow, so that nothing bends light. Where temperatures "
         "differ, compute a density from temperature and pressure" +
         std::string(document) + "." };
@@ -90,8 +88,8 @@ Implausible ofDensity(const FlowInUse& flow)
   if (flow.isGas && (highest > densestGas || (lowest > densestSurroundings && !flow.isScaleGiven)))
   {
     return { "dense",
-      "With the density " + described(array) + ", n - 1 is " + textOf(lowest) + " to " +
-        textOf(highest) +
+      "With the density " + described(array) + ", n - 1 is " + textOf(lowest, 3) + " to " +
+        textOf(highest, 3) +
         ", more than that of gases (air in a room: 2.7e-4). If it is no density in kg/m\xc2\xb3, "
         "set DensityScale or choose another array; of a liquid, give the index itself" +
         std::string(document) + "." };
@@ -99,7 +97,7 @@ Implausible ofDensity(const FlowInUse& flow)
   if (flow.isGas && !flow.isScaleGiven && highest < thinnestGas)
   {
     return { "thin",
-      "With the density " + described(array) + ", n - 1 is at most " + textOf(highest) +
+      "With the density " + described(array) + ", n - 1 is at most " + textOf(highest, 3) +
         ", a hundredth of that of air in a room, or less. If the density is in g/cm\xc2\xb3, set "
         "DensityScale to 1000; if it is relative to the free stream, to the free stream's." };
   }
@@ -143,13 +141,13 @@ Implausible ofMoistAir(const FlowInUse& flow)
   {
     const double factor = pascals[1] > 300 ? 100 : pascals[1] > 30 ? 1e3 : 1e5;
     return { "pressure",
-      "With PressureScale " + textOf(flow.scales[1]) + " the pressure " + described(pressure) +
+      "With PressureScale " + textOf(flow.scales[1], 3) + " the pressure " + described(pressure) +
         " is in Pa, so that n - 1 is far from that of air in a room." +
         (pascals[1] < leastOfAir && !flow.isScaleGiven ? " If it is in " +
               std::string(factor == 100 ? "hPa"
                   : factor == 1e3       ? "kPa"
                                         : "bar") +
-              ", set PressureScale to " + textOf(factor) + "."
+              ", set PressureScale to " + textOf(factor, 3) + "."
                                                        : " Check PressureScale.") };
   }
   return {};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/RefractivityModels.h"
 
+#include "Common/NumberText.h"
+
 #include "Gas/GasChoices.h"
 
 #include <algorithm>
@@ -18,13 +20,6 @@ namespace
 
 /// Maximum fraction or relative humidity that rounding and interpolation explain.
 constexpr double maxOfAll = 1.01;
-
-std::string textOf(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 void requireFinite(const std::string& name, double value)
 {

@@ -2,23 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/ImageLegend.h"
 
+#include "Common/NumberText.h"
+#include "Image/FieldData.h"
 #include "Image/ImageStatus.h"
 #include "Image/RealOptics.h"
 #include "SchlierenSettings.h"
 
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
 #include "Schlieren.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -30,14 +29,6 @@ namespace
 
 using Quantity = schlieren::Legend::Quantity;
 
-template <class Number>
-std::string textOf(const char* format, Number value)
-{
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 /// Returns where a deflection along an edge's normal goes, as it is seen in the image.
 std::string directionInWords(double degrees)
 {
@@ -46,7 +37,7 @@ std::string directionInWords(double degrees)
     : turn == 90             ? "up"
     : turn == -90            ? "down"
     : std::abs(turn) == 180. ? "to the left"
-                             : "along " + textOf("%.4g", turn) + " degrees";
+                             : "along " + textOf(turn, 4) + " degrees";
 }
 
 /// Returns what the legend's values are, and sets their unit, which has no prefix.
@@ -92,39 +83,14 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   }
   if (!image.backgroundDisplacement.empty())
   {
-    double largest = 0;
-    for (std::size_t i = 0; i + 1 < image.backgroundDisplacement.size(); i += 2)
-    {
-      const double u = image.backgroundDisplacement[i], v = image.backgroundDisplacement[i + 1];
-      largest = std::max(largest, u * u + v * v);
-    }
     notes.push_back("pattern displaced by up to " +
-      textOf("%.3g pixels", std::sqrt(largest) / image.frame.pixelSize));
+      textOf("%.3g pixels", largestLength(image.backgroundDisplacement) / image.frame.pixelSize));
   }
   if (image.accuracy.target > 0)
   {
     notes.push_back(errorInWords(image.accuracy, scene));
   }
   return notes;
-}
-
-void addTexts(vtkFieldData* data, const char* name, const std::vector<std::string>& texts)
-{
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  for (const std::string& text : texts)
-  {
-    array->InsertNextValue(text);
-  }
-  data->AddArray(array);
-}
-
-void addNumber(vtkFieldData* data, const char* name, double number)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->InsertNextValue(number);
-  data->AddArray(array);
 }
 
 } // namespace
@@ -142,39 +108,31 @@ void addLegend(vtkImageData* output, const SchlierenSettings& settings,
   const bool areWavelengths = legend.quantity == Quantity::Path && unit.empty();
   const double scale = areWavelengths ? 1 / scene.wavelength : 1;
 
-  vtkFieldData* data = output->GetFieldData();
-  addTexts(data, "LegendTitle", { schlieren::techniqueOf(scene.cutoff).name });
-  addTexts(data, "LegendLabel", { label, unit });
+  addFieldValue<vtkStringArray>(
+    output, "LegendTitle", std::string(schlieren::techniqueOf(scene.cutoff).name));
+  addFieldValues<vtkStringArray>(output, "LegendLabel", std::vector<std::string>{ label, unit });
   const std::vector<std::string> notes = notesOn(settings, scene, image, isKept);
   if (!notes.empty()) // scripts read the first value of each array
   {
-    addTexts(data, "LegendNotes", notes);
+    addFieldValues<vtkStringArray>(output, "LegendNotes", notes);
   }
-  vtkNew<vtkDoubleArray> range;
-  range->SetName("LegendRange");
-  range->InsertNextValue(scale * legend.lowest);
-  range->InsertNextValue(scale * legend.highest);
-  data->AddArray(range);
-  vtkNew<vtkIntArray> size;
-  size->SetName("LegendSize");
-  size->InsertNextValue(legend.width);
-  size->InsertNextValue(legend.height);
-  data->AddArray(size);
+  addFieldValues<vtkDoubleArray>(
+    output, "LegendRange", std::array<double, 2>{ scale * legend.lowest, scale * legend.highest });
+  addFieldValues<vtkIntArray>(
+    output, "LegendSize", std::array<int, 2>{ legend.width, legend.height });
   if (!legend.light.empty())
   {
-    vtkNew<vtkUnsignedCharArray> bytes;
-    bytes->SetName("LegendColors");
-    bytes->SetNumberOfComponents(3);
+    std::vector<unsigned char> bytes;
     for (const float light : legend.light)
     {
-      bytes->InsertNextValue(byteOf(light, colors));
+      bytes.push_back(byteOf(light, colors));
     }
-    data->AddArray(bytes);
+    addFieldValues<vtkUnsignedCharArray>(output, "LegendColors", bytes, 3);
   }
-  addNumber(data, "LengthScale", settings.LengthScale);
+  addFieldValue<vtkDoubleArray>(output, "LengthScale", settings.LengthScale);
   if (legend.quantity == Quantity::Deflection)
   {
-    addNumber(data, "LegendAngle", scene.knifeEdgeAngle);
+    addFieldValue<vtkDoubleArray>(output, "LegendAngle", scene.knifeEdgeAngle);
   }
 }
 

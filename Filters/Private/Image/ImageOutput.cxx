@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/ImageOutput.h"
 
+#include "Image/FieldData.h"
 #include "Image/ImageStatus.h"
 
 #include "Common/AvailableMemory.h"
@@ -24,6 +25,7 @@
 #include "Schlieren.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -76,16 +78,7 @@ vtkSmartPointer<vtkFloatArray> newVectors(
   return array;
 }
 
-template <class Array, class Value>
-void addFieldValue(vtkImageData* output, const char* name, const Value& value)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
-}
-
-void addFieldValue(vtkImageData* output, const char* name, double value, const char* unit)
+void addWithUnit(vtkImageData* output, const char* name, double value, const char* unit)
 {
   addFieldValue<vtkDoubleArray>(output, name, value);
   setUnit(output->GetFieldData()->GetArray(name), unit);
@@ -108,6 +101,18 @@ float srgbFromLinear(float light)
 } // namespace
 
 //------------------------------------------------------------------------------
+double largestLength(const schlieren::PixelArray<float>& pairs)
+{
+  double largestSquare = 0;
+  for (std::size_t i = 0; i + 1 < pairs.size(); i += 2)
+  {
+    const double u = pairs[i], v = pairs[i + 1];
+    largestSquare = std::max(largestSquare, u * u + v * v);
+  }
+  return std::sqrt(largestSquare);
+}
+
+//------------------------------------------------------------------------------
 void dropIdleBounds(schlieren::Image& image)
 {
   constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -115,13 +120,7 @@ void dropIdleBounds(schlieren::Image& image)
   {
     image.displacementBound = unknown;
   }
-  double largestSquare = 0;
-  for (std::size_t i = 0; i + 1 < image.deflection.size(); i += 2)
-  {
-    const double u = image.deflection[i], v = image.deflection[i + 1];
-    largestSquare = std::max(largestSquare, u * u + v * v);
-  }
-  if (image.skippingBound > 0 && image.skippingBound >= std::sqrt(largestSquare))
+  if (image.skippingBound > 0 && image.skippingBound >= largestLength(image.deflection))
   {
     image.skippingBound = unknown;
   }
@@ -166,14 +165,14 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
   addFieldValue<vtkTypeInt64Array>(output, "RaysTraced", image.raysTraced);
   addFieldValue<vtkTypeInt64Array>(output, "RaysLost", image.raysLost);
   addFieldValue<vtkTypeInt64Array>(output, "StepsTaken", image.stepsTaken);
-  addFieldValue(output, "TraceSeconds", image.traceSeconds, "s");
+  addWithUnit(output, "TraceSeconds", image.traceSeconds, "s");
   if (std::isfinite(image.displacementBound))
   {
-    addFieldValue(output, "DisplacementBound", image.displacementBound, dataUnits);
+    addWithUnit(output, "DisplacementBound", image.displacementBound, dataUnits);
   }
   if (std::isfinite(image.skippingBound))
   {
-    addFieldValue(output, "SkippingBound", image.skippingBound, "rad");
+    addWithUnit(output, "SkippingBound", image.skippingBound, "rad");
   }
   addFieldValue<vtkDoubleArray>(output, "MomentumDrift", image.momentumDrift);
   if (image.accuracy.target > 0)
@@ -212,27 +211,20 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
 //------------------------------------------------------------------------------
 void addFringeSpacing(vtkImageData* output, double spacing)
 {
-  addFieldValue(output, "FringeSpacing", spacing, dataUnits);
+  addWithUnit(output, "FringeSpacing", spacing, dataUnits);
 }
 
 //------------------------------------------------------------------------------
 void addExposure(vtkImageData* output, double begin, double end)
 {
-  vtkNew<vtkDoubleArray> interval;
-  interval->SetName("ExposureInterval");
-  interval->InsertNextValue(begin);
-  interval->InsertNextValue(end);
-  output->GetFieldData()->AddArray(interval);
+  addFieldValues<vtkDoubleArray>(output, "ExposureInterval", std::array<double, 2>{ begin, end });
 }
 
 //------------------------------------------------------------------------------
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)
 {
-  vtkNew<vtkIntArray> levels;
-  levels->SetName("MediumLevels");
-  levels->InsertNextValue(medium.coarsestLevel);
-  levels->InsertNextValue(medium.finestLevel);
-  output->GetFieldData()->AddArray(levels);
+  addFieldValues<vtkIntArray>(
+    output, "MediumLevels", std::array<int, 2>{ medium.coarsestLevel, medium.finestLevel });
   addFieldValue<vtkTypeInt64Array>(
     output, "MediumBricks", static_cast<vtkTypeInt64>(medium.bricks));
   addFieldValue<vtkTypeInt64Array>(

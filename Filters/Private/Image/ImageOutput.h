@@ -2,19 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Schlieren.h"
+
 #include <string>
 
 class vtkImageData;
 
-namespace schlieren
-{
-struct Histogram;
-struct Image;
-struct MediumStatistics;
-} // namespace schlieren
-
 namespace filters
 {
+
+/// Returns the length of the longest of an array of pairs; 0 if there are none.
+double largestLength(const schlieren::PixelArray<float>& pairs);
 
 /// Sets bounds that are not useful to infinity: of the displacement, if light from the image's
 /// middle might leave the image; of the error of skipping, if it may exceed the largest deflection.

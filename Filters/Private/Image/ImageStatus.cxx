@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/ImageStatus.h"
 
+#include "Common/NumberText.h"
+
 #include "Schlieren.h"
 
 #include <cstdio>
@@ -11,15 +13,6 @@ namespace filters
 
 namespace
 {
-
-std::string textOf(const char* format, double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string textOf(double value) { return textOf("%.2g", value); }
 
 /// Returns a text such as "2 of 4 samples per pixel".
 std::string samplesInWords(const schlieren::Image& image)
@@ -65,9 +58,9 @@ std::string accuracyInWords(const schlieren::Image& image, const schlieren::Scen
   constexpr double least = 0.01; // pixels
   constexpr double most = 10;
   const double pixels = image.displacementBound / image.frame.pixelSize;
-  return pixels < least ? "straight rays, displaced by less than " + textOf(least) + " pixels"
+  return pixels < least ? "straight rays, displaced by less than " + textOf(least, 2) + " pixels"
     : !(pixels <= most) ? "straight rays, bending left out"
-                        : "straight rays, displaced by up to " + textOf(pixels) + " pixels";
+                        : "straight rays, displaced by up to " + textOf(pixels, 2) + " pixels";
 }
 
 } // namespace
@@ -99,8 +92,8 @@ std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::S
     : technique.plane == schlieren::RecordedPlane::Background ? " pixels of displacement"
     : technique.plane == schlieren::RecordedPlane::Screen     ? " of the undisturbed light"
                                                               : " of full scale";
-  return (accuracy.isKept() ? "error " : "target error not kept: ") + textOf(accuracy.reached) +
-    unit + " (target " + textOf(accuracy.target) + ")";
+  return (accuracy.isKept() ? "error " : "target error not kept: ") + textOf(accuracy.reached, 2) +
+    unit + " (target " + textOf(accuracy.target, 2) + ")";
 }
 
 //------------------------------------------------------------------------------

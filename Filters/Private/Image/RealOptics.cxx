@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/RealOptics.h"
 
+#include "Common/NumberText.h"
+
 #include "SchlierenSettings.h"
 
 #include "vtkMath.h"
@@ -21,18 +23,11 @@ namespace
 constexpr double depthsToSource = 10;
 constexpr double fringesInImage = 10;
 
-std::string textOf(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 [[noreturn]] void refuse(
   const char* property, double value, const std::string& unit, const std::string& advice)
 {
   throw std::runtime_error(
-    std::string(property) + " is " + textOf(value) + " " + unit + ", " + advice);
+    std::string(property) + " is " + textOf(value, 4) + " " + unit + ", " + advice);
 }
 
 void requirePositive(
@@ -108,7 +103,7 @@ void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
 //------------------------------------------------------------------------------
 std::string kInWords(double k, bool isKept)
 {
-  return (isKept ? "k locked at " : "k = ") + textOf(k);
+  return (isKept ? "k locked at " : "k = ") + textOf(k, 4);
 }
 
 //------------------------------------------------------------------------------
@@ -118,7 +113,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
   {
     return settings.WhiteLight
       ? "white light: a fringe of each colour is its wavelength of optical path"
-      : "a fringe is " + textOf(settings.Wavelength) +
+      : "a fringe is " + textOf(settings.Wavelength, 4) +
         " nm of optical path: Wavelength, in the group Medium";
   }
   if (!usesK(settings) || !(k > 0))
@@ -129,16 +124,16 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
   // Ranges from undisturbed light to the brightest or darkest.
   const schlieren::Technique& technique = techniqueOf(settings);
   std::string words = kInWords(k, isKept) + ": full scale is a deflection of " +
-    textOf(1e3 * technique.fullScale / k) + " mrad";
+    textOf(1e3 * technique.fullScale / k, 4) + " mrad";
   if (focalLength > 0)
   {
-    words += "; optics: " + textOf(focalLength) + " m focal length, source " +
-      textOf(focalLength / k / metresPerMillimetre) + " mm wide";
+    words += "; optics: " + textOf(focalLength, 4) + " m focal length, source " +
+      textOf(focalLength / k / metresPerMillimetre, 4) + " mm wide";
   }
   if (settings.KFromOptics && technique.hasEdge)
   {
-    words += ", the edge " + textOf(settings.CutoffPosition) + " mm in (offset " +
-      textOf(offsetOfOptics(settings)) + ")";
+    words += ", the edge " + textOf(settings.CutoffPosition, 4) + " mm in (offset " +
+      textOf(offsetOfOptics(settings), 4) + ")";
   }
   return words;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/TimeSlicedImage.h"
 
+#include "Common/NumberText.h"
+
 #include "Image/ImageStatus.h"
 #include "Sources/SharedRefractivity.h"
 
@@ -123,14 +125,6 @@ std::string TimeSlicedImage::GetStatus(const schlieren::Image& image) const
 namespace
 {
 
-std::string textOf(double value)
-{
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
-}
-
 /// Warns if steps do not resolve changes of the index.
 std::string driftInWords(const schlieren::Image& image)
 {
@@ -141,11 +135,11 @@ std::string driftInWords(const schlieren::Image& image)
   }
   const schlieren::Vector& at = image.steepestPlace;
   return "The rays' momentum and the refractive index differ by up to " +
-    textOf(100 * image.momentumDrift) +
+    textOf(100 * image.momentumDrift, 3) +
     " % where rays leave the data (MomentumDrift), and deflections may be wrong by as much: the "
     "index changes by up to " +
-    textOf(image.steepestChange) + " over one voxel, near (" + textOf(at[0]) + ", " +
-    textOf(at[1]) + ", " + textOf(at[2]) +
+    textOf(image.steepestChange, 3) + " over one voxel, near (" + textOf(at[0], 3) + ", " +
+    textOf(at[1], 3) + ", " + textOf(at[2], 3) +
     "), as at a face of glass. Remove what is no fluid with Threshold (and set Outside to Passes), "
     "set Integrator to Adaptive and Interpolation to Quadratic, or make the jump several voxels "
     "wide.";
@@ -167,9 +161,9 @@ std::string roundingInWords(const schlieren::Image& image, const schlieren::Scen
     longest = std::max(longest, std::abs(path)); // never NaN
   }
   const double fringes = longest / scene.wavelength;
-  return rounding * fringes > visible ? "Paths differ by up to " + textOf(fringes) +
+  return rounding * fringes > visible ? "Paths differ by up to " + textOf(fringes, 3) +
       " wavelengths, and " + (isSingle ? "single" : "even double") +
-      " precision rounds fringes by " + textOf(rounding * fringes) + " of their spacing. " +
+      " precision rounds fringes by " + textOf(rounding * fringes, 3) + " of their spacing. " +
       (isSingle ? "Set Precision to Double. " : "") +
       "Is LengthScale, the metres in a data unit, right?"
                                       : "";
@@ -182,7 +176,7 @@ std::string darknessInWords(const schlieren::Image& image, const schlieren::Scen
   const bool isDark =
     schlieren::techniqueOf(scene.cutoff).plane == schlieren::RecordedPlane::Screen &&
     image.light.outside > 0 && image.light.onFilm < hardlyAny * image.light.emitted;
-  return isDark ? "Only " + textOf(100 * image.light.onFilm / image.light.emitted) +
+  return isDark ? "Only " + textOf(100 * image.light.onFilm / image.light.emitted, 3) +
       " % of the light falls on the image: the screen is so far away that the rest lands beside "
       "it. "
       "Decrease ScreenDistance."
@@ -193,9 +187,9 @@ std::string darknessInWords(const schlieren::Image& image, const schlieren::Scen
 std::string exitInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
   return scene.exitInto == schlieren::ExitInto::Auto && image.exitRefractivity != image.ambient
-    ? "n - 1 around the flow is " + textOf(image.ambient) +
+    ? "n - 1 around the flow is " + textOf(image.ambient, 3) +
       ", as in a liquid, so light is refracted into air (n - 1 = " +
-      textOf(image.exitRefractivity) +
+      textOf(image.exitRefractivity, 3) +
       ") where it leaves the data: deflections, screens and patterns are those in air. Set "
       "ExitInto "
       "to Surroundings where all of the light's path is in the liquid, or to Custom, or to Air "

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/ExposureSteps.h"
 
+#include "Common/NumberText.h"
+
 #include "Ranks/BetweenTimeSteps.h"
 
 #include "vtkAlgorithm.h"
@@ -21,13 +23,6 @@ namespace
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-std::string textOf(double time)
-{
-  std::ostringstream text;
-  text << time;
-  return text.str();
-}
 
 /// Updates the filters upstream of all inputs. Returns false if one of them has failed.
 bool updateInputs(vtkAlgorithm* filter)

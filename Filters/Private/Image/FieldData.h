@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+
+#include <initializer_list>
+
+namespace filters
+{
+
+/// Adds an array of values to the field data.
+template <class Array, class Values>
+void addFieldValues(
+  vtkDataObject* output, const char* name, const Values& values, int components = 1)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  for (const auto& value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  output->GetFieldData()->AddArray(array);
+}
+
+/// Adds an array of one value.
+template <class Array, class Value>
+void addFieldValue(vtkDataObject* output, const char* name, const Value& value)
+{
+  addFieldValues<Array>(output, name, std::initializer_list<Value>{ value });
+}
+
+} // namespace filters
