@@ -6,6 +6,7 @@
 #include "Common/AvailableMemory.h"
 #include "Input/FlatData.h"
 #include "Input/GatheredData.h"
+#include "Input/GridSeams.h"
 #include "Input/OneLayer.h"
 #include "Sources/ImagePiece.h"
 
@@ -19,6 +20,7 @@
 #include "vtkUniformGridAMR.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -81,6 +83,19 @@ std::uint64_t placesOf(vtkDataSet* data)
       std::for_each(points->begin(), points->end(), addPoint);
     });
   return hash.value();
+}
+
+/// Returns whether the boxes of two datasets have points in common, but for rounding.
+bool areInTouch(const std::array<double, 6>& a, const std::array<double, 6>& b)
+{
+  bool are = true;
+  for (std::size_t low = 0; low < 6; low += 2)
+  {
+    const double rounding =
+      1e-6 * std::max(a[low + 1], b[low + 1]) - 1e-6 * std::min(a[low], b[low]);
+    are = are && std::max(a[low], b[low]) <= std::min(a[low + 1], b[low + 1]) + rounding;
+  }
+  return are;
 }
 
 /// Lists the names, types and components of all arrays.
@@ -179,6 +194,10 @@ PiecesOfRanks::PiecesOfRanks(
     });
   this->Own = std::move(kept);
   this->findDatasets(all);
+  for (const Dataset& dataset : this->Datasets)
+  {
+    this->HasSeams = this->HasSeams || this->meetsOthers(dataset) || this->meetsItself(dataset);
+  }
 }
 
 void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
@@ -210,6 +229,13 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
       {
         layers.push_back(numbers.layer);
       }
+      for (std::size_t low = 0; low < 6; low += 2)
+      {
+        const std::array<double, 6>& bounds = numbers.layer.bounds;
+        dataset.bounds[low] = isNew ? bounds[low] : std::min(dataset.bounds[low], bounds[low]);
+        dataset.bounds[low + 1] =
+          isNew ? bounds[low + 1] : std::max(dataset.bounds[low + 1], bounds[low + 1]);
+      }
       dataset.type = dataset.type == numbers.type ? dataset.type : -1;
       dataset.dimension = std::max(dataset.dimension, numbers.dimension);
       dataset.layers = std::max(dataset.layers, numbers.layers);
@@ -235,6 +261,56 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
     this->Datasets.push_back(std::move(entry.second));
   }
   this->IsOneLayer = areOneLayer(layers);
+}
+
+bool PiecesOfRanks::meetsOthers(const Dataset& dataset) const
+{
+  return dataset.dimension == 3 &&
+    std::any_of(this->Datasets.begin(), this->Datasets.end(),
+      [&](const Dataset& other)
+      {
+        const bool isOnOneRank = dataset.ranks.size() == 1 && other.ranks == dataset.ranks;
+        return &other != &dataset && other.dimension == 3 && !isOnOneRank &&
+          areInTouch(dataset.bounds, other.bounds);
+      });
+}
+
+/// Returns whether a grid has a seam. All ranks call it.
+bool PiecesOfRanks::meetsItself(const Dataset& dataset) const
+{
+  if (dataset.type != VTK_STRUCTURED_GRID || dataset.dimension < 3 || dataset.ranks.size() < 2)
+  {
+    return false;
+  }
+  OuterPoints points;
+  this->All.allGather(
+    [&]
+    {
+      OuterPoints own;
+      for (const DatasetPiece& piece : this->Own)
+      {
+        if (piece.slot == dataset.slot)
+        {
+          addOuterPoints(piece.data, dataset.whole, own);
+        }
+      }
+      Ranks::Bytes bytes;
+      for (const auto& point : own)
+      {
+        put(point.first, bytes);
+        put(point.second, bytes);
+      }
+      return bytes;
+    },
+    [&](Reader& reader)
+    {
+      while (!reader.IsAtEnd())
+      {
+        const auto number = reader.Get<vtkIdType>();
+        points[number] = reader.Get<Point>();
+      }
+    });
+  return hasSeam(points, dataset.whole);
 }
 
 double PiecesOfRanks::cells() const
@@ -264,7 +340,8 @@ PiecesOfRanks::Kind PiecesOfRanks::kind() const
     dimension = std::max(dimension, dataset.dimension);
   }
   const bool isOneImage = areImages && this->Datasets.size() == 1 && this->Datasets[0].slot.empty();
-  return !areDivisible || dimension < 3 || this->IsOneLayer || (areImages && !isOneImage)
+  return !areDivisible || dimension < 3 || this->IsOneLayer || this->HasSeams ||
+      (areImages && !isOneImage)
     ? Kind::Gathered
     : isOneImage ? Kind::Image
                  : Kind::Meshes;

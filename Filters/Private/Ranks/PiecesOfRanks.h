@@ -34,7 +34,8 @@ public:
   /// Kinds of three-dimensional data that need not be gathered.
   enum class Kind
   {
-    Gathered, // others: adaptive blocks, surfaces, planes, data that are one cell thick
+    Gathered, // others: adaptive blocks, surfaces, planes, data that are one cell thick, datasets
+              // that meet others on other ranks or themselves (O-grids)
     Meshes,
     Image
   };
@@ -72,12 +73,15 @@ private:
     std::vector<PointExtent> extents{};             ///< pieces, in the order of ranks
     double cells = 0;
     PointExtent whole{};
+    std::array<double, 6> bounds{};
     std::vector<std::size_t> ranks{}; ///< that have a piece
   };
+  bool meetsOthers(const Dataset& dataset) const;
+  bool meetsItself(const Dataset& dataset) const;
   vtkSmartPointer<vtkDataSet> ownOf(const Dataset& dataset) const;
 
   std::vector<Dataset> Datasets;
-  bool IsAmr = false, IsOneLayer = false;
+  bool IsAmr = false, IsOneLayer = false, HasSeams = false;
 };
 
 } // namespace filters

@@ -8,7 +8,9 @@
 #include "Cells/PointTrends.h"
 #include "Common/CellTypes.h"
 #include "Input/CoincidentPoints.h"
+#include "Input/DatasetPieces.h"
 #include "Input/FlatData.h"
+#include "Input/GridSeams.h"
 #include "Walls/BoundaryFaces.h"
 #include "Walls/SheetFaces.h"
 
@@ -16,6 +18,7 @@
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkPointData.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -230,6 +233,19 @@ bool hasCurvedCells(const MeshArrays& mesh)
     [](int type) { return !vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type)); });
 }
 
+/// Returns whether points of a grid coincide; those of images and rectilinear grids do not.
+bool hasSeam(vtkDataSet* grid)
+{
+  if (!vtkStructuredGrid::SafeDownCast(grid))
+  {
+    return false;
+  }
+  const std::array<int, 6> whole = extentOf(grid, false);
+  OuterPoints points;
+  addOuterPoints(grid, whole, points);
+  return filters::hasSeam(points, whole);
+}
+
 /// Sets point values from cells as seen from one side, exact for smooth fields.
 void setValuesForSheets(vtkDataSet* leaf)
 {
@@ -413,10 +429,7 @@ private:
 SharedPoints::SharedPoints(
   const Leaves& leaves, int dimension, const std::vector<std::vector<bool>>& kinds)
 {
-  const auto isGrid = [](const std::array<int, 3>& points) {
-    return std::min({ points[0], points[1], points[2] }) > 1;
-  };
-  if (leaves.empty() || (leaves.size() == 1 && isGrid(structureOf(leaves[0]))))
+  if (leaves.empty() || (leaves.size() == 1 && isGrid(leaves[0]) && !hasSeam(leaves[0])))
   {
     return;
   }

@@ -24,8 +24,7 @@ class MeshArrays;
  *
  * Walls without thickness within a dataset stay: points on both sides of sheets (see SheetFaces.h)
  * are kept apart. Sheets are searched for between large sets of cells that are connected by points,
- * because in discontinuous elements values jump between cells wherever the field is steep. A grid
- * alone (the seam of an O-grid) stays unchanged, and so do its pieces.
+ * because in discontinuous elements values jump between cells wherever the field is steep.
  */
 class SharedPoints
 {
