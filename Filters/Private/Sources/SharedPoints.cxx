@@ -424,6 +424,37 @@ private:
   Classes Numbers;
 };
 
+/// Returns the leaves that share points, directly or by others, in groups.
+std::vector<std::vector<std::size_t>> groupsOf(
+  std::size_t leaves, const Candidates& candidates, Classes& numbers)
+{
+  Classes groups(leaves);
+  std::vector<unsigned char> hasAny(leaves, 0);
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+  {
+    const std::size_t root = numbers.rootOf(i);
+    if (root != i)
+    {
+      groups.join(candidates.leaves[root], candidates.leaves[i]);
+      hasAny[candidates.leaves[root]] = hasAny[candidates.leaves[i]] = 1;
+    }
+  }
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t leaf = 0; leaf < leaves; ++leaf)
+  {
+    if (hasAny[leaf])
+    {
+      members[groups.rootOf(leaf)].push_back(leaf);
+    }
+  }
+  std::vector<std::vector<std::size_t>> result;
+  for (auto& group : members)
+  {
+    result.push_back(std::move(group.second));
+  }
+  return result;
+}
+
 } // namespace
 
 SharedPoints::SharedPoints(
@@ -446,30 +477,9 @@ SharedPoints::SharedPoints(
     return; // too many to be numbered
   }
   Joiner joiner(leaves, meshes, dimension, candidates, kinds);
-  Classes groups(leaves.size());
-  std::vector<unsigned char> hasAny(leaves.size(), 0);
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-  {
-    const std::size_t root = joiner.numbers().rootOf(i);
-    if (root != i)
-    {
-      groups.join(candidates.leaves[root], candidates.leaves[i]);
-      hasAny[candidates.leaves[i]] = 1;
-    }
-  }
-  std::vector<std::vector<std::size_t>> members(leaves.size());
-  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
-  {
-    members[groups.rootOf(leaf)].push_back(leaf);
-  }
   std::vector<std::int32_t> known(candidates.size(), -1); // of roots
-  for (std::vector<std::size_t>& some : members)
+  for (std::vector<std::size_t>& some : groupsOf(leaves.size(), candidates, joiner.numbers()))
   {
-    if (some.empty() ||
-      std::none_of(some.begin(), some.end(), [&](std::size_t leaf) { return hasAny[leaf] != 0; }))
-    {
-      continue;
-    }
     Group group;
     group.leaves = std::move(some);
     for (const std::size_t leaf : group.leaves)

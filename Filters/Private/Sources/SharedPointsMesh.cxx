@@ -104,6 +104,141 @@ void copyShapes(const std::vector<std::size_t>& group,
   }
 }
 
+/// The values of joined datasets: means at points, and of cells.
+class JoinedValues
+{
+public:
+  JoinedValues(vtkIdType points, vtkIdType cells, bool areOfCells)
+    : AreOfCells(areOfCells)
+    , Sums(static_cast<std::size_t>(points), 0)
+    , Others(static_cast<std::size_t>(points), std::numeric_limits<double>::quiet_NaN())
+    , Counts(static_cast<std::size_t>(points), 0)
+  {
+    this->Ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+    this->Ghosts->SetNumberOfValues(cells);
+    this->OfCells->SetName(arrayName);
+    this->OfCells->SetNumberOfValues(cells);
+  }
+
+  /// Adds a dataset. `numbers`: of its points in the mesh; `isLeftOut`: of its cells; empty: none.
+  void add(vtkDataSet* leaf, const std::vector<std::int32_t>& numbers,
+    const std::vector<unsigned char>& isLeftOut)
+  {
+    vtkDataArray* cellValues = leaf->GetCellData()->GetScalars();
+    if (cellValues && !this->AreOfCells)
+    {
+      bringToPoints(leaf, false);
+      cellValues = nullptr;
+    }
+    const MeshArrays from(leaf);
+    vtkUnsignedCharArray* hidden = leaf->GetCellGhostArray();
+    std::vector<unsigned char> isUsed(static_cast<std::size_t>(from.points()), 0);
+    for (vtkIdType cell = 0; cell < from.cells(); ++cell)
+    {
+      if (!isLeftOut.empty() && isLeftOut[static_cast<std::size_t>(cell)])
+      {
+        continue;
+      }
+      const unsigned char ghost = hidden ? hidden->GetValue(cell) : 0;
+      const auto [mean, isGas] = this->addCell(from, cell, isUsed);
+      // Hides a cell without a value, because others may have values at its points.
+      this->Ghosts->SetValue(this->Next,
+        isGas ? ghost : static_cast<unsigned char>(ghost | vtkDataSetAttributes::HIDDENCELL));
+      this->OfCells->SetValue(this->Next, cellValues ? cellValues->GetComponent(cell, 0) : mean);
+      ++this->Next;
+    }
+    for (std::size_t point = 0; point < isUsed.size(); ++point)
+    {
+      const auto number = static_cast<std::size_t>(numbers[point]);
+      const double value = from.values()[point];
+      if (isUsed[point])
+      {
+        this->Sums[number] += value;
+        ++this->Counts[number];
+      }
+      else if (std::isfinite(value))
+      {
+        this->Others[number] = value;
+      }
+    }
+  }
+
+  /// Returns the sum of squared differences to the means of cells.
+  double squaredDifferences() const { return this->Within; }
+
+  /// Returns the sum of squared differences of a dataset's points to the means at points.
+  double squaredJumps(vtkDataSet* leaf, const std::vector<std::int32_t>& numbers) const
+  {
+    const MeshArrays from(leaf);
+    double squares = 0;
+    for (vtkIdType point = 0; point < from.points(); ++point)
+    {
+      const auto number = static_cast<std::size_t>(numbers[static_cast<std::size_t>(point)]);
+      const double jump = from.values()[point] - this->Sums[number] / this->Counts[number];
+      squares += std::isfinite(jump) ? jump * jump : 0;
+    }
+    return squares;
+  }
+
+  void setIn(vtkDataSet* mesh, bool withCells)
+  {
+    vtkNew<vtkDoubleArray> ofPoints;
+    ofPoints->SetName(arrayName);
+    ofPoints->SetNumberOfValues(mesh->GetNumberOfPoints());
+    for (std::size_t i = 0; i < this->Sums.size(); ++i)
+    {
+      ofPoints->SetValue(static_cast<vtkIdType>(i),
+        this->Counts[i] > 0 ? this->Sums[i] / this->Counts[i] : this->Others[i]);
+    }
+    mesh->GetPointData()->SetScalars(ofPoints);
+    mesh->GetCellData()->AddArray(this->Ghosts);
+    if (withCells)
+    {
+      mesh->GetCellData()->SetScalars(this->OfCells);
+    }
+  }
+
+private:
+  /// Returns the mean of a cell's points, and whether all have values, and marks these points.
+  std::pair<double, bool> addCell(
+    const MeshArrays& from, vtkIdType cell, std::vector<unsigned char>& isUsed)
+  {
+    double sum = 0, squares = 0;
+    int count = 0;
+    from.forPoints(cell,
+      [&](vtkIdType point)
+      {
+        sum += from.values()[point];
+        ++count;
+      });
+    const double mean = sum / count;
+    if (this->AreOfCells || !std::isfinite(sum))
+    {
+      return { mean, this->AreOfCells };
+    }
+    if (from.isVisible(cell))
+    {
+      from.forPoints(cell,
+        [&](vtkIdType point)
+        {
+          const double difference = from.values()[point] - mean;
+          isUsed[static_cast<std::size_t>(point)] = 1;
+          squares += difference * difference;
+        });
+      this->Within += squares;
+    }
+    return { mean, true };
+  }
+
+  bool AreOfCells;
+  std::vector<double> Sums, Others; // of used points, and of points that hidden cells alone have
+  std::vector<std::uint32_t> Counts;
+  vtkNew<vtkUnsignedCharArray> Ghosts;
+  vtkNew<vtkDoubleArray> OfCells;
+  vtkIdType Next = 0;
+  double Within = 0;
+};
+
 } // namespace
 
 /// Leaves out duplicate cells of a group. Returns how many points each merged one has, at most 2.
@@ -251,108 +386,20 @@ vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Lea
   {
     areAllOfCells = areAllOfCells && leaves[leaf]->GetCellData()->GetScalars();
   }
-  const auto points = static_cast<std::size_t>(group.points);
-  std::vector<double> sums(points, 0), others(points, std::numeric_limits<double>::quiet_NaN());
-  std::vector<std::uint32_t> counts(points, 0);
-  auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  mesh->CopyStructure(group.mesh);
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfValues(group.cells);
-  vtkNew<vtkDoubleArray> ofCells, ofPoints;
-  ofCells->SetNumberOfValues(group.cells);
-  double within = 0; // squared differences within cells
-  vtkIdType next = 0;
+  JoinedValues values(group.points, group.cells, areAllOfCells);
   for (std::size_t i = 0; i < group.leaves.size(); ++i)
   {
-    vtkDataSet* leaf = leaves[group.leaves[i]];
-    vtkDataArray* cellValues = leaf->GetCellData()->GetScalars();
-    if (cellValues && !areAllOfCells)
-    {
-      bringToPoints(leaf, false);
-      cellValues = nullptr;
-    }
-    const MeshArrays from(leaf);
-    vtkUnsignedCharArray* hidden = leaf->GetCellGhostArray();
-    std::vector<unsigned char> isUsed(static_cast<std::size_t>(from.points()), 0);
-    for (vtkIdType cell = 0; cell < from.cells(); ++cell)
-    {
-      if (!group.isLeftOut[i].empty() && group.isLeftOut[i][static_cast<std::size_t>(cell)])
-      {
-        continue;
-      }
-      unsigned char ghost = hidden ? hidden->GetValue(cell) : 0;
-      double sum = 0, squares = 0;
-      int count = 0;
-      from.forPoints(cell,
-        [&](vtkIdType point)
-        {
-          const double value = from.values()[point];
-          sum += value;
-          ++count;
-        });
-      const double mean = sum / count;
-      if (!areAllOfCells && !std::isfinite(sum))
-      {
-        ghost |= vtkDataSetAttributes::HIDDENCELL; // others may have values at its points
-      }
-      else if (!areAllOfCells && from.isVisible(cell))
-      {
-        from.forPoints(cell,
-          [&](vtkIdType point)
-          {
-            const auto at = static_cast<std::size_t>(point);
-            const double value = from.values()[point];
-            isUsed[at] = 1;
-            squares += (value - mean) * (value - mean);
-          });
-        within += squares;
-      }
-      ofCells->SetValue(next, cellValues ? cellValues->GetComponent(cell, 0) : mean);
-      ghosts->SetValue(next, ghost);
-      ++next;
-    }
-    for (std::size_t point = 0; point < isUsed.size(); ++point)
-    {
-      const auto number = static_cast<std::size_t>(group.numbers[i][point]);
-      const double value = from.values()[point];
-      if (isUsed[point])
-      {
-        sums[number] += value;
-        ++counts[number];
-      }
-      else if (std::isfinite(value))
-      {
-        others[number] = value;
-      }
-    }
+    values.add(leaves[group.leaves[i]], group.numbers[i], group.isLeftOut[i]);
   }
-  ofPoints->SetName(arrayName);
-  ofPoints->SetNumberOfValues(group.points);
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    ofPoints->SetValue(static_cast<vtkIdType>(i), counts[i] > 0 ? sums[i] / counts[i] : others[i]);
-  }
-  double between = 0; // squared differences between cells
+  double jumps = 0;
   for (std::size_t i = 0; i < group.leaves.size() && group.areAllApart && !areAllOfCells; ++i)
   {
-    const MeshArrays from(leaves[group.leaves[i]]);
-    for (vtkIdType point = 0; point < from.points(); ++point)
-    {
-      const auto number =
-        static_cast<std::size_t>(group.numbers[i][static_cast<std::size_t>(point)]);
-      const double jump = from.values()[point] - sums[number] / counts[number];
-      between += std::isfinite(jump) ? jump * jump : 0;
-    }
+    jumps += values.squaredJumps(leaves[group.leaves[i]], group.numbers[i]);
   }
+  auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  mesh->CopyStructure(group.mesh);
   copyShapes(group.leaves, group.numbers, group.isLeftOut, leaves, mesh);
-  mesh->GetPointData()->SetScalars(ofPoints);
-  mesh->GetCellData()->AddArray(ghosts);
-  if (areAllOfCells || between > largeJumps * within)
-  {
-    ofCells->SetName(ofPoints->GetName());
-    mesh->GetCellData()->SetScalars(ofCells);
-  }
+  values.setIn(mesh, areAllOfCells || jumps > largeJumps * values.squaredDifferences());
   return mesh;
 }
 
