@@ -288,7 +288,8 @@ private:
     }
   }
 
-  /// Adds views beside the 3-D view: one to its right, or three that form a square with it.
+  /// Adds views beside the 3-D view: one to its right, or three that form a square with it. Three
+  /// get a layout of their own if the 3-D view has company already, beside which they would be tiny.
   void addViews(int number)
   {
     // Puts the view of a script into a layout.
@@ -296,12 +297,22 @@ private:
     {
       this->Controller->AssignViewToLayout(this->Scene->getViewProxy());
     }
-    const std::array<int, 2> before = sizeOf(this->Scene);
     vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy());
-    const int left =
-      layout->SplitHorizontal(layout->GetViewLocation(this->Scene->getViewProxy()), 0.5);
+    const bool isCrowded = number > 1 && layout->GetViews().size() > 1;
+    const std::array<int, 2> before = sizeOf(this->Scene);
+    if (isCrowded)
+    {
+      layout = this->addLayout();
+    }
+    const int left = layout->SplitHorizontal(
+      isCrowded ? 0 : layout->GetViewLocation(this->Scene->getViewProxy()), 0.5);
     std::vector<int> cells = { left + 1 };
-    if (number > 1)
+    if (isCrowded)
+    {
+      const int right = layout->SplitVertical(left + 1, 0.5);
+      cells = { left, right, right + 1 };
+    }
+    else if (number > 1)
     {
       const int right = layout->SplitVertical(left + 1, 0.5);
       const int underScene = layout->SplitVertical(left, 0.5) + 1;
@@ -315,6 +326,17 @@ private:
       this->Views.push_back(this->addView(layout, cell));
     }
     this->keepInSight(before, sizeOf(this->Scene));
+  }
+
+  /// Adds a tab.
+  vtkSMViewLayoutProxy* addLayout()
+  {
+    vtkSMSessionProxyManager* proxies = this->Server->proxyManager();
+    auto layout = vtkSmartPointer<vtkSMProxy>::Take(proxies->NewProxy("misc", "ViewLayout"));
+    this->Controller->InitializeProxy(layout);
+    this->Controller->RegisterLayoutProxy(
+      layout, proxies->GetUniqueProxyName("layouts", "Schlieren Images", false).c_str());
+    return vtkSMViewLayoutProxy::SafeDownCast(layout);
   }
 
   pqRenderView* addView(vtkSMViewLayoutProxy* layout, int cell)

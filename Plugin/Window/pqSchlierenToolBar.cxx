@@ -5,6 +5,7 @@
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
+#include "pqHelpReaction.h"
 #include "pqInterfaceTracker.h"
 #include "pqMultiViewWidget.h"
 #include "pqSettings.h"
@@ -143,6 +144,11 @@ void pqSchlierenToolBar::addMenu()
   auto* menu = new QMenu("Schlie&ren", window->menuBar());
   menu->setObjectName("menuSchlieren");
   menu->addActions(this->actions());
+  menu->addSeparator();
+  QAction* guide =
+    menu->addAction("&Guide", []() { pqHelpReaction::showProxyHelp("filters", "Schlieren"); });
+  guide->setObjectName("actionGuide");
+  guide->setToolTip("Show what the settings mean in ParaView's help");
   const QList<QAction*> menus = window->menuBar()->actions();
   window->menuBar()->insertMenu(menus.empty() ? nullptr : menus.last(), menu);
 }
