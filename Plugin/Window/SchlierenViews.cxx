@@ -45,6 +45,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace
@@ -171,23 +172,23 @@ public:
         // Keeps the cell, unless a new 3-D view has taken it.
         if (cell.layout && !cell.layout->GetView(cell.number))
         {
-          this->Views.push_back(this->addView(cell.layout, cell.number));
+          this->Views.push_back(this->addView(cell.layout, cell.number, "Schlieren View"));
         }
         else
         {
-          this->addViews(1);
+          this->addViews({ "Schlieren View" });
         }
         this->addImage(0, [](vtkSMProxy*) {});
         break;
       case Arrangement::ThreeImages:
-        this->addViews(3);
+        this->addViews({ "Knife Edge", "Shadowgraph", "Interferogram" });
         this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::KNIFE_EDGE); });
         this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::SHADOWGRAPH); });
         this->addImage(
           2, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::INTERFEROGRAM); });
         break;
       case Arrangement::Comparison:
-        this->addViews(3);
+        this->addViews({ "Straight Rays", "Refracted Rays", "Difference" });
         this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::STRAIGHT); });
         this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::REFRACTED); });
         this->addImage(
@@ -221,7 +222,7 @@ public:
   void show(pqPipelineSource* filter)
   {
     this->findScene();
-    this->addViews(1);
+    this->addViews({ "Image of " + filter->getSMName() });
     pqRenderView* view = this->Views[0];
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();
     {
@@ -290,7 +291,7 @@ private:
 
   /// Adds views beside the 3-D view: one to its right, or three that form a square with it. Three
   /// get a layout of their own if the 3-D view has company already, beside which they would be tiny.
-  void addViews(int number)
+  void addViews(const std::vector<QString>& names)
   {
     // Puts the view of a script into a layout.
     if (!vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy()))
@@ -298,21 +299,22 @@ private:
       this->Controller->AssignViewToLayout(this->Scene->getViewProxy());
     }
     vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy());
-    const bool isCrowded = number > 1 && layout->GetViews().size() > 1;
+    const bool isCrowded = names.size() > 1 && layout->GetViews().size() > 1;
     const std::array<int, 2> before = sizeOf(this->Scene);
     if (isCrowded)
     {
       layout = this->addLayout();
     }
-    const int left = layout->SplitHorizontal(
-      isCrowded ? 0 : layout->GetViewLocation(this->Scene->getViewProxy()), 0.5);
+    const int scene = layout->GetViewLocation(this->Scene->getViewProxy());
+    const int left =
+      isCrowded ? layout->SplitVertical(0, 0.5) : layout->SplitHorizontal(scene, 0.5);
     std::vector<int> cells = { left + 1 };
-    if (isCrowded)
+    if (isCrowded) // the first one as wide as the tab
     {
-      const int right = layout->SplitVertical(left + 1, 0.5);
-      cells = { left, right, right + 1 };
+      const int below = layout->SplitHorizontal(left + 1, 0.5);
+      cells = { left, below, below + 1 };
     }
-    else if (number > 1)
+    else if (names.size() > 1)
     {
       const int right = layout->SplitVertical(left + 1, 0.5);
       const int underScene = layout->SplitVertical(left, 0.5) + 1;
@@ -321,9 +323,9 @@ private:
     // Activates the 3-D view, because ParaView's toolbar shows the axes of the first active view,
     // which traces would not survive while that is made.
     pqActiveObjects::instance().setActiveView(this->Scene);
-    for (const int cell : cells)
+    for (std::size_t i = 0; i < cells.size(); ++i)
     {
-      this->Views.push_back(this->addView(layout, cell));
+      this->Views.push_back(this->addView(layout, cells[i], names[i]));
     }
     this->keepInSight(before, sizeOf(this->Scene));
   }
@@ -339,11 +341,14 @@ private:
     return vtkSMViewLayoutProxy::SafeDownCast(layout);
   }
 
-  pqRenderView* addView(vtkSMViewLayoutProxy* layout, int cell)
+  pqRenderView* addView(vtkSMViewLayoutProxy* layout, int cell, const QString& name)
   {
     auto* builder = pqApplicationCore::instance()->getObjectBuilder();
     auto* view = qobject_cast<pqRenderView*>(builder->createView("RenderView", this->Server));
     layout->AssignView(cell, view->getViewProxy());
+    const std::string unique =
+      this->Server->proxyManager()->GetUniqueProxyName("views", qUtf8Printable(name), false);
+    view->rename(QString::fromStdString(unique));
     return view;
   }
 

@@ -17,6 +17,7 @@
 #include <QCoreApplication>
 #include <QEvent>
 #include <QLabel>
+#include <QRegularExpression>
 
 #include <algorithm>
 
@@ -26,11 +27,14 @@ namespace
 const QString labelName = "SchlierenStatus";
 constexpr int margin = 6; // pixels
 
-/// Places the label at the lower left if its words fit and do not cover most of an image.
+/// Places the label at the lower left, beside the image's legend, if its words fit and do not cover
+/// most of an image.
 void place(QLabel* label, QWidget* view)
 {
+  constexpr double widest = 0.6; // of the view
   label->setWordWrap(false);
-  const int width = std::min(label->sizeHint().width(), view->width() - 2 * margin);
+  const int width =
+    std::min(label->sizeHint().width(), static_cast<int>(widest * view->width()) - margin);
   label->setWordWrap(true);
   label->resize(width, label->heightForWidth(width));
   label->move(margin, view->height() - label->height() - margin);
@@ -43,13 +47,18 @@ QLabel* labelOf(QWidget* view)
   return view->findChild<QLabel*>(labelName, Qt::FindDirectChildrenOnly);
 }
 
+/// Returns the status of an image without the speed and the device, which do not concern it.
 QString statusOf(vtkSMProxy* filter)
 {
+  static const QRegularExpression speed(
+    ",( [0-9.]+( million)? rays/s on)? (CUDA|CPU)( \\([^)]*\\)| on each of [0-9]+ ranks)?");
+
   for (const char* name : { "Status", "Stopped" })
   {
     filter->UpdatePropertyInformation(filter->GetProperty(name));
   }
-  const QString status = QString::fromUtf8(vtkSMPropertyHelper(filter, "Status").GetAsString());
+  QString status = QString::fromUtf8(vtkSMPropertyHelper(filter, "Status").GetAsString());
+  status.remove(speed);
   return vtkSMPropertyHelper(filter, "Stopped").GetAsInt() != 0 ? "Stopped. " + status : status;
 }
 

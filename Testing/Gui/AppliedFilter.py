@@ -34,7 +34,7 @@ user.undo()
 user.save_state("colored_again.pvsm")
 user.undo()
 user.save_state("grey_again.pvsm")
-user.python("ColorBy(GetDisplayProperties(FindSource('Schlieren1'), FindView('RenderView2')), ('POINTS', 'OpticalPathDifference'))")
+user.python("ColorBy(GetDisplayProperties(FindSource('Schlieren1'), FindView('Image of Schlieren1')), ('POINTS', 'OpticalPathDifference'))")
 user.choose("Cutoff/ComboBox", "Shadowgraph")
 user.apply()
 user.save_state("chosen.pvsm")
@@ -45,7 +45,7 @@ user.apply()
 user.choose("Quality/ComboBox", "Reference")
 user.python("""
 import inside_window, time
-bench, flat = by_name("Schlieren1", "RenderView2")
+bench, flat = by_name("Schlieren1", "Image of Schlieren1")
 until(lambda: finished(bench))
 pause(0.3)
 inside_window.begun = time.monotonic()
@@ -53,7 +53,7 @@ inside_window.begun = time.monotonic()
 user.apply()
 user.python("""
 import inside_window, time
-bench, flat = by_name("Schlieren1", "RenderView2")
+bench, flat = by_name("Schlieren1", "Image of Schlieren1")
 assert not finished(bench), "Apply waited for the whole image"
 assert time.monotonic() - inside_window.begun < 30, "Apply took long"
 def intensity():

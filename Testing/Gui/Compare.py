@@ -16,7 +16,7 @@ NOTES = os.path.join(FOLDER, "sizes.npz")
 user = ViewsSession()
 user.press("Comparison")
 user.python(f"""
-views = [FindView(name) for name in ("RenderView2", "RenderView3", "RenderView4")]
+views = [FindView(name) for name in ("Straight Rays", "Refracted Rays", "Difference")]
 np.savez({NOTES!r}, *[view.ViewSize for view in views])
 settle_views()
 assert sum(information(display.SchlierenBench, "MediumBuilds") for display in displays()) == 1, "A medium for each view"

@@ -38,7 +38,7 @@ inside_window.LOG = []
 (display,) = displays()
 def note(*_):
     inside_window.LOG.append(information(display, "SchlierenReduction"))
-FindView("RenderView2").SMProxy.AddObserver("EndEvent", note)
+FindView("Schlieren View").SMProxy.AddObserver("EndEvent", note)
 """)
 keep("first")
 WAY = ((0.3, 0.5), (0.35, 0.55), (0.4, 0.6), (0.45, 0.6), (0.5, 0.6))

@@ -14,7 +14,7 @@ from window_testing import FOLDER
 
 SIZE = [300, 200]
 HELPERS = f"""
-bench, turned, shown, drawn = by_name("bench", "RenderView1", "RenderView2", "RenderView4")
+bench, turned, shown, drawn = by_name("bench", "RenderView1", "RenderView2", "Schlieren View")
 def screenshot(view, name):
     SaveScreenshot(os.path.join(FOLDER, name), view, ImageResolution={SIZE})
 """

@@ -40,9 +40,9 @@ assert is_stopped() and finished(bench) and not abort.isEnabled() and bar.text()
 
 # Neither rendering nor an update nor a screenshot requests more.
 rays = information(bench, "TotalRaysTraced")
-Render(FindView("RenderView2"))
+Render(FindView("Image of Schlieren1"))
 bench.UpdatePipeline()
-SaveScreenshot(os.path.join(FOLDER, "stopped.png"), FindView("RenderView2"))
+SaveScreenshot(os.path.join(FOLDER, "stopped.png"), FindView("Image of Schlieren1"))
 pause(0.5)
 assert information(bench, "TotalRaysTraced") == rays and is_stopped()
 report("stopped")
@@ -67,7 +67,7 @@ click(widget("propertiesPanel", "Accept"))
 end()
 assert is_stopped() and finished(bench) and not abort.isEnabled()
 assert line().text() == "Stopped. No image: the refractive index is not known yet", line().text()
-Render(FindView("RenderView2"))
+Render(FindView("Image of Schlieren1"))
 assert bench.GetDataInformation().GetNumberOfPoints() == 0
 assert information(bench, "MediumBuilds") == builds
 report("no index")

@@ -28,11 +28,11 @@ QTest.mouseClick(abort, Qt.MouseButton.LeftButton)
 line = widget("Frame.2", "Viewport", "SchlierenStatus")
 assert line.text().startswith("Stopped. ") and not abort.isEnabled() and information(bench, "Stopped") == 1
 rays = information(bench, "TotalRaysTraced")
-Render(FindView("RenderView2"))
+Render(FindView("Image of Schlieren1"))
 pause(0.5)
 assert information(bench, "TotalRaysTraced") == rays
 bench.SamplesPerPixel = 2
-Render(FindView("RenderView2"))
+Render(FindView("Image of Schlieren1"))
 until(lambda: information(bench, "Status").startswith("2 samples"))
 assert information(bench, "Stopped") == 0
 with open({REPORT!r}, "w") as file:

@@ -28,7 +28,7 @@ def blob(x, y, z, time):
 
 
 FIND = """
-shown = FindView("RenderView2")
+shown = FindView("Schlieren View")
 (display,) = displays()
 bench = display.SchlierenBench
 """
