@@ -31,6 +31,13 @@ for name, text in (("LengthScale", "Length Scale (m per data unit)"), ("DensityS
     check_label(name, text)
 user.check("FocalPoint", "visible", "false")
 
+# How large the data are, before that is applied: 239 times 0.125 mm long.
+user.check("LengthScale/Note", "text", "The data are 29.9 × 16 × 16 mm.")
+user.choose("LengthScale/DoubleLineEdit0", "1e-3")
+user.check("LengthScale/Note", "text", "The data are 29.9 × 16 × 16 µm.")
+user.choose("LengthScale/DoubleLineEdit0", "100")
+user.check("LengthScale/Note", "text", "The data are 2.99 × 1.6 × 1.6 m.")
+
 # What Custom is, before it is applied.
 user.check("Gas/Note", "text", "Custom: 0.000226 m³/kg (air, visible light)")
 user.choose("GladstoneDaleConstant/DoubleLineEdit0", "2.38e-4")
