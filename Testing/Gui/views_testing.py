@@ -99,7 +99,8 @@ def play_trace(state, before):
     """Plays what was traced in a program of its own, after the script `before`, and saves the state."""
     script = os.path.join(FOLDER, "played.py")
     with open(TRACE, encoding="utf-8") as trace, open(script, "w", encoding="utf-8") as file:
-        file.write(f"{before}\n{trace.read()}\nRenderAllViews()\nSaveState({state!r})\n"
+        file.write(f"import sys\nsys.path.insert(0, {os.path.join(SOURCE, 'Testing', 'Python')!r})\nimport quick_sessions\n"
+                   f"{before}\n{trace.read()}\nRenderAllViews()\nSaveState({state!r})\n"
                    "[Delete(view) for view in GetRenderViews()]\n")
     environment = dict(os.environ, PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
     done = subprocess.run(["pvpython", script], cwd=FOLDER, env=environment, text=True, check=False,
