@@ -59,15 +59,13 @@ void LatticeInCells::addCurved()
   NormalCell other{};
   other.shape = CellShape::Other;
   this->Curved->forParts(enter,
-    [&](const CurvedPart& part, const Vector& middle, const Vector rows[3], const Vector& extent)
+    [&](const CurvedPart& part, const Vector& middle, const Vector rows[3], const Vector& low,
+      const Vector& high)
     {
       this->Part = &part;
       this->Tolerance = part.tolerance;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        this->Low[axis] = -extent[axis];
-        this->High[axis] = extent[axis];
-      }
+      std::copy_n(low.begin(), 3, this->Low);
+      std::copy_n(high.begin(), 3, this->High);
       this->scan(other, middle, rows);
     });
   this->Part = nullptr;
