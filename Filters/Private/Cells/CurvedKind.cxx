@@ -71,8 +71,7 @@ int orderAlong(const std::vector<double>& places, std::size_t axis)
   return static_cast<int>(end - values.begin()) - 1;
 }
 
-} // namespace
-
+/// Multiplies `tensor`, with `counts` numbers along the axes, by a matrix along one of them.
 void multiplyAlong(const std::vector<double>& matrix, std::size_t axis,
   const std::array<std::size_t, 3>& counts, double* tensor)
 {
@@ -100,6 +99,8 @@ void multiplyAlong(const std::vector<double>& matrix, std::size_t axis,
     }
   }
 }
+
+} // namespace
 
 bool CurvedKind::isOf(vtkGenericCell* cell, int ofType) const
 {

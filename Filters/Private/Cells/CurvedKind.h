@@ -124,8 +124,4 @@ private:
   bool make(vtkGenericCell* cell, const std::vector<double>& weights);
 };
 
-/// Multiplies `tensor`, with `counts` numbers along the axes, by a matrix along one of them.
-void multiplyAlong(const std::vector<double>& matrix, std::size_t axis,
-  const std::array<std::size_t, 3>& counts, double* tensor);
-
 } // namespace filters
