@@ -6,6 +6,7 @@
 
 #include "Cells/CellSampler.h"
 #include "Cells/MeshCell.h"
+#include "Cells/PlacesInPart.h"
 #include "Walls/MeshFaces.h"
 
 #include "vtkCellData.h"
@@ -38,6 +39,44 @@ Mesh curvedCell(int type, int count, std::array<int, 3> orders = { 0, 0, 0 })
     mesh->GetCellData()->SetHigherOrderDegrees(degrees);
   }
   return mesh;
+}
+
+/// Calls act(index, powers of u, v, w) for the terms of a part's polynomials.
+template <class Act>
+void forTerms(const filters::CurvedPart& part, const Act& act)
+{
+  for (int i = 0; i <= part.orders[0]; ++i)
+  {
+    for (int j = 0; j <= part.orders[1]; ++j)
+    {
+      for (int k = 0; k <= part.orders[2]; ++k)
+      {
+        const int sum = i + (part.reference == filters::Reference::Box ? 0 : j) +
+          (part.reference == filters::Reference::Simplex ? k : 0);
+        if (sum <= part.orders[0])
+        {
+          const int term = (i * (part.orders[1] + 1) + j) * (part.orders[2] + 1) + k;
+          act(static_cast<std::size_t>(term), std::array<int, 3>{ i, j, k });
+        }
+      }
+    }
+  }
+}
+
+/// x, y, z and the value at a place in a part, term by term.
+std::array<double, 4> sumAt(const filters::CurvedPart& part, const Vec& at)
+{
+  std::array<double, 4> sum{};
+  forTerms(part,
+    [&](std::size_t term, const std::array<int, 3>& powers)
+    {
+      for (std::size_t of = 0; of < 4; ++of)
+      {
+        sum[of] += part.coefficients[4 * term + of] * std::pow(at[0], powers[0]) *
+          std::pow(at[1], powers[1]) * std::pow(at[2], powers[2]);
+      }
+    });
+  return sum;
 }
 
 /// The same cells, each with points of its own.
@@ -243,6 +282,113 @@ TEST(CurvedCells, DistortedCellsAreInvertedEverywhere)
       if (distortion < 0.1)
       {
         EXPECT_EQ(lost, 0);
+      }
+    }
+  }
+}
+
+// Places whose coordinates and values are known are found in a part, whatever instructions are used.
+TEST(CurvedCells, AllInstructionsFindPlacesInParts)
+{
+  constexpr int count = 93; // no multiple of any pack
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> around(-1, 1);
+  const auto all = filters::functionsToLocateInPart();
+  ASSERT_GE(all.size(), 1u);
+  for (const filters::CurvedPart& kind :
+    { filters::CurvedPart{ filters::Reference::Box, { 2, 4, 1 }, nullptr, { 0.75, 0.5, 0.125 },
+        { 0.25, 0.5, 0.125 }, true, 1e-3 },
+      filters::CurvedPart{ filters::Reference::Wedge, { 3, 3, 2 }, nullptr, { 0.5, 0.25, 0.5 },
+        { 0.25, 0.25, 0.5 }, true, 1e-3 },
+      filters::CurvedPart{ filters::Reference::Simplex, { 4, 4, 4 }, nullptr, { 0.25, 0.25, 0.5 },
+        { 0.25, 0.25, 0.25 }, true, 1e-3 } })
+  {
+    filters::CurvedPart part = kind;
+    std::vector<double> coefficients(500);
+    forTerms(part,
+      [&](std::size_t term, const std::array<int, 3>& powers)
+      {
+        const bool isLinear = powers[0] + powers[1] + powers[2] == 1;
+        for (std::size_t of = 0; of < 4; ++of)
+        {
+          const bool isOwn = isLinear && of < 3 && powers[of] == 1;
+          coefficients[4 * term + of] = (isOwn ? 1 : 0) + (of == 3 ? 1 : 0.01) * around(random);
+        }
+      });
+    part.coefficients = coefficients.data();
+    filters::CellPoints points;
+    double values[count], misses[count];
+    for (int i = 0; i < filters::CellPoints::room; ++i)
+    {
+      const Vec at = { around(random), around(random), around(random) };
+      const std::array<double, 4> sum = sumAt(part, at);
+      Vec place;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        points.normal[axis][i] = sum[axis];
+        place[axis] = part.middle[axis] + part.half[axis] * at[axis];
+      }
+      if (i < count)
+      {
+        values[i] = sum[3];
+        const bool isBox = part.reference == filters::Reference::Box;
+        const bool isSimplex = part.reference == filters::Reference::Simplex;
+        const double slant = place[0] + place[1] + (isSimplex ? place[2] : 0) - 1;
+        misses[i] = std::max({ 0., -place[0], -place[1], -place[2], place[0] - 1, place[1] - 1,
+          place[2] - 1, isBox ? 0. : slant });
+      }
+    }
+    EXPECT_GT(std::count(misses, misses + count, 0), count / 5);
+    for (const auto locate : all)
+    {
+      for (const bool isRegular : { true, false })
+      {
+        part.isRegular = isRegular;
+        locate(part, count, points);
+        for (int i = 0; i < count; ++i)
+        {
+          EXPECT_NEAR(points.miss[i], misses[i], 1e-9) << i;
+          EXPECT_NEAR(points.value[i], values[i], 1e-9) << i;
+        }
+      }
+    }
+  }
+}
+
+// u² on one axis: half of the space is there twice, the other half is not.
+TEST(CurvedCells, AllInstructionsLeaveOutWhatIsBeyondAFold)
+{
+  std::vector<double> coefficients(4 * 3 * 2 * 2);
+  const auto at = [&](std::size_t i, std::size_t j, std::size_t k)
+  { return &coefficients[4 * ((i * 2 + j) * 2 + k)]; };
+  at(2, 0, 0)[0] = 1;
+  at(0, 1, 0)[1] = 1;
+  at(0, 0, 1)[2] = 1;
+  at(2, 0, 0)[3] = 3;
+  at(0, 1, 0)[3] = 2;
+  const filters::CurvedPart part{ filters::Reference::Box, { 2, 1, 1 }, coefficients.data(),
+    { 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 }, false, 1e-3 };
+  filters::CellPoints points{};
+  constexpr int count = 61;
+  for (int i = 0; i < count; ++i)
+  {
+    points.normal[0][i] = (i + 0.5) / 31 - 1;
+    points.normal[1][i] = 0.8 * std::sin(i);
+    points.normal[2][i] = 0.8 * std::cos(i);
+  }
+  for (const auto locate : filters::functionsToLocateInPart())
+  {
+    locate(part, count, points);
+    for (int i = 0; i < count; ++i)
+    {
+      if (points.normal[0][i] < 0)
+      {
+        EXPECT_EQ(points.miss[i], HUGE_VAL) << i;
+      }
+      else
+      {
+        EXPECT_EQ(points.miss[i], 0) << i;
+        EXPECT_NEAR(points.value[i], 3 * points.normal[0][i] + 2 * points.normal[1][i], 1e-9) << i;
       }
     }
   }

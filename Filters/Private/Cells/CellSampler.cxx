@@ -338,7 +338,7 @@ void LatticeInCells::scan(const NormalCell& cell, const Vector& middle, const Ve
       double at[4];
       beginRow(static_cast<int>(row % rowCount), static_cast<int>(row / rowCount), at);
       const auto i = static_cast<int>(*given % rowLength);
-      bool isWithin = true;
+      bool isWithin = !this->Part || !this->isSettled(*given);
       for (int axis = 0; axis < 3 && this->Part; ++axis)
       {
         const double place = at[axis] + i * along[axis];

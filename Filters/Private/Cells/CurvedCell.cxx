@@ -70,10 +70,9 @@ bool CurvedCell::set(const CellTree::Cell& cell)
   {
     return false;
   }
-  const std::size_t size = this->Of->size();
-  std::vector<double>& coefficients = this->Coefficients[0];
-  coefficients.assign(4 * size, 0);
-  const double* factors = this->Of->factors.data();
+  std::vector<Term>& terms = this->Terms[0];
+  terms.assign(this->Of->size(), Term{});
+  const double* factor = this->Of->factors.data();
   bool isFirst = true;
   cell.block->forPoints(cell.id,
     [&](vtkIdType point)
@@ -90,37 +89,57 @@ bool CurvedCell::set(const CellTree::Cell& cell)
         x[axis] -= this->Origin[axis];
       }
       x[3] = cell.block->values()[point];
-      for (std::size_t of = 0; of < 4; ++of)
+      for (Term& term : terms)
       {
-        double* to = coefficients.data() + of * size;
-        for (std::size_t term = 0; term < size; ++term)
+        for (std::size_t of = 0; of < 4; ++of)
         {
-          to[term] += factors[term] * x[of];
+          term[of] += *factor * x[of];
         }
+        ++factor;
       }
-      factors += size;
     });
   return true;
 }
 
-/// Makes the polynomials of half of a part, in the next depth.
+/// Makes the polynomials of half of a part, in the next depth: those at (x - 1) / 2 or (x + 1) / 2.
 void CurvedCell::split(int from, std::size_t axis, bool isUpper)
 {
-  const std::array<std::size_t, 3> counts = this->Of->counts();
-  const std::size_t size = this->Of->size();
-  std::vector<double>& to = this->Coefficients[from + 1];
-  to = this->Coefficients[from];
-  for (std::size_t of = 0; of < 4; ++of)
-  {
-    multiplyAlong(this->Of->halves[axis][isUpper ? 1 : 0], axis, counts, to.data() + of * size);
-  }
+  std::vector<Term>& to = this->Terms[from + 1];
+  to = this->Terms[from];
+  const double sign = isUpper ? 1 : -1;
+  this->Of->forLines(axis,
+    [&](std::size_t begin, std::size_t stride, int last)
+    {
+      const auto at = [&](int power) -> Term&
+      { return to[begin + static_cast<std::size_t>(power) * stride]; };
+      double scale = 1;
+      for (int power = 1; power <= last; ++power)
+      {
+        scale /= 2;
+        for (double& factor : at(power))
+        {
+          factor *= scale;
+        }
+      }
+      for (int first = 0; first < last; ++first)
+      {
+        for (int power = last; power > first; --power)
+        {
+          const Term& more = at(power);
+          Term& sum = at(power - 1);
+          for (std::size_t of = 0; of < 4; ++of)
+          {
+            sum[of] += sign * more[of];
+          }
+        }
+      }
+    });
 }
 
 /// Chooses the axis whose halves are most nearly linear, by the sizes of terms. Halves have half of
 /// a linear term, with which others are compared.
 std::size_t CurvedCell::axisToSplit(const Part& part) const
 {
-  const std::size_t size = this->Of->size();
   std::array<double, 3> gains{};
   double halves[CurvedKind::maxOrder + 1] = { 1 };
   for (int power = 0; power < CurvedKind::maxOrder; ++power)
@@ -132,7 +151,7 @@ std::size_t CurvedCell::axisToSplit(const Part& part) const
     {
       for (std::size_t of = 0; of < 3 && powers[0] + powers[1] + powers[2] > 1; ++of)
       {
-        const double is = std::abs(this->Normal[of * size + term]);
+        const double is = std::abs(this->Normal[term][of]);
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
           gains[axis] += is * (1 - (of == axis ? 2 : 1) * halves[powers[axis]]);
@@ -150,23 +169,65 @@ std::size_t CurvedCell::axisToSplit(const Part& part) const
   return best;
 }
 
-/// Returns bounds of the powers of coordinates in a part, with the tolerance at the faces of the cell.
-CurvedCell::Powers CurvedCell::powersIn(const Part& part) const
+/// Bounds polynomials in a part, with the tolerance at the faces of the cell.
+CurvedCell::Bounds CurvedCell::boundsOf(const std::vector<Term>& terms, const Part& part) const
 {
-  Powers powers{};
+  double most[3][CurvedKind::maxOrder + 1]; // of each power
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double half = part.half[axis], at = part.middle[axis];
     const bool isAtFace =
       this->Of->reference != Reference::Box || at < 1.5 * half || at > 1 - 1.5 * half;
     const double farthest = 1 + (isAtFace ? tolerance / half : 1e-6);
-    powers.along[axis][0] = 1;
+    most[axis][0] = 1;
     for (int power = 0; power < this->Of->orders[axis]; ++power)
     {
-      powers.along[axis][power + 1] = powers.along[axis][power] * farthest;
+      most[axis][power + 1] = most[axis][power] * farthest;
     }
   }
-  return powers;
+  // Terms whose powers are all even have the sign of their factor, or are 0.
+  Term odd{}, even{}, evenWithSign{};
+  this->Of->forTerms(
+    [&](std::size_t term, const std::array<int, 3>& powers)
+    {
+      const double by = most[0][powers[0]] * most[1][powers[1]] * most[2][powers[2]];
+      const double byOfEven = ((powers[0] | powers[1] | powers[2]) & 1) == 0 ? by : 0;
+      for (std::size_t of = 0; of < 4 && term > 0; ++of)
+      {
+        const double factor = terms[term][of], size = std::abs(factor);
+        odd[of] += (by - byOfEven) * size;
+        even[of] += byOfEven * size;
+        evenWithSign[of] += byOfEven * factor;
+      }
+    });
+  Bounds bounds{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    bounds.low[axis] = (evenWithSign[axis] - even[axis]) / 2 - odd[axis];
+    bounds.high[axis] = (evenWithSign[axis] + even[axis]) / 2 + odd[axis];
+    bounds.sum[axis] = odd[axis] + even[axis];
+  }
+  return bounds;
+}
+
+/// Sets normal coordinates. Returns their bounds.
+CurvedCell::Bounds CurvedCell::setNormal(
+  const std::vector<Term>& terms, const Part& part, const Vector rows[3])
+{
+  this->Normal.resize(terms.size());
+  this->Of->forTerms(
+    [&](std::size_t term, const std::array<int, 3>&)
+    {
+      const Term& from = terms[term];
+      Term& to = this->Normal[term];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        to[axis] = rows[axis][0] * from[0] + rows[axis][1] * from[1] + rows[axis][2] * from[2];
+      }
+      to[3] = from[3];
+    });
+  std::fill_n(this->Normal[0].begin(), 3, 0.);
+  return this->boundsOf(this->Normal, part);
 }
 
 /// Returns whether a part is outside of the face that cuts the box of parametric coordinates.
@@ -183,101 +244,67 @@ bool CurvedCell::isBeyondSlant(const Part& part) const
   return nearest > 1 + 2 * tolerance;
 }
 
-void CurvedCell::show(const std::vector<double>& coefficients, const Part& part, bool isRegular,
-  const Vector rows[3], const Vector& extent) const
+void CurvedCell::show(
+  int depth, const Part& part, bool isRegular, const Vector rows[3], const Bounds& bounds)
 {
-  const std::size_t size = this->Of->size();
   CurvedPart found{};
   found.reference = this->Of->reference;
   std::copy_n(this->Of->orders.begin(), 3, found.orders);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    found.coefficients[axis] = this->Normal.data() + axis * size;
-  }
-  found.coefficients[3] = coefficients.data() + 3 * size;
+  found.coefficients = this->Normal[0].data();
   std::copy_n(part.middle.begin(), 3, found.middle);
   std::copy_n(part.half.begin(), 3, found.half);
   found.isRegular = isRegular;
   found.tolerance = tolerance;
-  const Vector middle = { coefficients[0], coefficients[size], coefficients[2 * size] };
-  (*this->OnVisit)(found, this->Origin + middle, rows, extent);
+  const Term& middle = this->Terms[depth][0];
+  (*this->OnVisit)(
+    found, this->Origin + Vector{ middle[0], middle[1], middle[2] }, rows, bounds.low, bounds.high);
 }
 
-void CurvedCell::divide(int depth, const Part& part, Visited visited)
+void CurvedCell::divide(int depth, const Part& part)
 {
-  const std::size_t size = this->Of->size();
-  const std::vector<double>& coefficients = this->Coefficients[depth];
-  const Vector middle = { coefficients[0], coefficients[size], coefficients[2 * size] };
-  const std::array<std::size_t, 3> counts = this->Of->counts();
-  const std::size_t linear[3] = { counts[1] * counts[2], counts[2], 1 };
-  const Powers most = this->powersIn(part);
-  Vector spread{};
-  this->Of->forTerms(
-    [&](std::size_t term, const std::array<int, 3>& of)
-    {
-      for (std::size_t axis = 0; axis < 3 && term > 0; ++axis)
-      {
-        spread[axis] += most(of) * std::abs(coefficients[axis * size + term]);
-      }
-    });
-  if (this->isBeyondSlant(part) ||
-    !(*this->OnEnter)(this->Origin + middle - spread, this->Origin + middle + spread))
+  const std::vector<Term>& terms = this->Terms[depth];
+  const Vector middle = this->Origin + Vector{ terms[0][0], terms[0][1], terms[0][2] };
+  const Bounds reached = this->boundsOf(terms, part);
+  if (this->isBeyondSlant(part) || !(*this->OnEnter)(middle + reached.low, middle + reached.high))
   {
     return;
   }
 
-  Vector rows[3], columns[3]{}, extent{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  const std::array<std::size_t, 3> counts = this->Of->counts();
+  const std::size_t linear[3] = { counts[1] * counts[2], counts[2], 1 };
+  Vector rows[3], columns[3];
+  for (std::size_t along = 0; along < 3; ++along)
   {
-    for (std::size_t along = 0; along < 3; ++along)
-    {
-      columns[along][axis] = coefficients[axis * size + linear[along]];
-    }
+    std::copy_n(terms[linear[along]].begin(), 3, columns[along].begin());
   }
-  this->Normal.resize(3 * size);
-  const auto setNormal = [&]
-  {
-    extent = {};
-    this->Of->forTerms(
-      [&](std::size_t term, const std::array<int, 3>& of)
-      {
-        const Vector by = { coefficients[term], coefficients[size + term],
-          coefficients[2 * size + term] };
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          const double is = term == 0 ? 0 : dot(rows[axis], by);
-          this->Normal[axis * size + term] = is;
-          extent[axis] += most(of) * std::abs(is);
-        }
-      });
-  };
+  Bounds bounds{};
   const bool isInvertible = invert(columns, rows);
   if (isInvertible)
   {
-    setNormal();
+    bounds = this->setNormal(terms, part, rows);
   }
   const bool isRegular =
-    isInvertible && *std::max_element(extent.begin(), extent.end()) < 1 + nearlyLinear;
-  const bool isLast = depth == maxSplits;
-  if (isRegular ? visited == Visited::Others && depth <= maxSplitsOfRegular
-                : visited == Visited::Regular && depth == maxSplitsOfRegular)
+    isInvertible && *std::max_element(bounds.sum.begin(), bounds.sum.end()) < 1 + nearlyLinear;
+  if (!isRegular && depth == maxSplitsOfRegular && !this->AreOthersNext)
   {
-    this->HasOthers = this->HasOthers || !isRegular;
+    this->Others.push_back(part);
+    this->TermsOfOthers.insert(this->TermsOfOthers.end(), terms.begin(), terms.end());
     return;
   }
+  const bool isLast = depth == maxSplits;
   if (!isRegular && (!isInvertible || isLast))
   {
     findFrame(columns, rows);
-    setNormal();
+    bounds = this->setNormal(terms, part, rows);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      rows[axis] = (extent[axis] > 0 ? 1 / extent[axis] : 1) * rows[axis];
+      rows[axis] = (bounds.sum[axis] > 0 ? 1 / bounds.sum[axis] : 1) * rows[axis];
     }
-    setNormal();
+    bounds = this->setNormal(terms, part, rows);
   }
   if (isRegular || isLast)
   {
-    this->show(coefficients, part, isRegular, rows, extent);
+    this->show(depth, part, isRegular, rows, bounds);
     return;
   }
   const std::size_t axis = this->axisToSplit(part);
@@ -288,7 +315,7 @@ void CurvedCell::divide(int depth, const Part& part, Visited visited)
     half.half[axis] /= 2;
     half.middle[axis] += isUpper ? half.half[axis] : -half.half[axis];
     ++half.splits[axis];
-    this->divide(depth + 1, half, visited);
+    this->divide(depth + 1, half);
   }
 }
 
@@ -296,12 +323,18 @@ void CurvedCell::forParts(const Enter& enter, const Visit& visit)
 {
   this->OnEnter = &enter;
   this->OnVisit = &visit;
-  const Part whole{ { 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 }, { 0, 0, 0 } };
-  this->HasOthers = false;
-  this->divide(0, whole, Visited::Regular);
-  if (this->HasOthers)
+  this->Others.clear();
+  this->TermsOfOthers.clear();
+  this->AreOthersNext = false;
+  this->divide(0, { { 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 }, { 0, 0, 0 } });
+  this->AreOthersNext = true;
+  auto terms = this->TermsOfOthers.begin();
+  for (const Part& part : this->Others)
   {
-    this->divide(0, whole, Visited::Others);
+    const auto end = terms + static_cast<std::ptrdiff_t>(this->Of->size());
+    this->Terms[maxSplitsOfRegular].assign(terms, end);
+    terms = end;
+    this->divide(maxSplitsOfRegular, part);
   }
 }
 

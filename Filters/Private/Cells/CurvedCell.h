@@ -33,9 +33,9 @@ public:
   /// Is called with bounds of coordinates, and returns whether to continue there.
   using Enter = std::function<bool(const Vector& low, const Vector& high)>;
   /// Is called with a part; the origin of its normal coordinates, the rows of the matrix that makes
-  /// them, and how far they extend from 0.
-  using Visit = std::function<void(
-    const CurvedPart& part, const Vector& middle, const Vector rows[3], const Vector& extent)>;
+  /// them, and their bounds.
+  using Visit = std::function<void(const CurvedPart& part, const Vector& middle,
+    const Vector rows[3], const Vector& low, const Vector& high)>;
 
   /// Visits the parts, those that are folded or collapsed last, in an order that does not depend on
   /// what is entered.
@@ -45,42 +45,38 @@ private:
   // Of regular parts that are visited first, and of all.
   static constexpr int maxSplitsOfRegular = 9, maxSplits = 12, maxSplitsAlongAxis = 6;
 
+  /// Of x, y, z and the value, for one term.
+  using Term = std::array<double, 4>;
   struct Part
   {
     std::array<double, 3> middle, half;
     std::array<int, 3> splits;
   };
-  /// Which parts are visited.
-  enum class Visited
+  /// What polynomials reach.
+  struct Bounds
   {
-    Regular,
-    Others
+    Vector low, high;
+    Vector sum; // of all terms but the first, whatever their signs
   };
 
-  struct Powers
-  {
-    double along[3][CurvedKind::maxOrder + 1];
-
-    double operator()(const std::array<int, 3>& of) const // of a term
-    {
-      return this->along[0][of[0]] * this->along[1][of[1]] * this->along[2][of[2]];
-    }
-  };
-
-  Powers powersIn(const Part& part) const;
+  Bounds boundsOf(const std::vector<Term>& terms, const Part& part) const;
+  Bounds setNormal(const std::vector<Term>& terms, const Part& part, const Vector rows[3]);
   bool isBeyondSlant(const Part& part) const;
-  void show(const std::vector<double>& coefficients, const Part& part, bool isRegular,
-    const Vector rows[3], const Vector& extent) const;
+  void show(
+    int depth, const Part& part, bool isRegular, const Vector rows[3], const Bounds& bounds);
   void split(int from, std::size_t axis, bool isUpper);
-  void divide(int depth, const Part& part, Visited visited);
+  void divide(int depth, const Part& part);
   std::size_t axisToSplit(const Part& part) const;
 
   std::shared_ptr<const CurvedKind> Of;
   Vector Origin{};
   vtkNew<vtkGenericCell> Cell;
-  std::vector<double> Coefficients[maxSplits + 1]; // of x, y, z and the value, by depth
-  std::vector<double> Normal;                      // those of normal coordinates
-  bool HasOthers = false;
+  std::vector<Term> Terms[maxSplits + 1]; // by depth
+  std::vector<Term> Normal;               // with normal coordinates in place of x, y and z
+  // Folded or collapsed parts of depth maxSplitsOfRegular, and their terms one after another.
+  std::vector<Part> Others;
+  std::vector<Term> TermsOfOthers;
+  bool AreOthersNext = false;
   const Enter* OnEnter = nullptr;
   const Visit* OnVisit = nullptr;
 };

@@ -57,25 +57,6 @@ std::vector<double> powersFromNodes(int order)
   return matrix;
 }
 
-/// Returns the matrix from the coefficients of a polynomial to those of the same one in half of its
-/// range, at (x - 1) / 2 or (x + 1) / 2.
-std::vector<double> halfOf(int order, bool isUpper)
-{
-  const auto count = static_cast<std::size_t>(order) + 1;
-  std::vector<double> matrix(count * count);
-  for (std::size_t m = 0; m < count; ++m)
-  {
-    double binomial = 1;
-    for (std::size_t k = 0; k <= m; ++k)
-    {
-      const double sign = isUpper || (m - k) % 2 == 0 ? 1 : -1;
-      matrix[k * count + m] = sign * std::ldexp(binomial, -static_cast<int>(m));
-      binomial *= static_cast<double>(m - k) / static_cast<double>(k + 1);
-    }
-  }
-  return matrix;
-}
-
 /// Returns the number of different parametric coordinates along an axis, less one.
 int orderAlong(const std::vector<double>& places, std::size_t axis)
 {
@@ -90,8 +71,7 @@ int orderAlong(const std::vector<double>& places, std::size_t axis)
   return static_cast<int>(end - values.begin()) - 1;
 }
 
-} // namespace
-
+/// Multiplies `tensor`, with `counts` numbers along the axes, by a matrix along one of them.
 void multiplyAlong(const std::vector<double>& matrix, std::size_t axis,
   const std::array<std::size_t, 3>& counts, double* tensor)
 {
@@ -119,6 +99,8 @@ void multiplyAlong(const std::vector<double>& matrix, std::size_t axis,
     }
   }
 }
+
+} // namespace
 
 bool CurvedKind::isOf(vtkGenericCell* cell, int ofType) const
 {
@@ -169,7 +151,6 @@ bool CurvedKind::make(vtkGenericCell* cell, const std::vector<double>& weights)
     }
     this->orders[axis] = order;
     fromNodes[axis] = powersFromNodes(order);
-    this->halves[axis] = { halfOf(order, false), halfOf(order, true) };
   }
   const std::size_t points = this->places.size() / 3;
   std::vector<double> functions(points);

@@ -32,7 +32,6 @@ struct CurvedKind
   std::array<int, 3> orders{};
   std::vector<double> places;  // parametric coordinates of the cell's points
   std::vector<double> factors; // of each point, to the coefficients
-  std::array<std::array<std::vector<double>, 2>, 3> halves; // matrices, by axis
 
   /// Returns the kind of a cell, which is made once for all. `weights`: rational ones of its points,
   /// which its kind does not contain; empty: equal.
@@ -75,6 +74,28 @@ struct CurvedKind
     }
   }
 
+  /// Calls act(index of a term without a power of one axis, distance to the next power, highest power)
+  /// for all that a polynomial has.
+  template <class Act>
+  void forLines(std::size_t axis, const Act& act) const
+  {
+    const std::array<std::size_t, 3> n = this->counts();
+    const std::array<std::size_t, 3> strides{ n[1] * n[2], n[2], 1 };
+    const bool isSlanting =
+      this->reference == Reference::Simplex || (this->reference == Reference::Wedge && axis < 2);
+    const int most = this->orders[axis];
+    this->forTerms(
+      [&](std::size_t term, const std::array<int, 3>& powers)
+      {
+        if (powers[axis] == 0)
+        {
+          const int others =
+            powers[0] + powers[1] + (this->reference == Reference::Simplex ? powers[2] : 0);
+          act(term, strides[axis], isSlanting ? most - others : most);
+        }
+      });
+  }
+
   /// Calls act(index of a term, its value, its slopes) at parametric coordinates.
   template <class Act>
   void forTermsAt(const double place[3], const Act& act) const
@@ -102,9 +123,5 @@ struct CurvedKind
 private:
   bool make(vtkGenericCell* cell, const std::vector<double>& weights);
 };
-
-/// Multiplies `tensor`, with `counts` numbers along the axes, by a matrix along one of them.
-void multiplyAlong(const std::vector<double>& matrix, std::size_t axis,
-  const std::array<std::size_t, 3>& counts, double* tensor);
 
 } // namespace filters

@@ -17,6 +17,21 @@ bool LatticeInCells::hasUnsettled() const
 {
   const auto row = static_cast<std::size_t>(this->Lattice.points[0]);
   const auto rows = static_cast<std::size_t>(this->Lattice.points[1]);
+  if (this->GivenBegin)
+  {
+    return std::any_of(this->GivenBegin, this->GivenEnd,
+      [&](std::size_t point)
+      {
+        const std::size_t index[3] = { point % row, point / row % rows, point / row / rows };
+        bool isWithin = !this->isSettled(point);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const auto at = static_cast<int>(index[axis]);
+          isWithin = isWithin && at >= this->First[axis] && at <= this->Last[axis];
+        }
+        return isWithin;
+      });
+  }
   for (int k = this->First[2]; k <= this->Last[2]; ++k)
   {
     for (int j = this->First[1]; j <= this->Last[1]; ++j)
@@ -38,15 +53,15 @@ bool LatticeInCells::hasUnsettled() const
 /// Locates points in the parts of a curved cell, within the cell's box.
 void LatticeInCells::addCurved()
 {
-  int first[3], last[3];
-  std::copy_n(this->First, 3, first);
-  std::copy_n(this->Last, 3, last);
+  int first[3] = { 0, 0, 0 }, last[3];
+  std::copy_n(this->Lattice.points.begin(), 3, last);
+  if (!this->GivenBegin)
+  {
+    std::copy_n(this->First, 3, first);
+    std::copy_n(this->Last, 3, last);
+  }
   const auto enter = [&](const Vector& low, const Vector& high)
   {
-    if (this->GivenBegin)
-    {
-      return true;
-    }
     bool hasPoints = this->enter(low, high);
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -59,15 +74,13 @@ void LatticeInCells::addCurved()
   NormalCell other{};
   other.shape = CellShape::Other;
   this->Curved->forParts(enter,
-    [&](const CurvedPart& part, const Vector& middle, const Vector rows[3], const Vector& extent)
+    [&](const CurvedPart& part, const Vector& middle, const Vector rows[3], const Vector& low,
+      const Vector& high)
     {
       this->Part = &part;
       this->Tolerance = part.tolerance;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        this->Low[axis] = -extent[axis];
-        this->High[axis] = extent[axis];
-      }
+      std::copy_n(low.begin(), 3, this->Low);
+      std::copy_n(high.begin(), 3, this->High);
       this->scan(other, middle, rows);
     });
   this->Part = nullptr;

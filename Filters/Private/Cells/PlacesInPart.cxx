@@ -15,7 +15,8 @@ namespace
 // Steps of Newton's method, which converges quadratically.
 constexpr int maxSteps = 12;
 constexpr double lastStep = 1e-7;
-constexpr double farthest = 1.5; // from the middle, in coordinates of the part
+constexpr double maxWithoutGain = 4; // steps that do not halve the least residual so far
+constexpr double farthest = 1.5;     // from the middle, in coordinates of the part
 // Residuals; those of folded and collapsed parts fall more slowly.
 constexpr double nothing = 1e-14, nothingInFolds = 1e-11;
 

@@ -25,9 +25,9 @@ struct CurvedPart
 {
   Reference reference;
   int orders[3]; // of the polynomials; of tetrahedra and triangles, in all coordinates together
-  // Of x, y, z and the value; that of the i-th, j-th and k-th power at
+  // Of x, y, z and the value, four for each term; that of the i-th, j-th and k-th power is term
   // (i * (orders[1] + 1) + j) * (orders[2] + 1) + k.
-  const double* coefficients[4];
+  const double* coefficients;
   double middle[3], half[3]; // in parametric coordinates of the cell
   bool isRegular;            // normal coordinates are nearly those of the part
   double tolerance;          // of the cell's parametric coordinates

@@ -11,33 +11,58 @@ SCHLIEREN_INLINE void largest(const Real& a, const Real& b, const Real& c, Real&
   result = more > absC ? more : absC;
 }
 
-/// Evaluates a polynomial and its slopes by Horner's rule.
+/// Evaluates `count` polynomials and their slopes by Horner's rule: all at once, because each sum
+/// waits for the one before it.
+template <int count>
 SCHLIEREN_INLINE void evaluate(
-  const CurvedPart& part, const double* coefficients, const Real at[3], Real& sum, Real slopes[3])
+  const CurvedPart& part, int first, const Real at[3], Real sums[count], Real slopes[3][count])
 {
   const Real zero = {};
-  sum = slopes[0] = slopes[1] = slopes[2] = zero;
+  for (int of = 0; of < count; ++of)
+  {
+    sums[of] = slopes[0][of] = slopes[1][of] = slopes[2][of] = zero;
+  }
   for (int i = part.orders[0]; i >= 0; --i)
   {
-    Real row = zero, rowBy1 = zero, rowBy2 = zero;
+    Real row[count], rowBy1[count], rowBy2[count];
+    for (int of = 0; of < count; ++of)
+    {
+      row[of] = rowBy1[of] = rowBy2[of] = zero;
+    }
     for (int j = part.lastAlong1(i); j >= 0; --j)
     {
-      const double* of = coefficients + (i * (part.orders[1] + 1) + j) * (part.orders[2] + 1);
+      const int begin = (i * (part.orders[1] + 1) + j) * (part.orders[2] + 1);
       const int last = part.lastAlong2(i, j);
-      Real line = zero + of[last], lineBy2 = zero;
+      const double* term = part.coefficients + 4 * (begin + last) + first;
+      Real line[count], lineBy2[count];
+      for (int of = 0; of < count; ++of)
+      {
+        line[of] = zero + term[of];
+        lineBy2[of] = zero;
+      }
       for (int k = last - 1; k >= 0; --k)
       {
-        lineBy2 = lineBy2 * at[2] + line;
-        line = line * at[2] + of[k];
+        term -= 4;
+        for (int of = 0; of < count; ++of)
+        {
+          lineBy2[of] = lineBy2[of] * at[2] + line[of];
+          line[of] = line[of] * at[2] + term[of];
+        }
       }
-      rowBy1 = rowBy1 * at[1] + row;
-      row = row * at[1] + line;
-      rowBy2 = rowBy2 * at[1] + lineBy2;
+      for (int of = 0; of < count; ++of)
+      {
+        rowBy1[of] = rowBy1[of] * at[1] + row[of];
+        row[of] = row[of] * at[1] + line[of];
+        rowBy2[of] = rowBy2[of] * at[1] + lineBy2[of];
+      }
     }
-    slopes[0] = slopes[0] * at[0] + sum;
-    sum = sum * at[0] + row;
-    slopes[1] = slopes[1] * at[0] + rowBy1;
-    slopes[2] = slopes[2] * at[0] + rowBy2;
+    for (int of = 0; of < count; ++of)
+    {
+      slopes[0][of] = slopes[0][of] * at[0] + sums[of];
+      sums[of] = sums[of] * at[0] + row[of];
+      slopes[1][of] = slopes[1][of] * at[0] + rowBy1[of];
+      slopes[2][of] = slopes[2][of] * at[0] + rowBy2[of];
+    }
   }
 }
 
@@ -48,18 +73,14 @@ SCHLIEREN_INLINE void iterate(
   const Real zero = {};
   Mask isDone = zero != zero;
   isFound = isDone;
+  Real least = zero + std::numeric_limits<double>::infinity(), withoutGain = zero;
   for (int step = 0; step < maxSteps; ++step)
   {
     Real rest[3], by[3][3]; // by each coordinate
+    evaluate<3>(part, 0, at, rest, by);
     for (int axis = 0; axis < 3; ++axis)
     {
-      Real reached, slopes[3];
-      evaluate(part, part.coefficients[axis], at, reached, slopes);
-      rest[axis] = target[axis] - reached;
-      for (int along = 0; along < 3; ++along)
-      {
-        by[along][axis] = slopes[along];
-      }
+      rest[axis] = target[axis] - rest[axis];
     }
     Real minors[3][3]; // cross products of two columns
     for (int along = 0; along < 3; ++along)
@@ -95,8 +116,11 @@ SCHLIEREN_INLINE void iterate(
       hasMoved |= next != at[along];
       choose(isMoving, next, at[along], at[along]);
     }
+    const Real more = withoutGain + 1;
+    choose(left < 0.5 * least, zero, more, withoutGain);
+    least = left < least ? left : least;
     isFound |= ~isDone & (isThere | (isFinite & (size <= lastStep)));
-    isDone |= isFound | ~isFinite | ~hasMoved;
+    isDone |= isFound | ~isFinite | ~hasMoved | (withoutGain >= maxWithoutGain);
     if (all(isDone))
     {
       return;
@@ -167,9 +191,9 @@ inline void locate(const CurvedPart& part, int count, CellPoints& points)
         break;
       }
     }
-    Real value, notUsed[3];
-    evaluate(part, part.coefficients[3], best, value, notUsed);
-    store(value, points.value + first);
+    Real value[1], notUsed[3][1];
+    evaluate<1>(part, 3, best, value, notUsed);
+    store(value[0], points.value + first);
     store(least, points.miss + first);
   }
 }
