@@ -32,6 +32,17 @@ TEST(Status, SaysWhatIsKnownOfAImage)
     "1 sample per pixel, 1.2 million rays/s on CPU (1 thread), refracted rays");
   image.samplesPerPixel = 64; // an unfinished one
   EXPECT_EQ(statusInWords(image, scene, 1.23e6).find("1 of 64 samples per pixel, 1.2 million"), 0u);
+  image.width = 1000;
+  image.height = 500;
+  const auto more = [&](double raysPerSecond)
+  {
+    const std::string words = statusInWords(image, scene, raysPerSecond);
+    return words.substr(0, words.rfind(", ", words.find("rays/s")));
+  };
+  EXPECT_EQ(more(1e6), "1 of 64 samples per pixel, about 32 s more"); // 63 samples of 0.5 s
+  EXPECT_EQ(more(1.5e5), "1 of 64 samples per pixel, about 4 min more");
+  EXPECT_EQ(more(2000), "1 of 64 samples per pixel, about 4 h more");
+  EXPECT_EQ(more(1e7), "1 of 64 samples per pixel");
   image.samplesPerPixel = 1;
   image.device = schlieren::Device::Cuda;
   EXPECT_EQ(statusInWords(image, scene, 0), "1 sample per pixel, CUDA, refracted rays");

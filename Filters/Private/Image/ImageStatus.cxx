@@ -6,6 +6,7 @@
 
 #include "Schlieren.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace filters
@@ -21,6 +22,20 @@ std::string samplesInWords(const schlieren::Image& image)
   const bool isWhole = image.samples == image.samplesPerPixel;
   return (isWhole ? wanted : std::to_string(image.samples) + " of " + wanted) +
     (image.samplesPerPixel == 1 ? " sample per pixel" : " samples per pixel");
+}
+
+/// Returns a text such as ", about 3 min more" for the samples that are missing; empty if that is
+/// unknown or a moment.
+std::string restInWords(const schlieren::Image& image, double raysPerSecond)
+{
+  constexpr double moment = 5, minute = 60, hour = 3600; // seconds
+  const double rays = static_cast<double>(image.width) * image.height *
+    std::max(0, image.samplesPerPixel - image.samples);
+  const double seconds = raysPerSecond > 0 ? rays / raysPerSecond : 0;
+  return seconds < moment    ? ""
+    : seconds < 1.5 * minute ? textOf(", about %.0f s more", seconds)
+    : seconds < 1.5 * hour   ? textOf(", about %.0f min more", seconds / minute)
+                             : textOf(", about %.0f h more", seconds / hour);
 }
 
 /// Returns a text such as "85 million rays/s".
@@ -100,7 +115,7 @@ std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::S
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond)
 {
-  std::string words = samplesInWords(image) + ", ";
+  std::string words = samplesInWords(image) + restInWords(image, raysPerSecond) + ", ";
   if (raysPerSecond > 0)
   {
     words += speedInWords(raysPerSecond) + " on ";
