@@ -10,6 +10,7 @@
 #include "pqRenderView.h"
 #include "pqRepresentation.h"
 #include "pqServerManagerModel.h"
+#include "pqSettings.h"
 
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
@@ -25,6 +26,7 @@ namespace
 {
 
 const QString labelName = "SchlierenStatus";
+const QString settingName = "Schlieren/ShowStatus";
 constexpr int margin = 6; // pixels
 
 /// Places the label at the lower left, beside the image's legend, if its words fit and do not cover
@@ -63,6 +65,19 @@ QString statusOf(vtkSMProxy* filter)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool pqImageStatus::isShown()
+{
+  return pqApplicationCore::instance()->settings()->value(settingName, true).toBool();
+}
+
+//------------------------------------------------------------------------------
+void pqImageStatus::setShown(bool isShown)
+{
+  pqApplicationCore::instance()->settings()->setValue(settingName, isShown);
+  pqApplicationCore::instance()->render();
+}
 
 //------------------------------------------------------------------------------
 pqImageStatus::pqImageStatus(QObject* parentObject)
@@ -121,6 +136,10 @@ void pqImageStatus::show(pqRenderView* view)
     lines << statusOf(bench);
   }
   lines.removeAll(QString());
+  if (!isShown())
+  {
+    lines.clear();
+  }
   QLabel* label = labelOf(widget);
   if (!label && !lines.isEmpty())
   {

@@ -15,6 +15,10 @@ class pqImageStatus : public QObject
 public:
   explicit pqImageStatus(QObject* parent);
 
+  /// Whether views show it, a setting of the user that is kept.
+  static bool isShown();
+  static void setShown(bool isShown);
+
 protected:
   /// Watches the size of views.
   bool eventFilter(QObject* widget, QEvent* event) override;

@@ -6,6 +6,7 @@
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
 #include "pqHelpReaction.h"
+#include "pqImageStatus.h"
 #include "pqInterfaceTracker.h"
 #include "pqMultiViewWidget.h"
 #include "pqSettings.h"
@@ -145,6 +146,11 @@ void pqSchlierenToolBar::addMenu()
   menu->setObjectName("menuSchlieren");
   menu->addActions(this->actions());
   menu->addSeparator();
+  QAction* status = menu->addAction("Show &Status in Views");
+  status->setObjectName("actionStatus");
+  status->setCheckable(true);
+  status->setChecked(pqImageStatus::isShown());
+  QObject::connect(status, &QAction::toggled, &pqImageStatus::setShown);
   QAction* guide =
     menu->addAction("&Guide", []() { pqHelpReaction::showProxyHelp("filters", "Schlieren"); });
   guide->setObjectName("actionGuide");

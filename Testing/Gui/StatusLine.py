@@ -71,6 +71,21 @@ until(lambda: not is_shown())
 report("hidden")
 """)
 
+# Switched off and on in the menu.
+user.menu("menuSchlieren", "actionStatus")
+user.python(HELPERS + """
+GetDisplayProperties(FindSource("jet"), FindView("Schlieren View")).SetRepresentationType("Schlieren")
+settle_views()
+pause(0.5)
+assert not is_shown()
+""")
+user.menu("menuSchlieren", "actionStatus")
+user.python(HELPERS + """
+until(is_shown)
+GetDisplayProperties(FindSource("jet"), FindView("Schlieren View")).SetRepresentationType("Outline")
+report("switched")
+""")
+
 user.choose_filter("Schlieren")
 user.apply()
 user.python(HELPERS + """
@@ -127,4 +142,4 @@ user.play(INSIDE + OPEN_JET)
 
 with open(REPORT, encoding="utf-8") as file:
     steps = file.read().split("\n")
-assert steps == ["finished", "refined", "hidden", "filter", "narrow", "3-D", "deleted", ""], steps
+assert steps == ["finished", "refined", "hidden", "switched", "filter", "narrow", "3-D", "deleted", ""], steps
