@@ -90,6 +90,7 @@ struct MediumSettings
   int FractionType = 0; ///< 0: mass, 1: volume
   double TemperatureScale = 0;
   double PressureScale = 0;
+  double UniformPressure = 0; ///< 0: Pressure is an array
   double RelativeHumidity = 0;
   double CO2 = 450;
   double Wavelength = 632.8;
@@ -136,6 +137,7 @@ struct MediumSettings
     use("FractionType", &S::FractionType);
     use("TemperatureScale", &S::TemperatureScale);
     use("PressureScale", &S::PressureScale);
+    use("UniformPressure", &S::UniformPressure);
     use("RelativeHumidity", &S::RelativeHumidity);
     use("CO2", &S::CO2);
     use("Wavelength", &S::Wavelength);

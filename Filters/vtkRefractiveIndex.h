@@ -234,6 +234,13 @@ public:
   ///@}
 
   ///@{
+  /// Pressure in Pa that Ciddor's air has everywhere, as in a room, instead of an array; 0 (the
+  /// default): an array.
+  vtkSetMacro(UniformPressure, double);
+  vtkGetMacro(UniformPressure, double);
+  ///@}
+
+  ///@{
   /**
    * For moist air: the relative humidity, 0 to 1, used without an array of it (default: 0), and
    * the carbon dioxide in parts per million (default: 450).
@@ -587,6 +594,7 @@ private:
   vtkForwardPropertyMacro(inner, FractionType, int);                                      \
   vtkForwardPropertyMacro(inner, TemperatureScale, double);                               \
   vtkForwardPropertyMacro(inner, PressureScale, double);                                  \
+  vtkForwardPropertyMacro(inner, UniformPressure, double);                                \
   vtkForwardPropertyMacro(inner, RelativeHumidity, double);                               \
   vtkForwardPropertyMacro(inner, CO2, double);                                            \
   vtkForwardListMacro(inner, Field, Fields, const char*);                                 \

@@ -287,6 +287,46 @@ TEST(Ciddor, HumidityIsAnArrayOrANumber)
   EXPECT_LT(largestError(filter, [](const Vec& x) { return ciddorOf(x, 0.8); }), rounding);
 }
 
+// A pressure that is the same everywhere takes the place of the array, also where humidity is one.
+TEST(Ciddor, PressureIsAnArrayOrANumber)
+{
+  constexpr double pascals = 9e4;
+  const auto expected = [](const Vec& x)
+  { return schlieren::ciddorRefractivity(temperature(x), pascals, humidity(x), 450, 632.8e-9); };
+  auto image = flow();
+  auto filter = ciddor(image);
+  filter->SetUniformPressure(pascals);
+  choose(filter, vtkRefractiveIndex::HUMIDITY, "RH");
+  EXPECT_LT(largestError(filter, expected), rounding);
+
+  // Of a temperature alone it makes air without any choice.
+  vtkNew<vtkImageData> warm;
+  warm->CopyStructure(image);
+  warm->GetPointData()->AddArray(image->GetPointData()->GetArray("T"));
+  auto automatic = doublePrecision(warm);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(automatic));
+  automatic->Update();
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_NE(complaints->Errors[0].find("UniformPressure"), std::string::npos)
+    << complaints->Errors[0];
+  automatic->SetUniformPressure(pascals);
+  EXPECT_LT(largestError(automatic,
+              [](const Vec& x)
+              { return schlieren::ciddorRefractivity(temperature(x), pascals, 0, 450, 632.8e-9); }),
+    rounding);
+  automatic->SetUniformPressure(-1);
+  automatic->Update();
+  ASSERT_EQ(complaints->Errors.size(), 2u); // as for 0
+  EXPECT_NE(complaints->Errors[1].find("UniformPressure"), std::string::npos)
+    << complaints->Errors[1];
+  auto wrong = ciddor(image);
+  wrong->SetUniformPressure(-1);
+  complaints = vtkSmartPointer<Complaints>::Take(new Complaints(wrong));
+  wrong->Update();
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_NE(complaints->Errors[0].find("no pressure"), std::string::npos) << complaints->Errors[0];
+}
+
 TEST(Ciddor, ScalesCarbonDioxideAndWavelengthCount)
 {
   auto image = cube(4);

@@ -314,6 +314,7 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     { "Temperature", moistAir, [](F* f) { array(f, R::TEMPERATURE, "p"); } },
     { "TemperatureScale", moistAir, [](F* f) { f->SetTemperatureScale(1.1); } },
     { "PressureScale", moistAir, [](F* f) { f->SetPressureScale(1.1); } },
+    { "UniformPressure", moistAir, [](F* f) { f->SetUniformPressure(9e4); } },
     { "RelativeHumidity", moistAir, [](F* f) { f->SetRelativeHumidity(0.5); } },
     { "CO2", moistAir, [](F* f) { f->SetCO2(900); } },
     { "Wavelength", moistAir, [](F* f) { f->SetWavelength(450); } },

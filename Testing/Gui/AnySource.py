@@ -25,7 +25,8 @@ SetActiveSource(warm)
 user.press("OneImage")
 user.check_message("'warm': There is no density, nor a temperature together with a pressure, so nothing gives the "
                    "refractive index. Load or compute one (Documentation/density.md says how), or choose an "
-                   "array yourself. There are point arrays T (287.353 to 526.829).")
+                   "array yourself. Where the pressure of air is the same everywhere, UniformPressure completes the "
+                   "temperature (101325 Pa in a room). There are point arrays T (287.353 to 526.829).")
 user.python(MESH + """
 table = Histogram(Input=mesh, registrationName="table")
 table.UpdatePipeline()

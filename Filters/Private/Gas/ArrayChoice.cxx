@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/ArrayChoice.h"
 
+#include "Common/NumberText.h"
 #include "Gas/GasChoices.h"
 
 #include "vtkDataArray.h"
@@ -24,7 +25,7 @@ using S = MediumSettings;
 /// Returns whether the user has left an array open that the model needs.
 bool lacksArrays(const MediumSettings& settings)
 {
-  const std::vector<std::size_t> needed = arraysOfModel(settings.IndexModel);
+  const std::vector<std::size_t> needed = arraysOfModel(settings);
   return std::any_of(needed.begin(), needed.end(),
     [&](std::size_t index)
     { return index != S::HumidityArray && !settings.Arrays[index].isChosen(); });
@@ -45,7 +46,7 @@ double scaleIn(const FlowDefaults& defaults, const std::string& property)
 std::string inWords(const MediumSettings& settings)
 {
   std::string text;
-  for (const std::size_t index : arraysOfModel(settings.IndexModel))
+  for (const std::size_t index : arraysOfModel(settings))
   {
     const ArraySelection& selection = settings.Arrays[index];
     if (!selection.isNamed())
@@ -64,6 +65,10 @@ std::string inWords(const MediumSettings& settings)
       std::snprintf(factor, sizeof factor, " times %g", scale);
       text += factor;
     }
+  }
+  if (settings.IndexModel == S::Ciddor && settings.UniformPressure > 0)
+  {
+    text += "; pressure: " + textOf(settings.UniformPressure, 6) + " Pa everywhere";
   }
   for (std::size_t i = 0; settings.IndexModel == S::Mixture && i < settings.MixtureArrays.size();
        ++i)
@@ -176,11 +181,15 @@ std::vector<FlowArray> getArrays(Reader& message)
 }
 
 //------------------------------------------------------------------------------
-std::vector<std::size_t> arraysOfModel(int model)
+std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
 {
-  switch (model)
+  switch (settings.IndexModel)
   {
     case S::Ciddor:
+      if (settings.UniformPressure > 0)
+      {
+        return { S::TemperatureArray, S::HumidityArray };
+      }
       return { S::TemperatureArray, S::PressureArray, S::HumidityArray };
     case S::Curves:
       return {};
@@ -208,10 +217,19 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
   MediumSettings& settings = choice.settings;
   ArraySelection& density = settings.Arrays[S::DensityArray];
   const bool isAuto = given.IndexModel == S::Auto;
+  std::vector<FlowArray> arrays = known;
+  for (const FlowArray::Association association : { FlowArray::Points, FlowArray::Cells })
+  {
+    if (given.UniformPressure > 0) // as if an array had it
+    {
+      arrays.push_back(
+        { "Pressure [Pa]", association, 1, { given.UniformPressure, given.UniformPressure } });
+    }
+  }
   FlowDefaults defaults;
   if (isAuto && !density.isChosen() && given.MixtureArrays.empty())
   {
-    defaults = flowDefaults(known);
+    defaults = flowDefaults(arrays);
     settings.IndexModel = defaults.indexModel;
   }
   else
@@ -221,11 +239,11 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
                                     : S::Mixture;
     if (lacksArrays(settings))
     {
-      defaults = flowDefaults(known, static_cast<MediumSettings::Models>(settings.IndexModel));
+      defaults = flowDefaults(arrays, static_cast<MediumSettings::Models>(settings.IndexModel));
     }
   }
   // Finds arrays for the selections that the user has left open.
-  for (const std::size_t index : arraysOfModel(settings.IndexModel))
+  for (const std::size_t index : arraysOfModel(settings))
   {
     ArraySelection& selection = settings.Arrays[index];
     // Without an array, the value of the property RelativeHumidity is used.
@@ -295,7 +313,7 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
     settings.MaskedSide = marksGas(mask.name) ? 1 : 0;
   }
   // Clears the selections that the model does not read, so that they do not affect comparisons.
-  const std::vector<std::size_t> read = arraysOfModel(settings.IndexModel);
+  const std::vector<std::size_t> read = arraysOfModel(settings);
   for (std::size_t index = 0; index < settings.Arrays.size(); ++index)
   {
     if (index != S::MaskArray && std::find(read.begin(), read.end(), index) == read.end())

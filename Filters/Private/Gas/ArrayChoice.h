@@ -60,7 +60,8 @@ bool isOpen(const MediumSettings& settings);
 /// Completes `settings` by a choice among the arrays of the data.
 MediumChoice choiceOf(const MediumSettings& settings, const std::vector<FlowArray>& known);
 
-/// Returns the indices into MediumSettings::Arrays that a model reads besides fractions and fields.
-std::vector<std::size_t> arraysOfModel(int model);
+/// Returns the indices into MediumSettings::Arrays that the model reads besides fractions and
+/// fields.
+std::vector<std::size_t> arraysOfModel(const MediumSettings& settings);
 
 } // namespace filters

@@ -165,6 +165,16 @@ public:
   FlowDefaults Result;
   std::string Note; ///< names that were not understood
 
+  bool hasTemperature() const
+  {
+    return std::any_of(this->Arrays.begin(), this->Arrays.end(),
+      [](const FlowArray& array)
+      {
+        return array.components == 1 &&
+          ArrayName(array.name).As(Quantity::Temperature) != Understood::Not;
+      });
+  }
+
 private:
   /// Finds the array that best matches a quantity, points before cells.
   Found find(Quantity quantity, FlowArray::Association association)
@@ -510,7 +520,11 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
   return resultOf(chooser, isFound, arrays,
     "There is no density, nor a temperature together with a pressure, so nothing gives the "
     "refractive index. Load or compute one (Documentation/density.md says how), or choose an array "
-    "yourself.");
+    "yourself." +
+      std::string(chooser.hasTemperature()
+          ? " Where the pressure of air is the same everywhere, UniformPressure completes the "
+            "temperature (101325 Pa in a room)."
+          : ""));
 }
 
 //------------------------------------------------------------------------------

@@ -108,10 +108,11 @@ Implausible ofMoistAir(const FlowInUse& flow)
 {
   const FlowArray& temperature = flow.arrays[0];
   const FlowArray& pressure = flow.arrays[1];
-  for (const auto& [array, quantity] :
-    { std::make_pair(&temperature, "temperature"), std::make_pair(&pressure, "pressure") })
+  for (const bool isPressure : { false, true })
   {
-    if (Implausible any = ofAny(*array, quantity); !any.text.empty())
+    Implausible any =
+      ofAny(isPressure ? pressure : temperature, isPressure ? "pressure" : "temperature");
+    if (!any.text.empty())
     {
       return any;
     }

@@ -152,6 +152,12 @@ CiddorAir ciddorAir(const MediumSettings& settings)
 {
   requireFinite("TemperatureScale", settings.TemperatureScale);
   requireFinite("PressureScale", settings.PressureScale);
+  if (!(settings.UniformPressure >= 0) || std::isinf(settings.UniformPressure))
+  {
+    throw std::runtime_error("UniformPressure is " + textOf(settings.UniformPressure) +
+      ", which is no pressure. Set it to one in Pa (air in a room: 101325), or to 0 to choose an "
+      "array.");
+  }
   const bool hasHumidity = settings.Arrays[MediumSettings::HumidityArray].isNamed();
   const double humidity = settings.RelativeHumidity;
   if (!hasHumidity && !(humidity >= 0 && humidity <= 1))
@@ -171,7 +177,7 @@ CiddorAir ciddorAir(const MediumSettings& settings)
       " nm, where Ciddor's equations do not hold. Set it between 300 and 1700 nm.");
   }
   return { schlieren::MoistAir::at(wavelength, settings.CO2), settings.TemperatureScale,
-    settings.PressureScale, hasHumidity, humidity };
+    settings.PressureScale, settings.UniformPressure, hasHumidity, humidity };
 }
 
 } // namespace
@@ -205,15 +211,15 @@ std::string GasMixture::warning(const std::string& fraction) const
 //------------------------------------------------------------------------------
 double CiddorAir::refractivity(const double* values) const
 {
-  return this->air.refractivity(this->temperatureScale * values[0], this->pressureScale * values[1],
-    this->hasHumidity ? values[2] : this->relativeHumidity);
+  return this->air.refractivity(
+    this->temperatureScale * values[0], this->pressureIn(values), this->humidityIn(values));
 }
 
 bool CiddorAir::isDoubtful(const double* values) const
 {
   return !schlieren::isWithinCiddorRange(
-           this->temperatureScale * values[0], this->pressureScale * values[1]) ||
-    (this->hasHumidity && values[2] > maxOfAll);
+           this->temperatureScale * values[0], this->pressureIn(values)) ||
+    (this->hasHumidity && this->humidityIn(values) > maxOfAll);
 }
 
 std::string CiddorAir::warning(const std::string& fraction) const
@@ -303,8 +309,11 @@ std::vector<Selection> selectionsFrom(const MediumSettings& settings)
       }
       break;
     case S::Ciddor:
-      selections = { selectionOf(settings, S::TemperatureArray),
-        selectionOf(settings, S::PressureArray) };
+      selections = { selectionOf(settings, S::TemperatureArray) };
+      if (!(settings.UniformPressure > 0))
+      {
+        selections.push_back(selectionOf(settings, S::PressureArray));
+      }
       if (settings.Arrays[S::HumidityArray].isNamed())
       {
         selections.push_back(selectionOf(settings, S::HumidityArray));

@@ -45,12 +45,23 @@ struct CiddorAir
 {
   schlieren::MoistAir air;
   double temperatureScale, pressureScale;
-  bool hasHumidity;
+  double uniformPressure;  // 0: the second value
+  bool hasHumidity;        // as last value
   double relativeHumidity; // used if not hasHumidity
 
   double refractivity(const double* values) const;
   bool isDoubtful(const double* values) const;
   std::string warning(const std::string& fraction) const;
+
+private:
+  double pressureIn(const double* values) const
+  {
+    return this->uniformPressure > 0 ? this->uniformPressure : this->pressureScale * values[1];
+  }
+  double humidityIn(const double* values) const
+  {
+    return this->hasHumidity ? values[this->uniformPressure > 0 ? 1 : 2] : this->relativeHumidity;
+  }
 };
 
 /// Any model.

@@ -181,7 +181,8 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
       note + "Choose one of: " + names + "." +
       (property == "Density"
           ? " A temperature gives no density without a pressure; with both, compute one or use "
-            "IndexModel Ciddor (Documentation/density.md)."
+            "IndexModel Ciddor (Documentation/density.md). Where air has the same pressure "
+            "everywhere, set UniformPressure (101325 Pa in a room)."
           : ""));
   }
   throw ArraysMissing("The input has no array '" + selection.name + "'. Set " + property +
@@ -397,8 +398,10 @@ Implausible implausibleIn(const Source& source)
   {
     flow.constant = gasFrom("Gas", settings.Gas)->constantAt(wavelengthOfGases(settings));
   }
-  const std::vector<std::size_t> indices = arraysOfModel(settings.IndexModel);
-  for (std::size_t i = 0; i < flow.scales.size(); ++i)
+  const std::vector<std::size_t> indices = arraysOfModel(settings);
+  const bool isUniform =
+    settings.IndexModel == MediumSettings::Ciddor && settings.UniformPressure > 0;
+  for (std::size_t i = 0; i < (isUniform ? 1 : flow.scales.size()); ++i)
   {
     const ArraySelection& selection = settings.Arrays[indices[i]];
     FlowArray array{ selection.name, selection.cellsFirst ? FlowArray::Cells : FlowArray::Points, 1,
@@ -420,6 +423,12 @@ Implausible implausibleIn(const Source& source)
       }
     }
     flow.arrays.push_back(std::move(array));
+  }
+  if (isUniform)
+  {
+    flow.scales[1] = 1;
+    flow.arrays.push_back({ "UniformPressure", FlowArray::Points, 1,
+      { settings.UniformPressure, settings.UniformPressure } });
   }
   return implausible(flow);
 }
