@@ -53,7 +53,7 @@ QString lengthsInWords(const std::array<double, 3>& metres)
   constexpr std::array<Unit, 4> units{ { { 1e3, "km" }, { 1, "m" }, { 1e-3, "mm" },
     { 1e-6, "µm" } } };
   const double largest = *std::max_element(metres.begin(), metres.end());
-  const Unit* unit = std::find_if(
+  const auto unit = std::find_if(
     units.begin(), units.end() - 1, [=](const Unit& one) { return largest >= one.metres; });
   QStringList lengths;
   for (const double length : metres)

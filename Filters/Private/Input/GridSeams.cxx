@@ -89,6 +89,15 @@ bool hasSeam(const OuterPoints& points, const Extent& whole)
   const std::vector<double> noEdges(places.size(), std::numeric_limits<double>::infinity());
   const std::vector<std::int32_t> firsts =
     coincidentPoints(places, mergingTolerances(places, noEdges, relativeRounding(places)));
+  bool doCoincide = false;
+  for (std::size_t i = 0; i < firsts.size() && !doCoincide; ++i)
+  {
+    doCoincide = static_cast<std::size_t>(firsts[i]) != i;
+  }
+  if (!doCoincide)
+  {
+    return false;
+  }
   std::set<std::set<std::int32_t>> known;
   const auto isKnown = [&](const std::array<vtkIdType, 4>& corners)
   {
