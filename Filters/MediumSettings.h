@@ -110,6 +110,11 @@ struct MediumSettings
   int Reconstruction = 0; ///< 0: smooth, 1: linear in cells
   bool DoublePrecision = false;
 
+  /// Returns whether the model needs a pressure that no array has.
+  bool hasUniformPressure() const
+  {
+    return this->IndexModel == Ciddor && this->UniformPressure > 0;
+  }
   bool isAxisymmetric() const { return this->Symmetry == 1; }
   bool isSmooth() const { return this->Reconstruction == 0; }
   std::array<double, 3> symmetryOrigin() const

@@ -66,7 +66,7 @@ std::string inWords(const MediumSettings& settings)
       text += factor;
     }
   }
-  if (settings.IndexModel == S::Ciddor && settings.UniformPressure > 0)
+  if (settings.hasUniformPressure())
   {
     text += "; pressure: " + textOf(settings.UniformPressure, 6) + " Pa everywhere";
   }
@@ -186,7 +186,7 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
   switch (settings.IndexModel)
   {
     case S::Ciddor:
-      if (settings.UniformPressure > 0)
+      if (settings.hasUniformPressure())
       {
         return { S::TemperatureArray, S::HumidityArray };
       }

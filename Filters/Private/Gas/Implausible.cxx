@@ -5,8 +5,6 @@
 #include "Common/NumberText.h"
 #include "Gas/ArrayNames.h"
 
-#include <cstdio>
-
 using filters::ArrayName;
 
 namespace

@@ -4,6 +4,7 @@
 
 #include "Common/NumberText.h"
 
+#include "Gas/ArrayChoice.h"
 #include "Gas/GasChoices.h"
 
 #include <algorithm>
@@ -309,14 +310,12 @@ std::vector<Selection> selectionsFrom(const MediumSettings& settings)
       }
       break;
     case S::Ciddor:
-      selections = { selectionOf(settings, S::TemperatureArray) };
-      if (!(settings.UniformPressure > 0))
+      for (const std::size_t index : arraysOfModel(settings))
       {
-        selections.push_back(selectionOf(settings, S::PressureArray));
-      }
-      if (settings.Arrays[S::HumidityArray].isNamed())
-      {
-        selections.push_back(selectionOf(settings, S::HumidityArray));
+        if (index != S::HumidityArray || settings.Arrays[index].isNamed())
+        {
+          selections.push_back(selectionOf(settings, index));
+        }
       }
       break;
     case S::Curves:

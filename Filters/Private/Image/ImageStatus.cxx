@@ -7,7 +7,6 @@
 #include "Schlieren.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace filters
 {

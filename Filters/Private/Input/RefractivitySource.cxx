@@ -399,8 +399,7 @@ Implausible implausibleIn(const Source& source)
     flow.constant = gasFrom("Gas", settings.Gas)->constantAt(wavelengthOfGases(settings));
   }
   const std::vector<std::size_t> indices = arraysOfModel(settings);
-  const bool isUniform =
-    settings.IndexModel == MediumSettings::Ciddor && settings.UniformPressure > 0;
+  const bool isUniform = settings.hasUniformPressure();
   for (std::size_t i = 0; i < (isUniform ? 1 : flow.scales.size()); ++i)
   {
     const ArraySelection& selection = settings.Arrays[indices[i]];
