@@ -233,7 +233,7 @@ bool hasCurvedCells(const MeshArrays& mesh)
     [](int type) { return !vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type)); });
 }
 
-/// Returns whether points of a grid coincide; those of images and rectilinear grids do not.
+/// Returns whether a grid has a seam; images and rectilinear grids have none.
 bool hasSeam(vtkDataSet* grid)
 {
   if (!vtkStructuredGrid::SafeDownCast(grid))
