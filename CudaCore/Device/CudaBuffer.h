@@ -77,34 +77,6 @@ private:
   T* data_;
 };
 
-/// Memory of the host that the device copies to at the bus's full rate while the host does something else; where there is
-/// none to be had, ordinary memory, which copies wait for.
-class CudaHostBuffer
-{
-public:
-  explicit CudaHostBuffer(std::size_t bytes)
-  {
-    if (cudaMallocHost(&locked_, bytes) != cudaSuccess)
-    {
-      cudaGetLastError();
-      locked_ = nullptr;
-      ordinary_.resize(bytes);
-    }
-  }
-  CudaHostBuffer(const CudaHostBuffer&) = delete;
-  CudaHostBuffer& operator=(const CudaHostBuffer&) = delete;
-  ~CudaHostBuffer() { cudaFreeHost(locked_); }
-
-  unsigned char* data()
-  {
-    return locked_ != nullptr ? static_cast<unsigned char*>(locked_) : ordinary_.data();
-  }
-
-private:
-  void* locked_ = nullptr;
-  std::vector<unsigned char> ordinary_;
-};
-
 /// A queue of work for the device. Queues run side by side, but the default one, where work goes that
 /// names none, waits for all of them and they for it.
 class CudaStream

@@ -10,6 +10,16 @@
 namespace schlieren
 {
 
+CentreArrays centreArraysOf(Image& image, std::size_t pixels)
+{
+  image.deflection = PixelArray<float>(2 * pixels);
+  image.displacement = PixelArray<float>(2 * pixels);
+  image.opticalPathDifference = PixelArray<double>(pixels);
+  image.blockedFraction = PixelArray<float>(pixels);
+  return { image.deflection.data(), image.displacement.data(), image.opticalPathDifference.data(),
+    image.blockedFraction.data() };
+}
+
 template <class Use>
 void CentreValues::forEachPixel(const std::vector<TracedRays>& passes, const Use& use) const
 {
@@ -21,8 +31,9 @@ void CentreValues::forEachPixel(const std::vector<TracedRays>& passes, const Use
       {
         for (std::int64_t column = 0; column < width_; ++column)
         {
-          const auto pixel = static_cast<std::size_t>(row * width_ + column);
-          PixelRays ofPixel = pixels_.empty() ? PixelRays{} : pixels_[pixel];
+          const std::int64_t pixel = row * width_ + column;
+          PixelRays ofPixel =
+            pixels_.empty() ? PixelRays{} : pixels_[static_cast<std::size_t>(pixel)];
           for (const TracedRays& rays : passes)
           {
             ofPixel.add(rays.exits[rays.rayOf(column, row)]);
@@ -36,31 +47,16 @@ void CentreValues::forEachPixel(const std::vector<TracedRays>& passes, const Use
 void CentreValues::add(const std::vector<TracedRays>& passes)
 {
   pixels_.resize(static_cast<std::size_t>(width_ * height_));
-  forEachPixel(passes, [this](std::size_t pixel, const PixelRays& rays) { pixels_[pixel] = rays; });
+  forEachPixel(passes,
+    [this](std::int64_t pixel, const PixelRays& rays)
+    { pixels_[static_cast<std::size_t>(pixel)] = rays; });
 }
 
-void CentreValues::develop(const std::vector<TracedRays>& last, Image& image)
+void CentreValues::develop(const std::vector<TracedRays>& last, Image& image) const
 {
-  const auto pixels = static_cast<std::size_t>(width_ * height_);
-  image.deflection = PixelArray<float>(2 * pixels);
-  image.displacement = PixelArray<float>(2 * pixels);
-  image.opticalPathDifference = PixelArray<double>(pixels);
-  image.blockedFraction = PixelArray<float>(pixels);
-  forEachPixel(last,
-    [&image](std::size_t pixel, const PixelRays& rays)
-    {
-      // A division takes as long as all the rest, and most pixels need none.
-      const double perRay = rays.summed > 1 ? 1. / rays.summed : 1;
-      for (std::size_t axis = 0; axis < 2; ++axis)
-      {
-        image.deflection[2 * pixel + axis] = static_cast<float>(rays.deflection[axis] * perRay);
-        image.displacement[2 * pixel + axis] = static_cast<float>(rays.displacement[axis] * perRay);
-      }
-      image.opticalPathDifference[pixel] =
-        rays.summed > 1 ? rays.opticalPathDifference / rays.summed : rays.opticalPathDifference;
-      image.blockedFraction[pixel] =
-        rays.blocked > 0 ? static_cast<float>(rays.blocked) / static_cast<float>(rays.rays) : 0;
-    });
+  const CentreArrays arrays = centreArraysOf(image, static_cast<std::size_t>(width_ * height_));
+  forEachPixel(
+    last, [&arrays](std::int64_t pixel, const PixelRays& rays) { arrays.set(pixel, rays); });
 }
 
 } // namespace schlieren

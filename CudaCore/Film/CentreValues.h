@@ -5,8 +5,8 @@
 #include "Film/Image.h"
 #include "Rays/TracedRays.h"
 
+#include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace schlieren
@@ -43,6 +43,33 @@ struct PixelRays
   }
 };
 
+/// Where an image holds what its light carries, row by row: in the memory of the host or of the device.
+struct CentreArrays
+{
+  float* deflection;             ///< 2 per pixel
+  float* displacement;           ///< 2 per pixel
+  double* opticalPathDifference; ///< metres
+  float* blockedFraction;
+
+  SCHLIEREN_HD void set(std::int64_t pixel, const PixelRays& rays) const
+  {
+    // A division takes as long as all the rest, and most pixels need none.
+    const double perRay = rays.summed > 1 ? 1. / rays.summed : 1;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      deflection[2 * pixel + axis] = static_cast<float>(rays.deflection[axis] * perRay);
+      displacement[2 * pixel + axis] = static_cast<float>(rays.displacement[axis] * perRay);
+    }
+    opticalPathDifference[pixel] =
+      rays.summed > 1 ? rays.opticalPathDifference / rays.summed : rays.opticalPathDifference;
+    blockedFraction[pixel] =
+      rays.blocked > 0 ? static_cast<float>(rays.blocked) / static_cast<float>(rays.rays) : 0;
+  }
+};
+
+/// Makes room for these arrays in an image.
+CentreArrays centreArraysOf(Image& image, std::size_t pixels);
+
 /// What light carries at the pixels' centres. A mean over all rays of a pixel would belong to another place: the mean
 /// place of a few samples is not the centre. Only where the centre is dark is it the mean over the rays beside it.
 /// Each pixel is summed in the order of the passes, so that no result depends on the number of threads, or on which
@@ -60,11 +87,8 @@ public:
   /// Adds passes that more will follow. The first of all starts in the centres.
   void add(const std::vector<TracedRays>& passes);
 
-  /// Takes what is known of all pixels, row by row, from a device that has added passes.
-  void set(std::vector<PixelRays> pixels) { pixels_ = std::move(pixels); }
-
   /// Adds the last passes and writes the values into the image. Pixels from which no ray reaches the film hold 0.
-  void develop(const std::vector<TracedRays>& last, Image& image);
+  void develop(const std::vector<TracedRays>& last, Image& image) const;
 
 private:
   /// Calls use(pixel, its rays) with what is known and these passes.

@@ -6,6 +6,7 @@
 
 #include "Device/CudaBuffer.h"
 #include "Device/CudaLaunch.h"
+#include "Film/CentreValues.h"
 #include "Film/Sheet.h"
 
 #include <algorithm>
@@ -287,6 +288,22 @@ __global__ void bentKernel(const ShadedRays<planes> from, const Sums sums)
   addSums(deposit);
 }
 
+/// Writes what pixels' rays carry into arrays.
+__global__ void centresKernel(
+  const PixelRays* pixels, const std::int64_t count, const CentreArrays arrays)
+{
+  const std::int64_t pixel = blockIdx.x * static_cast<std::int64_t>(threadsPerBlock) + threadIdx.x;
+  if (pixel < count)
+  {
+    arrays.set(pixel, pixels[pixel]);
+  }
+}
+
+void fetch(void* to, const void* from, std::size_t bytes)
+{
+  checkCuda(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "Fetching the image");
+}
+
 template <int planes>
 void deposit(const ShadedRays<planes>& shaded, FilmEstimator estimator, const Sums& sums)
 {
@@ -372,16 +389,6 @@ struct CudaFilm::DeviceMemory
     return bytes->data();
   }
 
-  /// Where the image arrives.
-  CudaHostBuffer& hostRoom(std::size_t bytes)
-  {
-    if (!onArrival)
-    {
-      onArrival = std::make_unique<CudaHostBuffer>(bytes); // always as much
-    }
-    return *onArrival;
-  }
-
   std::int64_t raysPerBand;
   std::size_t pixels;
   CudaBuffer<Counter> light;
@@ -394,7 +401,6 @@ struct CudaFilm::DeviceMemory
   const float* onHost = nullptr; ///< what has been copied
   std::unique_ptr<Bytes> shaded, bent;
   std::size_t shadedBytes = 0, bentBytes = 0;
-  std::unique_ptr<CudaHostBuffer> onArrival;
 };
 
 CudaFilm::CudaFilm(const Films& films, std::int64_t raysPerBand)
@@ -443,54 +449,44 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
   }
 }
 
-RayCounts CudaFilm::develop(Films& films, CentreValues& values) const
+RayCounts CudaFilm::develop(Films& films) const
 {
   if (memory_->samples)
   {
-    memory_->samples->develop(*films.samples, values); // overwritten below
+    memory_->samples->develop(*films.samples);
   }
-  const std::size_t pixels = memory_->pixels, planes = films.planes.size();
-  const std::size_t bytesOfLight = pixels * planes * sizeof(Counter);
-  const std::size_t bytesOfSums = pixels * sizeof(PixelRays);
-  const std::size_t bytesOfPlanes = planes * sizeof(LightSums);
-  CudaHostBuffer& fetched =
-    memory_->hostRoom(bytesOfLight + bytesOfSums + bytesOfPlanes + sizeof(RayCounts));
-  // All of it is under way before the host waits once.
-  unsigned char* to = fetched.data();
-  const auto fetch = [&to](const void* from, std::size_t bytes)
+  const std::size_t pixels = memory_->pixels;
+  for (std::size_t plane = 0; plane < films.planes.size(); ++plane)
   {
-    checkCuda(
-      cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, nullptr), "Fetching the image");
-    to += bytes;
-  };
-  fetch(memory_->light.data(), bytesOfLight);
-  fetch(memory_->sums.data(), bytesOfSums);
-  fetch(memory_->planes.data(), bytesOfPlanes);
-  fetch(memory_->counts.data(), sizeof(RayCounts));
-  checkCuda(cudaStreamSynchronize(nullptr), "Fetching the image");
-  const unsigned char* from = fetched.data();
-  const auto take = [&from](void* taken, std::size_t bytes)
-  {
-    std::memcpy(taken, from, bytes);
-    from += bytes;
-  };
-  std::vector<std::vector<std::int64_t>> light(planes, std::vector<std::int64_t>(pixels));
-  for (std::vector<std::int64_t>& plane : light)
-  {
-    take(plane.data(), pixels * sizeof(Counter));
-  }
-  std::vector<PixelRays> sums(pixels);
-  take(sums.data(), bytesOfSums);
-  values.set(std::move(sums));
-  for (std::size_t plane = 0; plane < planes; ++plane)
-  {
-    LightSums all;
-    take(&all, sizeof(all));
-    films.planes[plane].set(std::move(light[plane]), all);
+    films.planes[plane].set(
+      [&](std::int64_t* light, LightSums& sums)
+      {
+        fetch(light, memory_->light.data() + plane * pixels, pixels * sizeof(Counter));
+        fetch(&sums, memory_->planes.data() + plane, sizeof(LightSums));
+      });
   }
   RayCounts counts;
-  take(&counts, sizeof(counts));
+  fetch(&counts, memory_->counts.data(), sizeof(RayCounts));
   return counts;
+}
+
+void CudaFilm::developCentres(Image& image) const
+{
+  const std::size_t pixels = memory_->pixels;
+  const CudaBuffer<double> paths(pixels);
+  const CudaBuffer<float> others(5 * pixels);
+  const CentreArrays onDevice{ others.data(), others.data() + 2 * pixels, paths.data(),
+    others.data() + 4 * pixels };
+  launchKernel(centresKernel,
+    static_cast<unsigned>((pixels + threadsPerBlock - 1) / threadsPerBlock), threadsPerBlock, 0,
+    nullptr, static_cast<const PixelRays*>(memory_->sums.data()), static_cast<std::int64_t>(pixels),
+    onDevice);
+  checkCuda(cudaGetLastError(), "Starting the kernel of pixels' centres");
+  const CentreArrays onHost = centreArraysOf(image, pixels);
+  fetch(onHost.deflection, onDevice.deflection, 2 * pixels * sizeof(float));
+  fetch(onHost.displacement, onDevice.displacement, 2 * pixels * sizeof(float));
+  fetch(onHost.opticalPathDifference, onDevice.opticalPathDifference, pixels * sizeof(double));
+  fetch(onHost.blockedFraction, onDevice.blockedFraction, pixels * sizeof(float));
 }
 
 } // namespace schlieren

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Film/CentreValues.h"
 #include "Film/Exposure.h"
+#include "Film/Image.h"
 #include "Rays/CudaPass.h"
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace schlieren
 {
 
 /// An image that is summed up on the CUDA device, from rays that lie there. Not a bit differs from
-/// that of expose() and CentreValues: sums of light are whole numbers, and each pixel's rays are added up in
+/// that of expose() and of CentreValues: sums of light are whole numbers, and each pixel's rays are added up in
 /// the order of the passes. Throws DeviceError.
 class CudaFilm
 {
@@ -28,8 +28,10 @@ public:
   void expose(const CudaPass& traced, const Pass& pass, const Cutoffs& cutoff,
     const Projection& projection, std::int64_t margin, FilmEstimator estimator);
 
-  /// Hands over all that has been added up.
-  RayCounts develop(Films& films, CentreValues& values) const;
+  /// Hands over the light that has been added up.
+  RayCounts develop(Films& films) const;
+  /// Writes into the image what light carries at the pixels' centres.
+  void developCentres(Image& image) const;
 
 private:
   struct DeviceMemory;

@@ -48,25 +48,47 @@ void filterNoise(const PixelArray<float>& samples, const FilmSettings& settings,
   }
 }
 
-bool UndisturbedImage::addPass(const Monitor& monitor)
+bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
 {
   const std::int64_t margin = exposure_.margin;
   Pass pass{ -margin, -margin, settings_.width + 2 * margin, settings_.height + 2 * margin,
     { 0, 0 } };
   if (!films_)
   {
-    exits_.resize(static_cast<std::size_t>(pass.columns * pass.rows));
     films_ = filmsOf(settings_, exposure_.cutoff, {}, exposure_.maxRays);
+    const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+    if (device == Device::Cuda)
+    {
+      exitsOnDevice_ = std::make_unique<CudaPass>(rays);
+      exitsOnDevice_->makeUndisturbed();
+      filmOnDevice_ = std::make_unique<CudaFilm>(*films_);
+    }
+    else
+    {
+      exits_.assign(rays, {});
+    }
   }
   pass.offset = pixelOffset(passes_, settings_.seed);
-  exposeFrom(nextRow_, { { pass, exits_.data(), nullptr } }, exposure_.cutoff, exposure_.projection,
-    margin, settings_.estimator, settings_.threads, *films_, monitor);
+  if (filmOnDevice_)
+  {
+    filmOnDevice_->expose(
+      *exitsOnDevice_, pass, exposure_.cutoff, exposure_.projection, margin, settings_.estimator);
+  }
+  else
+  {
+    exposeFrom(nextRow_, { { pass, exits_.data(), nullptr } }, exposure_.cutoff,
+      exposure_.projection, margin, settings_.estimator, settings_.threads, *films_, monitor);
+  }
   passes_ += nextRow_ == 0 ? 1 : 0;
   return nextRow_ == 0;
 }
 
-PixelArray<float> UndisturbedImage::develop() const
+PixelArray<float> UndisturbedImage::develop()
 {
+  if (filmOnDevice_)
+  {
+    filmOnDevice_->develop(*films_);
+  }
   Image image;
   filterNoise(schlieren::develop(*films_, passes_, settings_.threads, image), settings_, image);
   return std::move(image.intensity);

@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Film/CudaFilm.h"
 #include "Film/Exposure.h"
 #include "Film/Image.h"
 #include "Optics/Cutoffs.h"
 #include "Optics/Tint.h"
+#include "Rays/CudaPass.h"
 #include "Rays/RayExit.h"
 #include "Types.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <vector>
 
 namespace schlieren
 {
@@ -63,15 +65,19 @@ public:
 
   std::int64_t passes() const { return passes_; }
 
-  /// False if aborted or paused before all of the pass is on the films: the next call resumes it.
-  bool addPass(const Monitor& monitor);
+  /// False if aborted or paused before all of the pass is on the films: the next call resumes it. `device`: the same for
+  /// all passes of an image. Throws DeviceError.
+  bool addPass(Device device, const Monitor& monitor);
 
-  PixelArray<float> develop() const;
+  PixelArray<float> develop();
 
 private:
   const FilmSettings& settings_;
   const Exposure& exposure_;
-  std::vector<RayExit> exits_; ///< empty until the first pass, as the next
+  RayExits
+    exits_; ///< empty until the first pass, as the next three, or where the others are in use
+  std::unique_ptr<CudaPass> exitsOnDevice_;
+  std::unique_ptr<CudaFilm> filmOnDevice_;
   std::optional<Films> films_;
   std::int64_t passes_ = 0;
   std::int64_t nextRow_ = 0; ///< of the pass that is being added

@@ -37,10 +37,11 @@ public:
   /// The light of all pixels, row by row, in fixed point.
   const std::vector<std::int64_t>& light() const { return pixels_; }
   const LightSums& sums() const { return sums_; }
-  void set(std::vector<std::int64_t> light, const LightSums& sums)
+  /// Calls fill(the light of all pixels, the sums), which writes both.
+  template <class Fill>
+  void set(const Fill& fill)
   {
-    pixels_ = std::move(light);
-    sums_ = sums;
+    fill(pixels_.data(), sums_);
   }
 
   /// Light per pixel divided by `raysPerPixel`.

@@ -19,6 +19,8 @@ void CudaFilm::expose(
 {
 }
 
-RayCounts CudaFilm::develop(Films&, CentreValues&) const { return {}; }
+RayCounts CudaFilm::develop(Films&) const { return {}; }
+
+void CudaFilm::developCentres(Image&) const {}
 
 } // namespace schlieren

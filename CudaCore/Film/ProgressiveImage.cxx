@@ -30,6 +30,7 @@ bool ProgressiveImage::add(
   {
     if (!filmOnDevice_)
     {
+      isOnDevice_ = true;
       filmOnDevice_ = std::make_unique<CudaFilm>(*films_);
     }
     filmOnDevice_->expose(*traced.onDevice, pass, exposure_.cutoff, exposure_.projection,
@@ -62,7 +63,7 @@ bool ProgressiveImage::completeUndisturbed(const Monitor& monitor)
 {
   while (undisturbed_ && undisturbed_->passes() < passes_)
   {
-    if (!undisturbed_->addPass(monitor))
+    if (!undisturbed_->addPass(isOnDevice_ ? Device::Cuda : Device::Cpu, monitor))
     {
       return false;
     }
@@ -79,7 +80,7 @@ void ProgressiveImage::developCounts(Image& image)
 {
   if (filmOnDevice_)
   {
-    counts_ = filmOnDevice_->develop(*films_, centres_);
+    counts_ = filmOnDevice_->develop(*films_);
   }
   image.samples = static_cast<int>(passes_);
   image.undisturbedLevel = undisturbedLevel(exposure_.cutoff);
@@ -90,11 +91,20 @@ void ProgressiveImage::developCounts(Image& image)
   image.saturatedFraction = counts_.saturatedFraction();
 }
 
-void ProgressiveImage::develop(Image& image)
+void ProgressiveImage::developCentres(Image& image) const
 {
-  developCounts(image);
-  filterNoise(schlieren::develop(*films_, passes_, settings_.threads, image), settings_, image);
-  centres_.develop(waiting_, image);
+  if (filmOnDevice_)
+  {
+    filmOnDevice_->developCentres(image);
+  }
+  else
+  {
+    centres_.develop(waiting_, image);
+  }
+}
+
+void ProgressiveImage::developUndisturbed(Image& image)
+{
   if (undisturbed_)
   {
     image.background = undisturbed_->develop();
@@ -102,23 +112,27 @@ void ProgressiveImage::develop(Image& image)
   }
 }
 
+void ProgressiveImage::develop(Image& image)
+{
+  developCounts(image);
+  filterNoise(schlieren::develop(*films_, passes_, settings_.threads, image), settings_, image);
+  developCentres(image);
+  developUndisturbed(image);
+}
+
 bool ProgressiveImage::finish(Image& image, const Monitor& monitor)
 {
   developCounts(image);
-  filmOnDevice_.reset();
   const PixelArray<float> samples = schlieren::develop(*films_, passes_, settings_.threads, image);
   films_.reset(); // all that follows wants memory, too
   filterNoise(samples, settings_, image);
-  centres_.develop(waiting_, image);
+  developCentres(image);
+  filmOnDevice_.reset();
   if (!completeUndisturbed(monitor))
   {
     return false;
   }
-  if (undisturbed_)
-  {
-    image.background = undisturbed_->develop();
-    image.backgroundDisplacement = backgroundDisplacement(image, exposure_.projection);
-  }
+  developUndisturbed(image);
   return true;
 }
 

@@ -61,11 +61,14 @@ public:
 
 private:
   void developCounts(Image& image);
+  void developCentres(Image& image) const;
+  void developUndisturbed(Image& image);
 
   FilmSettings settings_;
   Exposure exposure_;
   std::optional<Films> films_;
-  std::unique_ptr<CudaFilm> filmOnDevice_; ///< of passes that lie there
+  bool isOnDevice_ = false;                ///< the passes lie there
+  std::unique_ptr<CudaFilm> filmOnDevice_; ///< of these
   CentreValues centres_;
   RayCounts counts_;
   std::vector<TracedRays> waiting_; ///< not in centres_ yet

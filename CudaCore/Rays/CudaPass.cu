@@ -185,6 +185,12 @@ CudaPass::CudaPass(const RayExits& exits)
 
 CudaPass::~CudaPass() { cudaFree(exits_); }
 
+void CudaPass::makeUndisturbed()
+{
+  // All zero bits are an undisturbed ray.
+  checkCuda(cudaMemset(exits_, 0, size_ * sizeof(RayExit)), "Making undisturbed rays");
+}
+
 RayExits CudaPass::toHost() const
 {
   RayExits exits(size_);

@@ -22,6 +22,8 @@ public:
   /// Room for so many rays; not initialised.
   explicit CudaPass(std::size_t rays);
   explicit CudaPass(const RayExits& exits);
+  /// Makes all rays undisturbed ones.
+  void makeUndisturbed();
   CudaPass(const CudaPass&) = delete;
   CudaPass& operator=(const CudaPass&) = delete;
   ~CudaPass();

@@ -21,6 +21,8 @@ CudaPass::CudaPass(const RayExits& exits)
 
 CudaPass::~CudaPass() = default;
 
+void CudaPass::makeUndisturbed() {}
+
 RayExits CudaPass::toHost() const { return {}; }
 
 void CudaPass::put(std::size_t, const char*, std::size_t) const {}

@@ -3,6 +3,7 @@
 // The same rays make the same image on host and device.
 #include "Bench/CutoffMaker.h"
 #include "Fields.h"
+#include "Film/CentreValues.h"
 #include "Film/CudaFilm.h"
 #include "Optics/AutomaticK.h"
 
@@ -90,8 +91,7 @@ void expectSameImages(const Cutoffs& cutoff, FilmEstimator estimator,
     onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin, estimator);
   }
   const RayCounts counts = expose(traced, cutoff, projection, margin, estimator, 1, films);
-  CentreValues means(width, height, 1), meansOfDevice(width, height, 1);
-  const RayCounts countsOfDevice = onDevice.develop(filmsOfDevice, meansOfDevice);
+  const RayCounts countsOfDevice = onDevice.develop(filmsOfDevice);
 
   for (std::size_t plane = 0; plane < films.planes.size(); ++plane)
   {
@@ -102,8 +102,8 @@ void expectSameImages(const Cutoffs& cutoff, FilmEstimator estimator,
     EXPECT_GT(*std::max_element(film.light().begin(), film.light().end()), 0);
   }
   Image host, device;
-  means.develop(traced, host);
-  meansOfDevice.develop({}, device);
+  CentreValues(width, height, 1).develop(traced, host);
+  onDevice.developCentres(device);
   EXPECT_EQ(host.deflection, device.deflection);
   EXPECT_EQ(host.displacement, device.displacement);
   EXPECT_EQ(host.opticalPathDifference, device.opticalPathDifference);

@@ -11,7 +11,7 @@
 //
 // In the environment: CUDA_VISIBLE_DEVICES empty or -1 hides the device, as with CUDA. EMULATED_DEVICES: how many there
 // are, 1 by default; they have their memory in common, but a stream works for one of them only. EMULATED_CAPABILITY: ten
-// times their compute capability, 90 by default. EMULATED_NO_PINNED: no memory of the host can be locked.
+// times their compute capability, 90 by default.
 // EMULATED_LAUNCHES names a file that gets the address of each kernel that is launched, as nm prints it.
 #include "Threads.h"
 
@@ -398,21 +398,6 @@ cudaError_t cudaFree(void* data)
   const std::lock_guard<std::recursive_mutex> lock(mutex);
   finishAll();
   return data == nullptr || memory.release(data) ? cudaSuccess : failed(cudaErrorInvalidValue);
-}
-
-cudaError_t cudaMallocHost(void** data, std::size_t bytes)
-{
-  const std::lock_guard<std::recursive_mutex> lock(mutex);
-  *data = std::getenv("EMULATED_NO_PINNED") == nullptr ? std::malloc(bytes) : nullptr;
-  return *data == nullptr ? failed(cudaErrorMemoryAllocation) : cudaSuccess;
-}
-
-cudaError_t cudaFreeHost(void* data)
-{
-  const std::lock_guard<std::recursive_mutex> lock(mutex);
-  finishAll();
-  std::free(data);
-  return cudaSuccess;
 }
 
 cudaError_t cudaMemcpyAsync(

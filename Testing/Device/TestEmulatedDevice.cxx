@@ -157,25 +157,6 @@ TEST(EmulatedDevice, WorksWhenItIsWaitedFor)
   cudaStreamDestroy(other);
 }
 
-TEST(EmulatedDevice, CopiesToTheHostWhereNoMemoryCanBeLocked)
-{
-  int* data = deviceMemory<int>(1);
-  for (const bool isLocked : { true, false })
-  {
-    isLocked ? unsetenv("EMULATED_NO_PINNED") : setenv("EMULATED_NO_PINNED", "1", 1);
-    CudaHostBuffer buffer(sizeof(int));
-    std::fill_n(buffer.data(), sizeof(int), static_cast<unsigned char>(0));
-    launchKernel(write, 1, 1, 0, nullptr, data, 7);
-    cudaMemcpyAsync(buffer.data(), data, sizeof(int), cudaMemcpyDeviceToHost, nullptr);
-    EXPECT_EQ(buffer.data()[0], 0);
-    cudaStreamSynchronize(nullptr);
-    EXPECT_EQ(buffer.data()[0], 7);
-    EXPECT_EQ(cudaGetLastError(), cudaSuccess);
-  }
-  unsetenv("EMULATED_NO_PINNED");
-  cudaFree(data);
-}
-
 TEST(EmulatedDevice, NotesWhenWorkWasDone)
 {
   cudaStream_t stream{};

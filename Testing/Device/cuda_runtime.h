@@ -70,8 +70,6 @@ extern "C"
   const char* cudaGetErrorString(cudaError_t error);
   cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total);
   cudaError_t cudaFree(void* memory);
-  cudaError_t cudaMallocHost(void** memory, std::size_t bytes);
-  cudaError_t cudaFreeHost(void* memory);
   cudaError_t cudaMemcpy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind);
   cudaError_t cudaMemcpyAsync(
     void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream);
