@@ -410,7 +410,7 @@ def on_two_ranks(kind, number, output):
                "--sym", os.path.abspath(__file__), "case", kind, str(number)]
     inherited = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
     try:
-        return subprocess.run(command, env=inherited, stdout=output, stderr=output, timeout=3 * SECONDS_OF_CASE,
+        return subprocess.run(command, env=inherited, stdout=output, stderr=output, timeout=10 * SECONDS_OF_CASE,
                               check=False).returncode
     except subprocess.TimeoutExpired:
         return 124
