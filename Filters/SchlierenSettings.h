@@ -153,6 +153,7 @@ struct AccuracySettings
   double PathTolerance = 0;
   double MediumTolerance = 0;
   double TargetError = 0;
+  bool AutoTargetError = false;
 
   template <class Visit>
   void visit(const Visit& use) const
@@ -169,6 +170,7 @@ struct AccuracySettings
     use("PathTolerance", this->PathTolerance);
     use("MediumTolerance", this->MediumTolerance);
     use("TargetError", this->TargetError);
+    use("AutoTargetError", this->AutoTargetError);
   }
 };
 

@@ -180,7 +180,8 @@ public:
     FINE = 1,
     PUBLICATION = 2,
     REFERENCE = 3,
-    CUSTOM = 4
+    AUTOMATIC = 4,
+    CUSTOM = 5
   };
 
   enum PathModels
@@ -694,7 +695,7 @@ public:
   /**
    * Return what has been measured of a preset on four flows (quality.md): the error that 99 % of the
    * pixels keep with a cutoff, in the unit of TargetError, and the time for another view, relative to
-   * INTERACTIVE. 0: not known, of REFERENCE and CUSTOM.
+   * INTERACTIVE. 0: not known, of REFERENCE, AUTOMATIC and CUSTOM.
    */
   static double GetQualityError(int quality, int cutoff);
   static double GetQualityTime(int quality);
@@ -817,6 +818,16 @@ public:
    */
   vtkSetMacro(TargetError, double);
   vtkGetMacro(TargetError, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether TargetError is, whatever its value, the error that cannot be seen: 0.02 fringes or pixels, else 0.004.
+   * Default: off.
+   */
+  vtkSetMacro(AutoTargetError, bool);
+  vtkGetMacro(AutoTargetError, bool);
+  vtkBooleanMacro(AutoTargetError, bool);
   ///@}
 
   ///@{

@@ -81,6 +81,18 @@ DeflectionErrors deflectionErrors(
     light.faces.ratio * image.medium.deflectionError };
 }
 
+/// What has been found out about an image whose settings are to keep its target error.
+struct Aim
+{
+  Field field;
+  Scene
+    scene; ///< with the medium and the path model that the target needs, as far as that is known
+  Device device;
+  std::unique_ptr<UnfinishedImage> request{}; ///< with all settings, once they are found
+  bool isPaused = false;
+  bool isShown = false; ///< with one ray per pixel
+};
+
 /// How the rays of a view are bounded and to be traced.
 struct BoundedRays
 {
@@ -96,14 +108,24 @@ struct Bench::Stages
   Work work;
   Processes* processes = nullptr;              ///< null: there are no others
   std::unique_ptr<UnfinishedImage> unfinished; ///< after a pause
+  std::optional<Aim> aim;                      ///< likewise, before that
   MediumCache media{ work };
   RayCache rays;
   CutoffMaker cutoffs;
   TargetCache targets;
 
-  /// A request with the settings that a scene's target error needs; null if aborted.
-  std::unique_ptr<UnfinishedImage> requestForTarget(
-    const Field& field, const Scene& scene, const Monitor& monitor);
+  void cancel()
+  {
+    unfinished.reset();
+    aim.reset();
+  }
+
+  /// Begins an image with a target error, which renderAim() then makes. One that may be paused is first shown with one ray
+  /// per pixel.
+  void beginAim(const Field& field, const Scene& scene, Device device);
+  /// Finds its settings, and then works on it. Keeps what has been found after a pause.
+  Image renderAim(const Monitor& monitor);
+  Image renderFirst(const Monitor& monitor);
 
   /// Works on an image until it is finished, aborted or paused, on the device of its scene, and keeps what is left after a
   /// pause.
@@ -114,10 +136,10 @@ private:
   template <class Real>
   Pilot<Real>& pilotFor(const MediumOnDevices<Real>& onDevices, const Light& light,
     const UnfinishedImage& request, Image& image);
-  /// The same with the medium and the path model of `scene`; null if aborted, or if others are needed, which it then
-  /// writes into `scene`.
+  /// Finds the settings with the medium and the path model of the scene. False if others are needed, which it then writes
+  /// into the scene.
   template <class Real>
-  std::unique_ptr<UnfinishedImage> aim(const Field& field, Scene& scene, const Watch& watch);
+  bool findSettings(Aim& ofImage, const Watch& watch);
 
   /// Drops rays, before their medium goes or after it has changed.
   void clearRays()
@@ -313,57 +335,59 @@ Pilot<Real>& Bench::Stages::pilotFor(const MediumOnDevices<Real>& onDevices, con
 }
 
 template <class Real>
-std::unique_ptr<UnfinishedImage> Bench::Stages::aim(
-  const Field& field, Scene& scene, const Watch& watch)
+bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
 {
-  auto request = std::make_unique<UnfinishedImage>(field, scene);
-  Image image = begin(*request);
-  MediumInUse<Real> inUse(media, field, clearedFor(*request));
-  const Light light = prepareMedium(inUse, *request, watch, image);
+  const Field& field = ofImage.field;
+  Scene& scene = ofImage.scene;
+  UnfinishedImage request(field, scene);
+  Image image = begin(request);
+  MediumInUse<Real> inUse(media, field, clearedFor(request));
+  const Light light = prepareMedium(inUse, request, watch, image);
   if (watch.isAborted())
   {
-    return nullptr;
+    return true;
   }
   if (inUse.seesChange())
   {
     clearRays();
   }
   const Medium<Real>& medium = inUse.medium();
-  Pilot<Real>& pilot = pilotFor(inUse.onDevices(), light, *request, image);
+  Pilot<Real>& pilot = pilotFor(inUse.onDevices(), light, request, image);
   const double k = scene.kScale.value_or(
     automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
   CutoffMaker maker;
   const Cutoffs cutoff = maker.cutoffOf(scene, k, image.frame.pixelSize);
-  pilot.setCutoff(scene, cutoff);
+  pilot.begin(scene, cutoff);
   const KnownErrors known = knownErrors(
     pilot.bench(), pilot.view(), deflectionErrors(medium, light, field, image).medium, k);
   if (refine(known, image.medium.isMemoryShort, scene))
   {
-    return nullptr;
+    return false;
   }
   const bool hasWalls =
     !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
   const AccurateSettings chosen =
     chooseFor(pilot, hasWalls, known, targets.lastFor(scene), watch.monitor());
-  if (watch.isAborted())
+  ofImage.isPaused = pilot.isPaused();
+  if (watch.isAborted() || ofImage.isPaused)
   {
-    return nullptr;
+    return true;
   }
   targets.keep(scene, chosen);
   Scene accurate = scene;
   accurate.stepSize = chosen.step;
   accurate.adaptiveTolerance = adaptiveToleranceFor(chosen.step, scene.adaptiveTolerance);
   accurate.samplesPerPixel = chosen.samples;
-  auto result = std::make_unique<UnfinishedImage>(field, accurate);
-  result->accuracy = chosen.accuracy;
-  return result;
+  ofImage.request = std::make_unique<UnfinishedImage>(field, accurate);
+  ofImage.request->device = ofImage.device;
+  ofImage.request->accuracy = chosen.accuracy;
+  return true;
 }
 
-std::unique_ptr<UnfinishedImage> Bench::Stages::requestForTarget(
-  const Field& field, const Scene& scene, const Monitor& monitor)
+void Bench::Stages::beginAim(const Field& field, const Scene& scene, Device device)
 {
-  const Watch watch(monitor);
-  Scene accurate = scene;
+  aim.emplace(Aim{ field, scene, device });
+  Scene& accurate = aim->scene;
   accurate.interpolation = Interpolation::Cubic;
   accurate.homogeneityTolerance = 0;
   if (field.source)
@@ -371,13 +395,63 @@ std::unique_ptr<UnfinishedImage> Bench::Stages::requestForTarget(
     accurate.mediumTolerance = toleranceForTarget(field, scene);
   }
   media.adopt(field, accurate);
-  std::unique_ptr<UnfinishedImage> request;
-  while (!request && !watch.isAborted())
+}
+
+Image Bench::Stages::renderFirst(const Monitor& monitor)
+{
+  Aim ofImage = std::move(*aim);
+  aim.reset();
+  std::unique_ptr<UnfinishedImage> request = std::move(unfinished);
+  if (!request)
   {
-    request = accurate.precision == Precision::Single ? aim<float>(field, accurate, watch)
-                                                      : aim<double>(field, accurate, watch);
+    Scene first = ofImage.scene;
+    first.targetError = 0;
+    first.stepSize = longestStep;
+    first.samplesPerPixel = 1;
+    request = std::make_unique<UnfinishedImage>(ofImage.field, first);
+    request->device = ofImage.device;
   }
-  return request;
+  Image image = render(std::move(request), monitor);
+  if (!image.aborted)
+  {
+    ofImage.isShown = image.finished;
+    image.finished = false;
+    aim = std::move(ofImage);
+  }
+  return image;
+}
+
+Image Bench::Stages::renderAim(const Monitor& monitor)
+{
+  if (monitor.paused && !aim->isShown)
+  {
+    return renderFirst(monitor);
+  }
+  Aim ofImage = std::move(*aim);
+  aim.reset();
+  {
+    const Watch watch(monitor);
+    const auto find = [&]
+    {
+      return ofImage.scene.precision == Precision::Single ? findSettings<float>(ofImage, watch)
+                                                          : findSettings<double>(ofImage, watch);
+    };
+    while (!watch.isAborted() && !find())
+    {
+    }
+  }
+  if (ofImage.request)
+  {
+    return render(std::move(ofImage.request), monitor);
+  }
+  if (!ofImage.isPaused)
+  {
+    return abortedImage();
+  }
+  Image nothing = begin(UnfinishedImage(ofImage.field, ofImage.scene));
+  nothing.finished = false;
+  aim = std::move(ofImage);
+  return nothing;
 }
 
 template <class Real>
@@ -482,13 +556,16 @@ void Bench::setMedia(std::shared_ptr<SharedMedia> media)
   stages_->media.setMedia(std::move(media));
 }
 
-void Bench::cancel() { stages_->unfinished.reset(); }
+void Bench::cancel() { stages_->cancel(); }
 
-bool Bench::isUnfinished() const { return stages_->unfinished != nullptr; }
+bool Bench::isUnfinished() const
+{
+  return stages_->unfinished != nullptr || stages_->aim.has_value();
+}
 
 Image Bench::render(const Field& field, const Scene& scene, const Monitor& monitor)
 {
-  stages_->unfinished.reset();
+  stages_->cancel();
   validate(field, scene);
   std::string reason;
   const bool hasCuda = scene.device != Device::Cpu && cudaAvailable(&reason);
@@ -497,14 +574,14 @@ Image Bench::render(const Field& field, const Scene& scene, const Monitor& monit
     throw Error("Device is CUDA, but no CUDA device can be used: " + reason +
       ". Set Device to Auto or CPU, or check the driver with nvidia-smi.");
   }
-  std::unique_ptr<UnfinishedImage> request = scene.targetError > 0
-    ? stages_->requestForTarget(field, scene, monitor)
-    : std::make_unique<UnfinishedImage>(field, scene);
-  if (!request)
+  const Device device = hasCuda ? Device::Cuda : Device::Cpu;
+  if (scene.targetError > 0)
   {
-    return abortedImage();
+    stages_->beginAim(field, scene, device);
+    return stages_->renderAim(monitor);
   }
-  request->device = hasCuda ? Device::Cuda : Device::Cpu;
+  auto request = std::make_unique<UnfinishedImage>(field, scene);
+  request->device = device;
   return stages_->render(std::move(request), monitor);
 }
 
@@ -514,7 +591,8 @@ Image Bench::resume(const Monitor& monitor)
   {
     throw Error("There is no unfinished image to resume. Render one.");
   }
-  return stages_->render(std::move(stages_->unfinished), monitor);
+  return stages_->aim ? stages_->renderAim(monitor)
+                      : stages_->render(std::move(stages_->unfinished), monitor);
 }
 
 } // namespace schlieren

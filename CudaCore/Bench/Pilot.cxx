@@ -71,6 +71,11 @@ const typename Pilot<Real>::Traced* Pilot<Real>::trace(
   {
     return &traced;
   }
+  isPaused_ = isPaused_ || (hasTraced_ && monitor.paused && monitor.paused());
+  if (isPaused_)
+  {
+    return nullptr;
+  }
   Traced rays(places.size());
   const RayTask<Real> whole = taskFor(step);
   const bool isDone = parallelFor(static_cast<std::int64_t>(places.size()), 1, bench_.scene.threads,
@@ -104,6 +109,7 @@ const typename Pilot<Real>::Traced* Pilot<Real>::trace(
     return nullptr;
   }
   traced = std::move(rays);
+  hasTraced_ = true;
   return &traced;
 }
 

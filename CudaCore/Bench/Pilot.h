@@ -63,10 +63,11 @@ public:
   const PilotView& view() const { return scouts_.view(); }
 
   /// Exposes patches by another cutoff of a scene with the same rays from now on. The cutoff's table stays with its owner.
-  void setCutoff(const Scene& scene, const Cutoffs& cutoff)
+  void begin(const Scene& scene, const Cutoffs& cutoff)
   {
     bench_.scene = scene;
     cutoff_ = &cutoff;
+    hasTraced_ = isPaused_ = false;
     for (auto& exposed : exposed_)
     {
       exposed.clear();
@@ -80,9 +81,12 @@ public:
     ToVerify
   };
 
-  /// Compares the images of two settings. Aborted: empty.
+  /// Compares the images of two settings. Aborted or paused: empty.
   Differences compare(
     Patches patches, const Settings& a, const Settings& b, const Monitor& monitor);
+
+  /// Whether the monitor has paused it since begin(), after rays that are kept for when it begins again.
+  bool isPaused() const { return isPaused_; }
 
 private:
   /// What of a patch's image is compared.
@@ -104,9 +108,9 @@ private:
     return layout_.isWhole ? 0 : static_cast<std::size_t>(patches);
   }
   Pass passOf(const Patch& patch, std::int64_t number) const;
-  /// The rays of all patches of a set; null if aborted.
+  /// The rays of all patches of a set; null if aborted or paused.
   const Traced* trace(Patches patches, double step, int number, const Monitor& monitor);
-  /// The images of all patches of a set; null if aborted.
+  /// The images of all patches of a set; null if aborted or paused.
   const Exposed* expose(Patches patches, const Settings& settings, const Monitor& monitor);
   Values expose(
     const Patch& patch, std::size_t index, const std::vector<const Traced*>& passes) const;
@@ -119,6 +123,7 @@ private:
   PatchLayout layout_;
   std::map<std::pair<double, int>, Traced> traced_[2];   ///< by step and pass
   std::map<std::pair<double, int>, Exposed> exposed_[2]; ///< by step and rays per pixel
+  bool hasTraced_ = false, isPaused_ = false;            ///< since begin()
 };
 
 } // namespace schlieren

@@ -84,6 +84,13 @@ constexpr const Technique& techniqueOf(Cutoff cutoff)
   return techniques[static_cast<std::size_t>(cutoff)];
 }
 
+/// The error of an image that cannot be seen, in the unit of Scene::targetError: a grey level of 256, or a fiftieth of a
+/// fringe or of a pixel.
+constexpr double unseenError(const Technique& technique)
+{
+  return technique.hasFringes || technique.plane == RecordedPlane::Background ? 0.02 : 0.004;
+}
+
 /// Whether rays go backwards, from a camera to what is behind the flow.
 constexpr bool isOfCamera(Cutoff cutoff)
 {

@@ -107,6 +107,11 @@ void vtkSMSchlierenQualityDomain::Follow(vtkSMProperty* modified)
     }
     return;
   }
+  if (!isLoaded && modified != this->GetRequiredProperty("AutoTargetError"))
+  {
+    // A setting that is changed is to have its effect.
+    Helper(this->GetRequiredProperty("AutoTargetError")).Set(0);
+  }
   int preset = Filter::INTERACTIVE;
   while (preset < Filter::CUSTOM && !isPreset(preset))
   {

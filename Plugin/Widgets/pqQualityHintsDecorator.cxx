@@ -22,6 +22,7 @@ QString hintFor(int quality)
 {
   const double time = Filter::GetQualityTime(quality);
   return quality == Filter::CUSTOM ? pqQualityHintsDecorator::tr("as set below")
+    : quality == Filter::AUTOMATIC ? pqQualityHintsDecorator::tr("errors that cannot be seen")
     : quality == Filter::REFERENCE
     ? pqQualityHintsDecorator::tr("to compare with, hundreds of times as long")
     : pqQualityHintsDecorator::tr("errors up to %1 %, %2")

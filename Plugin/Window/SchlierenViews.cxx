@@ -393,6 +393,7 @@ private:
     else
     {
       setFlowDefaults(bench, this->Defaults);
+      setInt(bench, "Quality", Filter::AUTOMATIC);
     }
     set(bench);
     bench->UpdateVTKObjects();

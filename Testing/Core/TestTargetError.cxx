@@ -180,6 +180,40 @@ TEST(TargetErrors, AbortedEndsThem)
   EXPECT_FALSE(bench.render(field.field, scene).aborted);
 }
 
+/// However often its search for settings is paused, the image is the same.
+TEST(TargetErrors, MayBePaused)
+{
+  const SampledField<float> field(cube(32, 1), shock);
+  Scene scene = sceneOf({ "", Cutoff::Interferogram, 0 });
+  scene.targetError = 0.02;
+  const Image atOnce = Bench().render(field.field, scene);
+  Monitor always;
+  always.paused = [] { return true; };
+  Bench bench;
+  Image image = bench.render(field.field, scene, always);
+  while (image.intensity.empty())
+  {
+    image = bench.resume(always);
+  }
+  EXPECT_EQ(image.samples, 1); // something to look at
+  int calls = 1, withoutLight = 0;
+  for (; bench.isUnfinished(); ++calls)
+  {
+    EXPECT_FALSE(image.finished);
+    withoutLight += image.intensity.empty() ? 1 : 0;
+    ASSERT_LT(calls, 1000);
+    image = bench.resume(always);
+  }
+  EXPECT_GT(withoutLight, 3); // before the first pass
+  EXPECT_EQ(image.intensity, atOnce.intensity);
+  EXPECT_EQ(image.accuracy.reached, atOnce.accuracy.reached);
+  EXPECT_EQ(image.samplesPerPixel, atOnce.samplesPerPixel);
+
+  bench.render(field.field, scene, always);
+  bench.cancel();
+  EXPECT_FALSE(bench.isUnfinished());
+}
+
 TEST(TargetErrors, AreRefusedWhereTheyAreNone)
 {
   const SampledField<float> field(cube(8, 1), shock);

@@ -10,7 +10,7 @@ namespace
 using Filter = vtkSchlierenFilter;
 
 constexpr int presets[] = { Filter::INTERACTIVE, Filter::FINE, Filter::PUBLICATION,
-  Filter::REFERENCE };
+  Filter::REFERENCE, Filter::AUTOMATIC };
 
 /// What the filter's properties are, by the names that Quality knows them by.
 std::map<std::string, double> settingsOf(Filter* filter)
@@ -23,7 +23,9 @@ std::map<std::string, double> settingsOf(Filter* filter)
     { "FilmEstimator", filter->GetFilmEstimator() }, { "Precision", filter->GetPrecision() },
     { "AdaptiveTolerance", filter->GetAdaptiveTolerance() },
     { "PathTolerance", filter->GetPathTolerance() },
-    { "MediumTolerance", filter->GetMediumTolerance() } };
+    { "MediumTolerance", filter->GetMediumTolerance() },
+    { "TargetError", filter->GetTargetError() },
+    { "AutoTargetError", filter->GetAutoTargetError() } };
 }
 
 std::map<std::string, double> settingsOf(int preset)

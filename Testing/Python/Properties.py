@@ -27,7 +27,7 @@ TEXTS = {"IndexModel": {"Auto", "Gladstone-Dale", "Gladstone-Dale Mixture", "Cid
          "SourceShape": {"Point", "Slit", "Disc"},
          "BackgroundPattern": {"Dots", "Stripes", "Picture", "Scene"}, "FilmEstimator": {"Sheet", "Photon"},
          "NoiseFilter": {"None", "Gaussian", "Mean", "Cone"},
-         "Quality": {"Interactive", "Fine", "Publication", "Reference", "Custom"},
+         "Quality": {"Interactive", "Fine", "Publication", "Reference", "Automatic", "Custom"},
          "PathModel": {"Auto", "Straight", "Refracted", "Difference"},
          "Integrator": {"Leapfrog", "RK4", "Adaptive", "Euler"},
          "Interpolation": {"Quadratic", "Linear", "Central", "Cubic"},

@@ -10,11 +10,11 @@ from paraview import simple, smstate, smtrace
 from plugin_testing import Schlieren, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
 
-PRESETS = ("Interactive", "Fine", "Publication", "Reference")
+PRESETS = ("Interactive", "Fine", "Publication", "Reference", "Automatic")
 SETTINGS = []
 while vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)):
     SETTINGS.append(vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)))
-assert len(SETTINGS) == 11
+assert len(SETTINGS) == 13
 
 source = gaussian_column(16)
 
@@ -46,7 +46,7 @@ for number, preset in enumerate(PRESETS):
     for i, name in enumerate(SETTINGS):
         assert bench.GetProperty(name).SMProperty.GetElement(0) == \
             vtkSchlierenFilter.GetQualityValue(number, i), (preset, name)
-assert len({str(settings) for settings in table.values()}) == 4, "Two presets are the same"
+assert len({str(settings) for settings in table.values()}) == 5, "Two presets are the same"
 with open(os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Documentation", "quality.md"),
           encoding="utf-8") as file:
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in file if line[0] == "|"]
@@ -72,7 +72,7 @@ check(bench, "Reference")
 for name, value in (("PathModel", "Straight"), ("Integrator", "Euler"), ("StepSize", 0.3),
                     ("HomogeneityTolerance", 0.3), ("Interpolation", "Central"),
                     ("SamplesPerPixel", 7), ("FilmEstimator", "Photon"), ("Precision", "Single"), ("AdaptiveTolerance", 0.3),
-                    ("PathTolerance", 0.3), ("MediumTolerance", 0.3)):
+                    ("PathTolerance", 0.3), ("MediumTolerance", 0.3), ("TargetError", 0.3), ("AutoTargetError", 1)):
     before = bench.GetProperty(name).GetData()
     setattr(bench, name, value)
     check(bench, "Custom", preset="Reference", **{name: value})
@@ -80,6 +80,13 @@ for name, value in (("PathModel", "Straight"), ("Integrator", "Euler"), ("StepSi
     check(bench, "Custom", preset="Reference", **{name: value})
     setattr(bench, name, before)
     check(bench, "Reference")
+
+# Another value of a setting has its effect.
+for name, value in (("StepSize", 0.3), ("SamplesPerPixel", 7), ("TargetError", 0.3)):
+    bench.Quality = "Automatic"
+    check(bench, "Automatic")
+    setattr(bench, name, value)
+    check(bench, "Custom", preset="Automatic", **{name: value, "AutoTargetError": 0})
 
 # They reach the tracer.
 bench = Schlieren(Input=source, Density=["POINTS", "rho"], ImageSize=[16, 16], Quality="Fine",

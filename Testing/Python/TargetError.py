@@ -54,6 +54,25 @@ jet = simple.XMLImageDataReader(FileName=[os.path.join(DATA, "ladenburg_jet_3d.v
 check(jet, 0.02, LengthScale=0.001)
 check(jet, 0.004, LengthScale=0.001)
 check(jet, 0.004, LengthScale=0.001, ViewDirection=[0.3, -0.4, -1], Cutoff="Circular")
+
+# Automatic: the error that cannot be seen. With a limit of time there is an image of one ray per pixel first.
+for cutoff, unseen in (("Knife Edge", 0.004), ("Interferogram", 0.02)):
+    bench = Schlieren(jet, Quality="Automatic", LengthScale=0.001, Cutoff=cutoff, **SETTINGS)
+    whole = output(bench)
+    assert fact(whole, "TargetError") == unseen and fact(whole, "ErrorReached") <= unseen
+    pieces = Schlieren(jet, Quality="Automatic", LengthScale=0.001, Cutoff=cutoff, TimeLimit=1e-6, **SETTINGS)
+    seen = []
+    for _ in range(1000):
+        image = output(pieces)
+        seen.append(image.GetFieldData().HasArray("ErrorReached"))
+        pieces.UpdatePropertyInformation()
+        if pieces.GetProperty("Finished").GetData():
+            break
+        pieces.InvokeCommand("Refine")
+    assert seen[-1] and not all(seen), seen
+    assert np.array_equal(intensity(image), intensity(whole))
+    simple.Delete(pieces)
+    simple.Delete(bench)
 fin = simple.PLOT3DReader(FileName=[os.path.join(DATA, "bluntfin_plot3d", "bluntfinxyz.bin")],
                           QFileName=[os.path.join(DATA, "bluntfin_plot3d", "bluntfinq.bin")],
                           FunctionFileName="", Functions=[100])

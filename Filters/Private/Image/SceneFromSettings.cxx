@@ -196,7 +196,9 @@ schlieren::Scene sceneFrom(
   scene.adaptiveTolerance = settings.AdaptiveTolerance;
   scene.pathTolerance = settings.PathTolerance;
   scene.mediumTolerance = settings.MediumTolerance;
-  scene.targetError = settings.TargetError;
+  scene.targetError = settings.AutoTargetError
+    ? schlieren::unseenError(schlieren::techniqueOf(scene.cutoff))
+    : settings.TargetError;
   scene.mediumMemory = static_cast<std::size_t>(settings.MediumMemory) << 20;
   scene.device = static_cast<schlieren::Device>(settings.Device);
   scene.threads = threadsFrom(settings.NumberOfThreads);

@@ -45,19 +45,21 @@ constexpr double twofold = numberOf(schlieren::Precision::Double);
   }
 
 // clang-format off
-const std::array<QualitySetting, 11> qualitySettings{
-  //                            Interactive        Fine               Publication        Reference
-  SETTING(PathModel,            autoPath,          autoPath,          autoPath,          refracted),
-  SETTING(Integrator,           leapfrog,          leapfrog,          leapfrog,          adaptive),
-  SETTING(StepSize,             2,                 1,                 1,                 1),
-  SETTING(HomogeneityTolerance, 1e-3,              0,                 0,                 0),
-  SETTING(Interpolation,        quadratic,         cubic,             cubic,             cubic),
-  SETTING(SamplesPerPixel,      1,                 4,                 16,                64),
-  SETTING(FilmEstimator,        sheet,             sheet,             sheet,             sheet),
-  SETTING(Precision,            single,            single,            single,            twofold),
-  SETTING(AdaptiveTolerance,    1e-5,              1e-5,              1e-5,              1e-5),
-  SETTING(PathTolerance,        0.01,              0.01,              0.01,              0.01),
-  SETTING(MediumTolerance,      0.003,             0.003,             0.001,             0.001),
+const std::array<QualitySetting, 13> qualitySettings{
+  //                            Interactive  Fine       Publication  Reference  Automatic
+  SETTING(PathModel,            autoPath,    autoPath,  autoPath,    refracted, autoPath),
+  SETTING(Integrator,           leapfrog,    leapfrog,  leapfrog,    adaptive,  leapfrog),
+  SETTING(StepSize,             2,           1,         1,           1,         2),
+  SETTING(HomogeneityTolerance, 1e-3,        0,         0,           0,         0),
+  SETTING(Interpolation,        quadratic,   cubic,     cubic,       cubic,     cubic),
+  SETTING(SamplesPerPixel,      1,           4,         16,          64,        1),
+  SETTING(FilmEstimator,        sheet,       sheet,     sheet,       sheet,     sheet),
+  SETTING(Precision,            single,      single,    single,      twofold,   single),
+  SETTING(AdaptiveTolerance,    1e-5,        1e-5,      1e-5,        1e-5,      1e-5),
+  SETTING(PathTolerance,        0.01,        0.01,      0.01,        0.01,      0.01),
+  SETTING(MediumTolerance,      0.003,       0.003,     0.001,       0.001,     0.003),
+  SETTING(TargetError,          0,           0,         0,           0,         0),
+  SETTING(AutoTargetError,      0,           0,         0,           0,         1),
 };
 
 const std::array<QualityError, 3> qualityErrors{ {

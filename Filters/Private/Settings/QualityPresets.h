@@ -15,11 +15,11 @@ struct QualitySetting
   const char* Property;
   double (*Get)(const AccuracySettings&);
   void (*Set)(AccuracySettings&, double);
-  std::array<double, 4> Values; ///< for each preset, in the order of vtkSchlierenFilter::Qualities
+  std::array<double, 5> Values; ///< for each preset, in the order of vtkSchlierenFilter::Qualities
 };
 
 /// The only definition of the presets; the XML's defaults equal the first one.
-extern const std::array<QualitySetting, 11> qualitySettings;
+extern const std::array<QualitySetting, 13> qualitySettings;
 
 /// What is measured of a preset; see quality.md.
 struct QualityError
@@ -31,7 +31,7 @@ struct QualityError
   double Time = 0;    ///< of another view, relative to that of the fastest preset
 };
 
-/// For each preset but the last, which the others are compared with.
+/// For each preset before the one that these are compared with.
 extern const std::array<QualityError, 3> qualityErrors;
 
 /// Returns StepSize of the fastest preset.
