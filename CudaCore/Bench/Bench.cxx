@@ -134,7 +134,7 @@ struct Bench::Stages
 private:
   /// What finds the settings for an image in this medium.
   template <class Real>
-  Pilot<Real>& pilotFor(const MediumOnDevices<Real>& onDevices, const Light& light,
+  Pilot<Real>& pilotFor(MediumOnDevices<Real>& onDevices, const Light& light,
     const UnfinishedImage& request, Image& image);
   /// Finds the settings with the medium and the path model of the scene. False if others are needed, which it then writes
   /// into the scene.
@@ -151,7 +151,7 @@ private:
   const Scene& clearedFor(const UnfinishedImage& request);
   /// How the rays of an image are bounded and to be traced, and where the medium is steepest.
   template <class Real>
-  BoundedRays boundRays(const MediumOnDevices<Real>& onDevices, const Light& light,
+  BoundedRays boundRays(MediumOnDevices<Real>& onDevices, const Light& light,
     const UnfinishedImage& request, Image& image);
   /// Finds the medium's voxels that a view needs, and its light.
   template <class Real>
@@ -193,7 +193,7 @@ Image Bench::Stages::begin(const UnfinishedImage& request) const
 }
 
 template <class Real>
-BoundedRays Bench::Stages::boundRays(const MediumOnDevices<Real>& onDevices, const Light& light,
+BoundedRays Bench::Stages::boundRays(MediumOnDevices<Real>& onDevices, const Light& light,
   const UnfinishedImage& request, Image& image)
 {
   const Field& field = request.field;
@@ -211,7 +211,7 @@ BoundedRays Bench::Stages::boundRays(const MediumOnDevices<Real>& onDevices, con
     rays.boundOf(key, [&] { return boundDisplacement(medium, light, scene.view, step, atLeast); });
   image.displacementBound = bound.displacement;
   image.displacementWithin = bound.withinMedium;
-  const SteepestPlace steepest = findSteepest(medium.slopes);
+  const SteepestPlace& steepest = onDevices.steepest();
   image.steepestChange = steepest.perVoxel;
   image.steepestPlace = placeOf(field.grid, steepest.at);
   const RaySettings settings =
@@ -316,7 +316,7 @@ Light Bench::Stages::prepareMedium(
 }
 
 template <class Real>
-Pilot<Real>& Bench::Stages::pilotFor(const MediumOnDevices<Real>& onDevices, const Light& light,
+Pilot<Real>& Bench::Stages::pilotFor(MediumOnDevices<Real>& onDevices, const Light& light,
   const UnfinishedImage& request, Image& image)
 {
   const Field& field = request.field;
