@@ -357,7 +357,14 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
     automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
   CutoffMaker maker;
   const Cutoffs cutoff = maker.cutoffOf(scene, k, image.frame.pixelSize);
-  pilot.begin(scene, cutoff);
+  if (ofImage.isPaused)
+  {
+    pilot.resume(cutoff);
+  }
+  else
+  {
+    pilot.begin(scene, cutoff);
+  }
   const KnownErrors known = knownErrors(
     pilot.bench(), pilot.view(), deflectionErrors(medium, light, field, image).medium, k);
   if (refine(known, image.medium.isMemoryShort, scene))

@@ -67,50 +67,47 @@ const typename Pilot<Real>::Traced* Pilot<Real>::trace(
   const std::size_t set = indexOf(patches);
   Traced& traced = traced_[set][{ step, number }];
   const PatchList& places = layout_.sets[set];
-  if (traced.size() == places.size())
-  {
-    return &traced;
-  }
-  isPaused_ = isPaused_ || (hasTraced_ && monitor.paused && monitor.paused());
+  const auto count = static_cast<std::int64_t>(places.size());
   if (isPaused_)
   {
     return nullptr;
   }
-  Traced rays(places.size());
+  traced.rays.resize(places.size());
   const RayTask<Real> whole = taskFor(step);
-  const bool isDone = parallelFor(static_cast<std::int64_t>(places.size()), 1, bench_.scene.threads,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t n = begin; n < end; ++n)
-      {
-        const Patch& patch = places[static_cast<std::size_t>(n)];
-        RayTask<Real> task = whole;
-        task.light = lightOfPart(bench_.light, static_cast<double>(patch.fromColumn),
-          static_cast<double>(patch.fromRow), 1);
-        const Pass pass = passOf(patch, number);
-        TracedPass& ofPatch = rays[static_cast<std::size_t>(n)];
-        ofPatch.resize(pass, 0);
-        traceOnCpu(task, pass, ofPatch, layout_.isWhole ? bench_.scene.threads : 1, {});
-        const double shift[2] = { static_cast<double>(patch.fromColumn - patch.column),
-          static_cast<double>(patch.fromRow - patch.row) };
-        for (RayExit& exit : ofPatch.exits)
-        {
-          for (std::size_t axis = 0; axis < 2; ++axis)
-          {
-            exit.displacement[axis] +=
-              static_cast<float>(shift[axis] / bench_.projection.perDataUnit);
-          }
-        }
-      }
-    },
-    { {}, monitor.aborted });
-  if (!isDone)
+  const auto traceOne = [&](std::size_t n)
   {
-    return nullptr;
+    const Patch& patch = places[n];
+    RayTask<Real> task = whole;
+    task.light = lightOfPart(
+      bench_.light, static_cast<double>(patch.fromColumn), static_cast<double>(patch.fromRow), 1);
+    const Pass pass = passOf(patch, number);
+    TracedPass& ofPatch = traced.rays[n];
+    ofPatch.resize(pass, 0);
+    traceOnCpu(task, pass, ofPatch, layout_.isWhole ? bench_.scene.threads : 1, {});
+    const double shift[2] = { static_cast<double>(patch.fromColumn - patch.column),
+      static_cast<double>(patch.fromRow - patch.row) };
+    for (RayExit& exit : ofPatch.exits)
+    {
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        exit.displacement[axis] += static_cast<float>(shift[axis] / bench_.projection.perDataUnit);
+      }
+    }
+  };
+  if (traced.done < count)
+  {
+    traced.done = parallelFrom(traced.done, count, 1, bench_.scene.threads,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t n = begin; n < end; ++n)
+        {
+          traceOne(static_cast<std::size_t>(n));
+        }
+      },
+      { {}, monitor.aborted, monitor.paused });
+    isPaused_ = monitor.paused && monitor.paused();
   }
-  traced = std::move(rays);
-  hasTraced_ = true;
-  return &traced;
+  return traced.done < count ? nullptr : &traced;
 }
 
 template <class Real>
@@ -133,7 +130,7 @@ typename Pilot<Real>::Values Pilot<Real>::expose(
     { *cutoff_, projection, patch.margin, rays * passesToHold(settings.samplesPerPixel) }, {});
   for (std::size_t number = 0; number < passes.size(); ++number)
   {
-    film.add((*passes[number])[index], passOf(patch, static_cast<std::int64_t>(number)),
+    film.add(passes[number]->rays[index], passOf(patch, static_cast<std::int64_t>(number)),
       schlieren::Rays::Go, {});
   }
   Image image;
@@ -156,8 +153,8 @@ typename Pilot<Real>::Values Pilot<Real>::expose(
       const auto ray = static_cast<std::size_t>(row * columns + column);
       values.hasCrossed.push_back(!isOfPlace ||
         std::any_of(passes.begin(), passes.end(),
-          [&](const Traced* pass) { return (*pass)[index].exits[ray].fate == RayFate::Left; }));
-      values.isClear.push_back(passes.front()->at(index).exits[ray].reachesFilm());
+          [&](const Traced* pass) { return pass->rays[index].exits[ray].fate == RayFate::Left; }));
+      values.isClear.push_back(passes.front()->rays[index].exits[ray].reachesFilm());
     }
   }
   return values;

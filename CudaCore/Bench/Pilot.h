@@ -62,16 +62,21 @@ public:
   const PilotBench<Real>& bench() const { return bench_; }
   const PilotView& view() const { return scouts_.view(); }
 
-  /// Exposes patches by another cutoff of a scene with the same rays from now on. The cutoff's table stays with its owner.
+  /// Exposes patches by another cutoff of a scene with the same rays from now on.
   void begin(const Scene& scene, const Cutoffs& cutoff)
   {
+    resume(cutoff);
     bench_.scene = scene;
-    cutoff_ = &cutoff;
-    hasTraced_ = isPaused_ = false;
     for (auto& exposed : exposed_)
     {
       exposed.clear();
     }
+  }
+  /// Continues after a pause, with the same cutoff, whose table stays with its owner.
+  void resume(const Cutoffs& cutoff)
+  {
+    cutoff_ = &cutoff;
+    isPaused_ = false;
   }
 
   /// Two sets of patches that have no pixel in common: one to choose by, one to verify the choice with.
@@ -85,7 +90,7 @@ public:
   Differences compare(
     Patches patches, const Settings& a, const Settings& b, const Monitor& monitor);
 
-  /// Whether the monitor has paused it since begin(), after rays that are kept for when it begins again.
+  /// Whether the monitor has paused it since then. What it has done is kept.
   bool isPaused() const { return isPaused_; }
 
 private:
@@ -98,8 +103,12 @@ private:
     std::vector<bool> hasCrossed;
     std::vector<bool> isClear; ///< at the pixel's centre, whose path it has
   };
-  using Traced = std::vector<TracedPass>; ///< of each patch
-  using Exposed = std::vector<Values>;    ///< of each patch
+  struct Traced
+  {
+    std::vector<TracedPass> rays; ///< of each patch
+    std::int64_t done = 0;        ///< patches
+  };
+  using Exposed = std::vector<Values>; ///< of each patch
 
   RayTask<Real> taskFor(double step) const;
   /// A set of patches.
@@ -123,7 +132,7 @@ private:
   PatchLayout layout_;
   std::map<std::pair<double, int>, Traced> traced_[2];   ///< by step and pass
   std::map<std::pair<double, int>, Exposed> exposed_[2]; ///< by step and rays per pixel
-  bool hasTraced_ = false, isPaused_ = false;            ///< since begin()
+  bool isPaused_ = false;
 };
 
 } // namespace schlieren
