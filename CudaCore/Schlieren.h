@@ -37,6 +37,9 @@
 namespace schlieren
 {
 
+/// Returns the version of the project, such as "0.1.0".
+const char* version();
+
 /// What light enters where it leaves the data: see ExitFaces.
 enum class ExitInto
 {

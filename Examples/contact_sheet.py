@@ -342,8 +342,9 @@ def compose(groups, frame, used, options, facts):
 
 def main(options):
     """Writes the sheet; (groups of tiles, frame)."""
-    if not options.plugin:
-        with open(os.path.join(ROOT, "build", "release", "plugin-file.txt")) as file:
+    built = os.path.join(ROOT, "build", "release", "plugin-file.txt")
+    if not options.plugin and os.path.exists(built):
+        with open(built) as file:
             options.plugin = file.read().strip()
     messages = Messages()
     load_plugin(options, messages)

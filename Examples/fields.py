@@ -11,10 +11,14 @@ from paraview.simple import *
 
 root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 plugin = os.environ.get("SCHLIEREN_PLUGIN")
-if not plugin:
-    with open(os.path.join(root, "build", "release", "plugin-file.txt")) as file:
+built = os.path.join(root, "build", "release", "plugin-file.txt")
+if not plugin and os.path.exists(built):
+    with open(built) as file:
         plugin = file.read().strip()
-LoadPlugin(plugin, remote=False, ns=globals())
+if plugin:
+    LoadPlugin(plugin, remote=False, ns=globals())
+else:  # that of the package paraview-schlieren
+    LoadDistributedPlugin("Schlieren", remote=False, ns=globals())
 
 disk = OpenDataFile(os.path.join(root, "Testing", "Data", "disk_exodus", "disk_out_ref.ex2"))
 disk.UpdatePipeline()

@@ -9,7 +9,9 @@
 #include "Math/Pack.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #if defined(__AVX__) || defined(__SSE2__)
@@ -226,12 +228,24 @@ struct RowLoader<float, 8>
 };
 #endif
 
+/// The numbers Which of a and, counted on from its last one, of b. GCC has Clang's name for it since version 12.
+template <std::size_t... Which, class Pack>
+SCHLIEREN_HD Pack shuffle(const Pack& a, const Pack& b)
+{
+#if defined(__clang__) || __GNUC__ >= 12
+  return __builtin_shufflevector(a, b, Which...);
+#else
+  using Place = std::conditional_t<sizeof(a[0]) == 4, std::int32_t, std::int64_t>;
+  return __builtin_shuffle(a, b, SimdPack<Place, sizeof...(Which)>{ Place{ Which }... });
+#endif
+}
+
 // In the next three, packs are blocks of four numbers; what is done is done in each block.
 
 template <int Which, class Pack, std::size_t... E>
 SCHLIEREN_HD Pack spread(const Pack& a, std::index_sequence<E...>)
 {
-  return __builtin_shufflevector(a, a, (4 * (E / 4) + Which)...);
+  return shuffle<(4 * (E / 4) + Which)...>(a, a);
 }
 /// The number `Which` of each block, four times.
 template <int Which, class Pack>
@@ -244,8 +258,8 @@ SCHLIEREN_HD Pack spread(const Pack& a)
 template <int A, int B, int C, int D, class Pack, std::size_t... E>
 SCHLIEREN_HD Pack choose(const Pack& a, const Pack& b, std::index_sequence<E...>)
 {
-  constexpr int which[4] = { A, B, sizeof...(E) + C, sizeof...(E) + D };
-  return __builtin_shufflevector(a, b, (4 * (E / 4) + which[E % 4])...);
+  constexpr std::size_t which[4] = { A, B, sizeof...(E) + C, sizeof...(E) + D };
+  return shuffle<(4 * (E / 4) + which[E % 4])...>(a, b);
 }
 template <int A, int B, int C, int D, class Pack>
 SCHLIEREN_HD Pack choose(const Pack& a, const Pack& b)

@@ -140,7 +140,7 @@ examples:
     add("--output", metavar="PNG", help=f"default: FILE{ending} in the current folder")
     add("--plugin", default=os.environ.get("SCHLIEREN_PLUGIN"), metavar="SO",
         help="the plugin's file; default: the environment variable SCHLIEREN_PLUGIN, which "
-             "Utilities/demo sets")
+             "Utilities/demo sets, else the package paraview-schlieren")
     add("--check", action="store_true", help="check the arguments and stop")
     options = parser.parse_args(arguments)
 

@@ -14,13 +14,18 @@ from reading import choose_array, evaluate, listing, read
 
 
 def load_plugin(options, messages):
-    if not options.plugin:
-        raise DemoError("Which plugin? Give its file with --plugin, or start Utilities/demo.")
+    """Loads the plugin that the options name, else that of the package paraview-schlieren."""
     try:
-        pv.LoadPlugin(os.path.abspath(options.plugin), remote=False)
+        if options.plugin:
+            pv.LoadPlugin(os.path.abspath(options.plugin), remote=False)
+        else:
+            pv.LoadDistributedPlugin("Schlieren", remote=False)
     except RuntimeError:
         pass
     if not hasattr(pv, "Schlieren"):
+        if not options.plugin:
+            raise DemoError("Which plugin? The package paraview-schlieren is not installed. Give the plugin's file with "
+                            "--plugin, or start Utilities/demo.")
         raise DemoError(f"The plugin '{options.plugin}' does not load. {messages.last_error()}")
 
 

@@ -148,6 +148,7 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
     arrays->AddArray(newVectors("BackgroundDisplacement", image.backgroundDisplacement, dataUnits));
   }
 
+  addFieldValue<vtkStringArray>(output, "SchlierenVersion", schlieren::version());
   addFieldValue<vtkStringArray>(
     output, "Device", image.device == schlieren::Device::Cuda ? "CUDA" : "CPU");
   addFieldValue<vtkStringArray>(output, "PathModel",
