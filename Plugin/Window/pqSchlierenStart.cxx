@@ -4,6 +4,7 @@
 
 #include "pqApplyHooks.h"
 #include "pqImageDisplayKeeper.h"
+#include "pqImageProbe.h"
 #include "pqImageProgress.h"
 #include "pqImageStatus.h"
 #include "pqRepresentationRefiner.h"
@@ -34,6 +35,7 @@ void pqSchlierenStart::startup()
   new pqImageDisplayKeeper(this);
   new pqRepresentationRefiner(this);
   new pqImageProgress(this);
+  new pqImageProbe(this);
   // Waits for ParaView's window, which may come after its plugins.
   auto* hooks = new pqApplyHooks(this);
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqSchlierenToolBar.h"
 
+#include "MenuActions.h"
+
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
@@ -146,6 +148,17 @@ void pqSchlierenToolBar::addMenu()
   menu->setObjectName("menuSchlieren");
   menu->addActions(this->actions());
   menu->addSeparator();
+  QAction* figure = menu->addAction("Save Schlieren &Figure...",
+    [this]() {
+      this->showResult({ false, true, menuActions::saveFigure() });
+    });
+  figure->setObjectName("actionSaveFigure");
+  figure->setToolTip(
+    "Save the image of the active view with axes, legend and title as PNG, PDF or SVG");
+  QAction* example = menu->addAction("&Example", [this]() { this->showExample(); });
+  example->setObjectName("actionExample");
+  example->setToolTip("Open an under-expanded air jet and show it as a schlieren image");
+  menu->addSeparator();
   QAction* status = menu->addAction("Show &Status in Views");
   status->setObjectName("actionStatus");
   status->setCheckable(true);
@@ -157,6 +170,14 @@ void pqSchlierenToolBar::addMenu()
   guide->setToolTip("Show what the settings mean in ParaView's help");
   const QList<QAction*> menus = window->menuBar()->actions();
   window->menuBar()->insertMenu(menus.empty() ? nullptr : menus.last(), menu);
+}
+
+//------------------------------------------------------------------------------
+void pqSchlierenToolBar::showExample()
+{
+  const QString problem = menuActions::openExample();
+  this->showResult(problem.isEmpty() ? SchlierenViews::add(SchlierenViews::Arrangement::OneImage)
+                                     : SchlierenViews::Result{ false, true, problem });
 }
 
 //------------------------------------------------------------------------------
@@ -179,6 +200,10 @@ void pqSchlierenToolBar::makeRoom()
 //------------------------------------------------------------------------------
 void pqSchlierenToolBar::showResult(const SchlierenViews::Result& result)
 {
+  if (!result.isMade && result.message.isEmpty())
+  {
+    return; // cancelled
+  }
   if (!result.isMade)
   {
     if (!this->Message)

@@ -35,6 +35,7 @@ private:
 
   /// Moves to the last row of toolbars, where there is room, unless the user has moved it before.
   void makeRoom();
+  void showExample();
   void showResult(const SchlierenViews::Result& result);
 
   QList<QAction*> Arrangements;
