@@ -986,7 +986,7 @@ public:
   /**
    * Returns a text about the last image, in one line: samples per pixel; rays per second of the
    * last tracing; device; path model and, for straight rays, the bound on their displacement in
-   * pixels (DisplacementBound), if useful. Empty without an image.
+   * pixels (DisplacementBound), if useful. Empty before the first image; after a failure, "No image: " and why.
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 

@@ -324,42 +324,51 @@ def write_numbers(path, image):
         raise FigureError(f"Could not write '{path}'.")
 
 
-def value_of(proxy, name):
-    """A property as JSON can hold it."""
-    value = proxy.GetPropertyValue(name)
-    if isinstance(value, (bool, int, float, str)):
+def plain(value):
+    """A value of a property as JSON can hold it."""
+    if isinstance(value, servermanager.EnumerationProperty):
+        return value.GetData()
+    if value is None or isinstance(value, (bool, int, float, str)):
         return value
-    try:
-        return [item if isinstance(item, (bool, int, float, str)) else str(item) for item in value]
-    except TypeError:
-        points = getattr(value, "Points", None)
-        return list(points) if points is not None else str(value)
+    if isinstance(value, servermanager.Proxy) and hasattr(value, "Points"):  # a curve
+        return list(value.Points)
+    if isinstance(value, servermanager.Proxy):
+        return value.GetXMLName()
+    return [plain(item) for item in value]
 
 
 def properties_of(proxy):
-    return {name: value_of(proxy, name) for name in sorted(proxy.ListProperties())
-            if name != "Input" and not proxy.GetProperty(name).SMProperty.GetInformationOnly()}
+    names = [name for name in sorted(proxy.ListProperties()) if name != "Input"]
+    return {name: plain(proxy.GetPropertyValue(name)) for name in names
+            if not proxy.GetProperty(name).SMProperty.GetInformationOnly()
+            and proxy.GetProperty(name).SMProperty.GetClassName() != "vtkSMProperty"}  # a command
 
 
 def sources_of(proxy):
-    """The pipeline above a filter, the sources first: name, type and properties of each."""
+    """What is above a filter in the pipeline, the first sources first: type and properties of each."""
+    inputs = proxy.SMProxy.GetProperty("Input")
     found = []
-    source = getattr(proxy, "Input", None)
-    while source is not None:
-        owner = source.Port and source or source
-        found.insert(0, {"type": owner.GetXMLName(), "properties": properties_of(owner)})
-        source = getattr(owner, "Input", None)
+    for index in range(inputs.GetNumberOfProxies() if inputs else 0):
+        source = servermanager._getPyProxy(inputs.GetProxy(index))  # pylint: disable=protected-access
+        found += sources_of(source) + [{"type": source.GetXMLName(), "properties": properties_of(source)}]
     return found
+
+
+def versions():
+    manager = servermanager.vtkSMProxyManager.GetProxyManager()
+    plugins = manager.GetPluginManager().GetLocalInformation()
+    names = [plugins.GetPluginName(index) for index in range(plugins.GetNumberOfPlugins())]
+    return {"Schlieren": plugins.GetPluginVersion(names.index("Schlieren")),
+            "ParaView": manager.GetParaViewSourceVersion()}
 
 
 def write_description(path, image, bench, title, files):
     facts = facts_of(image)
     axes = Axes.of(image, facts)
-    manager = servermanager.vtkSMProxyManager.GetProxyManager()
     description = {
         "title": title or facts["LegendTitle"][0],
         "files": files,
-        "made by": {"plugin": "Schlieren", "ParaView": manager.GetParaViewSourceVersion()},
+        "versions": versions(),
         "time": simple.GetTimeKeeper().Time,
         "technique": facts["LegendTitle"][0],
         "legend": {"label": facts["LegendLabel"][0], "unit": facts["LegendLabel"][1], "range": facts["LegendRange"],

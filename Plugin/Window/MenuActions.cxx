@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MenuActions.h"
 
+#include "PluginFile.h"
+
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
@@ -10,7 +12,6 @@
 #include "pqPipelineSource.h"
 #include "pqRenderView.h"
 #include "pqServer.h"
-#include "vtkPVPluginTracker.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
@@ -18,25 +19,8 @@
 #include <QFileInfo>
 #include <QStringList>
 
-#include <cstring>
-
 namespace
 {
-
-/// Returns the folder of the plugin's file.
-QString folderOfPlugin()
-{
-  vtkPVPluginTracker* plugins = vtkPVPluginTracker::GetInstance();
-  for (unsigned int i = 0; i < plugins->GetNumberOfPlugins(); ++i)
-  {
-    const char* name = plugins->GetPluginName(i);
-    if (name && std::strcmp(name, "Schlieren") == 0 && plugins->GetPluginLoaded(i))
-    {
-      return QFileInfo(plugins->GetPluginFileName(i)).absolutePath();
-    }
-  }
-  return QString();
-}
 
 /// Returns a text as Python writes it.
 QByteArray quoted(const QString& text)
@@ -80,7 +64,7 @@ QString menuActions::openExample()
     return "The example is a file of this computer, which the server does not read. Disconnect "
            "from the server first.";
   }
-  const QString file = folderOfPlugin() + "/ladenburg_jet_3d.vti";
+  const QString file = QFileInfo(pluginFile()).absolutePath() + "/ladenburg_jet_3d.vti";
   if (!QFileInfo::exists(file))
   {
     return "The example '" + file + "' is not there. It is installed with the plugin.";

@@ -8,6 +8,7 @@
 #include "pqImageProgress.h"
 #include "pqImageStatus.h"
 #include "pqRepresentationRefiner.h"
+#include "pqViewNames.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -36,6 +37,7 @@ void pqSchlierenStart::startup()
   new pqRepresentationRefiner(this);
   new pqImageProgress(this);
   new pqImageProbe(this);
+  new pqViewNames(this);
   // Waits for ParaView's window, which may come after its plugins.
   auto* hooks = new pqApplyHooks(this);
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),

@@ -80,8 +80,10 @@ k = description["k"]
 assert np.allclose(description["legend"]["range"], [-0.5 / k, 0.5 / k])
 assert description["legend"]["label"] == "deflection up" and description["title"] == "A $ figure"
 assert description["properties"]["KnifeEdgeAngle"] == 90 and description["properties"]["FocalPoint"] == [5, -2, 0]
+assert description["properties"]["Cutoff"] == "Knife Edge" and "Refine" not in description["properties"]
 assert [source["type"] for source in description["sources"]] == ["RTAnalyticSource", "Calculator"]
-assert "5." in description["made by"]["ParaView"] or "6." in description["made by"]["ParaView"]
+assert description["sources"][0]["properties"]["WholeExtent"] == [-30, 30, -16, 16, -8, 8]
+assert description["versions"]["Schlieren"][0].isdigit() and "paraview" in description["versions"]["ParaView"]
 
 # Texts of an SVG are texts; a PDF is one.
 schlieren_figure.save("figure.svg", bench)
