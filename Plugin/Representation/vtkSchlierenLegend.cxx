@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenLegend.h"
 
+#include "LegendColors.h"
 #include "vtkSchlierenActor.h"
 #include "vtkSchlierenFilter.h"
 
@@ -19,7 +20,6 @@
 #include "vtkPointData.h"
 #include "vtkRect.h"
 #include "vtkRenderer.h"
-#include "vtkScalarsToColors.h"
 #include "vtkStringArray.h"
 #include "vtkTextProperty.h"
 #include "vtkUnsignedCharArray.h"
@@ -100,25 +100,6 @@ double roundLength(double length)
   const double power = std::pow(10, std::floor(std::log10(length)));
   const double digits = length / power;
   return power * (digits >= 5 ? 5 : digits >= 2 ? 2 : 1);
-}
-
-/// Returns the colours that a map, unless it is null, has for the light of grey bytes.
-vtkSmartPointer<vtkUnsignedCharArray> mapped(
-  vtkUnsignedCharArray* grey, double white, vtkScalarsToColors* map)
-{
-  if (!map)
-  {
-    return grey;
-  }
-  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(grey->GetNumberOfTuples());
-  for (vtkIdType i = 0; i < grey->GetNumberOfTuples(); ++i)
-  {
-    const unsigned char* color = map->MapValue(grey->GetComponent(i, 0) / 255 * white);
-    std::copy_n(color, 3, colors->GetPointer(3 * i));
-  }
-  return colors;
 }
 
 std::string lengthInWords(double metres)
@@ -475,11 +456,14 @@ void vtkSchlierenLegend::SetImage(vtkImageData* image, const Painting& painting)
   shown.HasAngle = data->HasArray("LegendAngle") != 0;
   shown.Angle = numberIn(data, "LegendAngle", 0, 0);
   const vtkIdType count = vtkIdType{ shown.Size[0] } * shown.Size[1];
-  if (!painting.IsLight)
+  const vtkSmartPointer<vtkUnsignedCharArray> painted = colors && painting.IsLight
+    ? paintedLight(colors, numberIn(data, "WhiteLevel", 0, 1), painting.Map)
+    : nullptr;
+  if (!painting.IsLight || (colors && !painted))
   {
     shown.Label.clear();
   }
-  if (!colors || count == 0 || count != colors->GetNumberOfTuples() || !painting.IsLight)
+  if (!painted || count == 0 || count != painted->GetNumberOfTuples())
   {
     shown.Size[0] = shown.Size[1] = 0;
   }
@@ -488,8 +472,7 @@ void vtkSchlierenLegend::SetImage(vtkImageData* image, const Painting& painting)
     shown.IsDarkFirst = colors->GetComponent(0, 1) < colors->GetComponent(count - 1, 1);
     shown.Colors->Initialize();
     shown.Colors->SetDimensions(shown.Size[0], shown.Size[1], 1);
-    shown.Colors->GetPointData()->SetScalars(
-      mapped(colors, numberIn(data, "WhiteLevel", 0, 1), painting.Map));
+    shown.Colors->GetPointData()->SetScalars(painted);
   }
   shown.MetresPerUnit = numberIn(data, "LengthScale", 0, 0);
 }

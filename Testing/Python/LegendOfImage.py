@@ -113,6 +113,11 @@ display.MapScalars = 0
 simple.ColorBy(display, ("POINTS", "Color"), True)
 drawn, _ = legend()
 assert np.mean(np.ptp(drawn, axis=-1) > 100) > 0.05, "No colours"
+
+# Its luminance has no scale of colours.
+simple.ColorBy(display, ("POINTS", "Intensity"), True)
+drawn, box = legend()
+assert box[3] - box[2] < 0.8 * height, (box, height)
 bench.Cutoff = "Knife Edge"
 
 # Kept by a state, with the property.
