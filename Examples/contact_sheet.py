@@ -33,15 +33,15 @@ if __name__ == "__main__":  # --help and mistakes in the arguments need no ParaV
 
 import numpy as np  # noqa: E402
 import paraview.simple as pv  # noqa: E402
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
+from vtkmodules.util.numpy_support import numpy_to_vtk  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402
 
-from bench import (bounds_of, check_light, facts_of, load_plugin, new_bench, open_flow,  # noqa: E402
-                   output_of)
+from bench import bounds_of, check_light, load_plugin, new_bench, open_flow, output_of  # noqa: E402
 from frame import Frame  # noqa: E402
 from messages import Messages, say  # noqa: E402
-from sheet import Sheet, format_length, grey  # noqa: E402
+from sheet import FigureError, Sheet, format_length, grey  # noqa: E402
+from schlieren_figure import facts_of, rows_of  # noqa: E402
 
 COLUMNS = 4
 
@@ -50,15 +50,11 @@ class Shot:
     """What the bench gives for some settings."""
 
     def __init__(self, image):
-        columns, rows, _ = image.GetDimensions()
-        self.arrays = {}
-        for index in range(image.GetPointData().GetNumberOfArrays()):
-            array = image.GetPointData().GetArray(index)
-            values = vtk_to_numpy(array).reshape(rows, columns, -1)
-            self.arrays[array.GetName()] = np.squeeze(values, axis=2).copy() \
-                if values.shape[2] == 1 else values.copy()
-        self.facts = facts_of(image)
-        self.half_width = image.GetSpacing()[0] * columns / 2
+        arrays = image.GetPointData()
+        names = [arrays.GetArrayName(index) for index in range(arrays.GetNumberOfArrays())]
+        self.arrays = {name: rows_of(image, name).copy() for name in names}
+        self.facts = {name: values[0] for name, values in facts_of(image).items() if values}
+        self.half_width = image.GetSpacing()[0] * image.GetDimensions()[0] / 2
 
     def __getitem__(self, name):
         return self.arrays[name]
@@ -219,7 +215,7 @@ def take_tiles(take, frame, options, scratch):
     bins = min(frame.width, frame.height, 2048)
     shot = take.shoot(port=1, HistogramSize=bins)
     rays = shot["Rays"].astype(float)
-    square = np.full((frame.height, frame.width, 3), Sheet.BACKGROUND, np.uint8)
+    square = np.full((frame.height, frame.width, 3), 24, np.uint8)
     left = (frame.width - bins) // 2
     square[:bins, left:left + bins] = grey(np.log1p(rays), np.log1p(rays.max()))
     axes = square[:bins, left:left + bins]
@@ -325,17 +321,17 @@ def compose(groups, frame, used, options, facts):
                f"{format_length(frame.depth, options)}.", 15, sheet.DIM, room=room)
     for j, (heading, tiles) in enumerate(groups):
         left, top = corner(j, 0)
-        sheet.fill(left, top - 80, room, 1, (70, 74, 82))
-        sheet.text(left, top - 75, heading, 17, (255, 205, 120), room=room)
+        sheet.fill(left, top - 80, room, 1, sheet.BORDER)
+        sheet.text(left, top - 75, heading, 17, "#8a4b00", room=room)
         for i, tile in enumerate(tiles):
             left, top = corner(j, i)
             free = frame.width - (tile.inset.shape[1] + 6 if tile.inset is not None else 0)
             sheet.text(left, top - 41, tile.title, 15, room=free)
             sheet.text(left, top - 21, tile.line, 13, sheet.DIM, room=free)
-            sheet.paste(left, top, tile.pixels[::-1])
+            sheet.image(left, top, tile.pixels)
             if tile.inset is not None:
                 side = tile.inset.shape[0]
-                sheet.paste(left + frame.width - side, top - side - 3, tile.inset[::-1])
+                sheet.image(left + frame.width - side, top - side - 3, tile.inset)
     sheet.text(width - 28, height - 24, f"traced on the {facts['Device']}", 13, sheet.DIM, "right")
     return sheet
 
@@ -364,6 +360,6 @@ def main(options):
 if __name__ == "__main__":
     try:
         main(OPTIONS)
-    except DemoError as problem:
+    except (DemoError, FigureError) as problem:
         print(f"error: {' '.join(str(problem).split())}", file=sys.stderr)
         sys.exit(1)

@@ -52,6 +52,9 @@ struct FlowDefaults
   std::vector<std::string> gases;
   bool ofVolume = false;
 
+  /// The property UniformPressure, Pa; 0: not used.
+  double uniformPressure = 0;
+
   /// The choice as a text for the user, with names that were not understood; whether there are
   /// none.
   std::string message;
@@ -79,6 +82,17 @@ VTKSCHLIERENFILTERS_EXPORT bool isNoDensity(const FlowArray& array);
 
 /// Chooses defaults. Uses an array only if its name says what it is.
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays);
+
+/// The pressure of air in a room, Pa.
+constexpr double pressureOfRoom = 101325;
+
+/// Returns the arrays with a pressure that is the same everywhere, at points and in cells, as if there were one.
+VTKSCHLIERENFILTERS_EXPORT std::vector<FlowArray> withUniformPressure(
+  std::vector<FlowArray> arrays, double pascals);
+
+/// Chooses defaults where the pressure, Pa, is the same everywhere.
+VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaultsAt(
+  const std::vector<FlowArray>& arrays, double pascals);
 
 /// Chooses arrays for a given index model.
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaults(

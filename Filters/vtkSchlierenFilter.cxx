@@ -486,6 +486,7 @@ void vtkSchlierenFilter::Fail(
   this->Inside->FailedAt = now;
   vtkErrorMacro(<< problem);
   this->ForgetImage();
+  this->Status = "No image: " + problem;
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkImageData::GetData(outputs, port)->Initialize();

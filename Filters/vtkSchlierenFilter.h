@@ -25,7 +25,7 @@
  *   BACKGROUND_ORIENTED only: the image without the flow, and the point of the pattern that is
  *   seen, less that without the flow (the image has moved in the opposite direction).
  *
- * Field data: `Device`, `PathModel` (the one used: `Straight`, `Refracted` or `Difference`),
+ * Field data: `AxisRight` and `AxisUp` (u and v), `Device`, `PathModel` (the one used: `Straight`, `Refracted` or `Difference`),
  * `KScale` (the k used), `UndisturbedLevel` (intensity of undisturbed light), `SaturatedShare`
  * (fraction of the rays at the cutoff's darkest or brightest level), `LightEmitted`, `LightOnFilm`
  * and `LightOutside` (behind the cutoff, in units of full light of all pixels; the first is the sum
@@ -41,7 +41,8 @@
  * (numbers of values; both 0 without a scale, the second above 1 for deflections along u and v),
  * `LegendColors` (3 unsigned chars each, the lowest value first), `LegendNotes` (texts, such as k; these
  * two only if there are any),
- * `LegendAngle` (degrees, of an edge: the direction of the deflection) and `LengthScale`.
+ * `LegendAngle` (degrees, of an edge: the direction of the deflection), `WhiteLevel` (the intensity
+ * that is shown as white) and `LengthScale`.
  *
  * The second output is the histogram of the light on the cutoff plane: an image with a point at the
  * centre of each bin, whose coordinates are the deflections along u and v, with the array `Rays`
@@ -996,7 +997,7 @@ public:
   /**
    * Returns a text about the last image, in one line: samples per pixel; rays per second of the
    * last tracing; device; path model and, for straight rays, the bound on their displacement in
-   * pixels (DisplacementBound), if useful. Empty without an image.
+   * pixels (DisplacementBound), if useful. Empty before the first image; after a failure, "No image: " and why.
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 

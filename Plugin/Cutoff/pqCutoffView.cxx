@@ -344,7 +344,7 @@ void pqCutoffView::mousePressEvent(QMouseEvent* event)
   const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, mousePlace(event));
   if (handle != pqCutoffPlane::NoHandle)
   {
-    this->GrabbedAt = mousePlace(event);
+    this->GrabbedAt = this->LastPlace = mousePlace(event);
     this->grab(handle);
   }
 }
@@ -354,8 +354,7 @@ void pqCutoffView::mouseMoveEvent(QMouseEvent* event)
 {
   if (this->isGrabbed() && !this->ByKeys)
   {
-    this->moveTo(this->plane().dragged(this->Before, this->Grabbed, this->GrabbedAt,
-      mousePlace(event), event->modifiers() & Qt::ShiftModifier));
+    this->follow(event);
     return;
   }
   const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, mousePlace(event));
@@ -368,10 +367,23 @@ void pqCutoffView::mouseMoveEvent(QMouseEvent* event)
 }
 
 //------------------------------------------------------------------------------
+void pqCutoffView::follow(QMouseEvent* event)
+{
+  this->LastPlace = mousePlace(event);
+  this->moveTo(this->plane().dragged(this->Before, this->Grabbed, this->GrabbedAt, this->LastPlace,
+    event->modifiers() & Qt::ShiftModifier));
+}
+
+//------------------------------------------------------------------------------
 void pqCutoffView::mouseReleaseEvent(QMouseEvent* event)
 {
   if (event->button() == Qt::LeftButton && !this->ByKeys)
   {
+    // A quick drag ends beyond the last move.
+    if (this->isGrabbed() && mousePlace(event) != this->LastPlace)
+    {
+      this->follow(event);
+    }
     this->release(true);
   }
 }

@@ -63,6 +63,7 @@ private:
   pqCutoffPlane plane() const;
   void grab(pqCutoffPlane::Handle handle);
   void moveTo(const pqCutoff& cutoff);
+  void follow(QMouseEvent* event);
   void release(bool keep);
   void zoom(int steps);
   void fit();
@@ -78,6 +79,7 @@ private:
   bool IsZoomed = false; ///< by the user
   pqCutoffPlane::Handle Hovered = pqCutoffPlane::NoHandle, Grabbed = pqCutoffPlane::NoHandle;
   QPointF GrabbedAt;
+  QPointF LastPlace; ///< of the mouse in a drag
   bool ByKeys = false;
   mutable QImage Composed; ///< null: outdated
 };

@@ -49,6 +49,12 @@ public:
     bool operator==(const View& other) const;
   };
 
+  /**
+   * Returns how a renderer is looked through. With a perspective, its parallel scale is that at the depth of
+   * the focal point.
+   */
+  static View ViewOf(vtkRenderer* renderer);
+
   /// Returns what is drawn over the image.
   vtkSchlierenLegend* GetLegend() const { return this->Legend; }
 
@@ -153,7 +159,6 @@ private:
   vtkSchlierenActor(const vtkSchlierenActor&) = delete;
   void operator=(const vtkSchlierenActor&) = delete;
 
-  static View ViewOf(vtkRenderer* renderer);
   /// Gives the bench the renderer's view. Returns whether it has changed.
   bool LookThrough(const View& view);
   void Trace(int occasion, bool isMoved);

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenLegend.h"
 
+#include "LegendColors.h"
+#include "vtkSchlierenActor.h"
+#include "vtkSchlierenFilter.h"
+
 #include "vtkBrush.h"
 #include "vtkContext2D.h"
 #include "vtkContextItem.h"
@@ -15,11 +19,10 @@
 #include "vtkPen.h"
 #include "vtkPointData.h"
 #include "vtkRect.h"
-#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
 #include "vtkStringArray.h"
 #include "vtkTextProperty.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkViewport.h"
 
 #include <algorithm>
 #include <array>
@@ -128,7 +131,8 @@ public:
   int Size[2] = { 0, 0 };
   double Angle = 0;
   bool HasAngle = false;
-  double MetresAcross = 0; // of the image
+  bool IsDarkFirst = false; ///< whether the light of the first value is less than that of the last
+  double MetresPerUnit = 0; // of the data's lengths
   vtkNew<vtkImageData> Colors;
 
 private:
@@ -148,8 +152,6 @@ private:
 
   bool HasScale() const { return this->Size[0] > 0; }
   bool HasPlane() const { return this->Size[1] > 1; }
-  /// Whether the light of the first value is less than that of the last.
-  bool IsDarkFirst() const;
   bool HasIcon() const { return this->HasScale() && !this->HasPlane() && this->Unit == "rad"; }
   std::string GetLabelWithUnit() const;
   std::string TextAt(double value) const;
@@ -163,14 +165,6 @@ private:
 };
 
 vtkStandardNewMacro(vtkSchlierenLegend::Panel);
-
-//------------------------------------------------------------------------------
-bool vtkSchlierenLegend::Panel::IsDarkFirst() const
-{
-  auto* colors = this->Colors->GetPointData()->GetScalars();
-  const vtkIdType last = colors->GetNumberOfTuples() - 1;
-  return colors->GetComponent(0, 1) < colors->GetComponent(last, 1);
-}
 
 //------------------------------------------------------------------------------
 std::string vtkSchlierenLegend::Panel::GetLabelWithUnit() const
@@ -230,7 +224,7 @@ void vtkSchlierenLegend::Panel::DrawIcon(const Pencil& pencil, float left, float
   const double edge = std::clamp(2 * middle * shareOfSource, -1., 1.) * radius;
   const double angle = vtkMath::RadiansFromDegrees(this->Angle);
   const double normal[2] = { std::cos(angle), std::sin(angle) };
-  const double back = (this->IsDarkFirst() ? -1 : 1) * radius;
+  const double back = (this->IsDarkFirst ? -1 : 1) * radius;
   float corners[8];
   const double places[4][2] = { { edge, -radius }, { edge, radius }, { back, radius },
     { back, -radius } };
@@ -248,7 +242,7 @@ void vtkSchlierenLegend::Panel::DrawIcon(const Pencil& pencil, float left, float
 void vtkSchlierenLegend::Panel::DrawStop(const Pencil& pencil, float x, float y, float radius) const
 {
   constexpr float small = 0.5f;
-  if (this->IsDarkFirst())
+  if (this->IsDarkFirst)
   {
     pencil.To->DrawEllipticArc(x, y, small * radius, small * radius, 0, 360);
   }
@@ -437,7 +431,7 @@ void vtkSchlierenLegend::CopyFieldData(vtkImageData* from, vtkImageData* to)
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenLegend::SetImage(vtkImageData* image)
+void vtkSchlierenLegend::SetImage(vtkImageData* image, const Painting& painting)
 {
   Panel& shown = *this->Shown;
   shown.Title.clear();
@@ -462,30 +456,36 @@ void vtkSchlierenLegend::SetImage(vtkImageData* image)
   shown.HasAngle = data->HasArray("LegendAngle") != 0;
   shown.Angle = numberIn(data, "LegendAngle", 0, 0);
   const vtkIdType count = vtkIdType{ shown.Size[0] } * shown.Size[1];
-  if (!colors || count != colors->GetNumberOfTuples())
+  const vtkSmartPointer<vtkUnsignedCharArray> painted = colors && painting.IsLight
+    ? paintedLight(colors, numberIn(data, "WhiteLevel", 0, 1), painting.Map)
+    : nullptr;
+  if (!painting.IsLight || (colors && !painted))
+  {
+    shown.Label.clear();
+  }
+  if (!painted || count == 0 || count != painted->GetNumberOfTuples())
   {
     shown.Size[0] = shown.Size[1] = 0;
   }
   else
   {
+    shown.IsDarkFirst = colors->GetComponent(0, 1) < colors->GetComponent(count - 1, 1);
     shown.Colors->Initialize();
     shown.Colors->SetDimensions(shown.Size[0], shown.Size[1], 1);
-    shown.Colors->GetPointData()->SetScalars(colors);
+    shown.Colors->GetPointData()->SetScalars(painted);
   }
-  shown.MetresAcross =
-    numberIn(data, "LengthScale", 0, 0) * image->GetSpacing()[0] * image->GetDimensions()[0];
+  shown.MetresPerUnit = numberIn(data, "LengthScale", 0, 0);
 }
 
 //------------------------------------------------------------------------------
 int vtkSchlierenLegend::RenderOverlay(vtkViewport* viewport)
 {
-  auto* window = vtkRenderWindow::SafeDownCast(viewport->GetVTKWindow());
-  if (!window || this->Shown->Title.empty())
+  auto* renderer = vtkRenderer::SafeDownCast(viewport);
+  if (!renderer || this->Shown->Title.empty())
   {
     return 0;
   }
-  const double* port = viewport->GetViewport();
-  const double columns = (port[2] - port[0]) * window->GetSize()[0];
-  this->Shown->MetresPerPixel = columns >= 1 ? this->Shown->MetresAcross / columns : 0;
+  const vtkSchlierenActor::View view = vtkSchlierenActor::ViewOf(renderer);
+  this->Shown->MetresPerPixel = this->Shown->MetresPerUnit * 2 * view.ParallelScale / view.Size[1];
   return this->Superclass::RenderOverlay(viewport);
 }

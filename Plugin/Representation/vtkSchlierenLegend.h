@@ -16,6 +16,7 @@
 #include "vtkSmartPointer.h"
 
 class vtkImageData;
+class vtkScalarsToColors;
 
 class vtkSchlierenLegend : public vtkOpenGLContextActor
 {
@@ -32,10 +33,19 @@ public:
     UPPER_RIGHT
   };
 
+  /// How a view draws an image: its light, by a map of colours (null: as it is), or another of its arrays.
+  struct Painting
+  {
+    bool IsLight = true;
+    vtkScalarsToColors* Map = nullptr;
+  };
+
   /**
-   * Copies what is shown from the field data of an image that fills the view from side to side; null: nothing is.
+   * Copies what is shown from the field data of an image; null: nothing is. The scale has the colours of the painting,
+   * and is left out where another array is drawn.
    */
-  void SetImage(vtkImageData* image);
+  void SetImage(vtkImageData* image) { this->SetImage(image, Painting{}); }
+  void SetImage(vtkImageData* image, const Painting& painting);
 
   /**
    * Sets the corner, one of Corners (default: LOWER_RIGHT), and the size of the font, points

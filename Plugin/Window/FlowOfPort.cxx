@@ -63,11 +63,6 @@ QString problemOfFlow(pqOutputPort* port)
   {
     return name + " is no data set in space. Select data that fill a volume.";
   }
-  const FlowDefaults defaults = flowDefaults(arraysOfFlow(port));
-  if (defaults.arrays.empty())
-  {
-    return name + ": " + QString::fromStdString(defaults.message);
-  }
   return QString();
 }
 
@@ -107,6 +102,10 @@ void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
       continue;
     }
     vtkSMPropertyHelper(filter, property.c_str()).Set(scale);
+  }
+  if (defaults.uniformPressure > 0)
+  {
+    vtkSMPropertyHelper(filter, "UniformPressure").Set(defaults.uniformPressure);
   }
   if (!defaults.fractions.empty())
   {

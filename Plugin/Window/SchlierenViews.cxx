@@ -5,6 +5,8 @@
 #include "FlowOfPort.h"
 #include "ImageDisplay.h"
 #include "ImagesInViews.h"
+#include "PatternSettings.h"
+#include "PluginFile.h"
 #include "UndoStep.h"
 #include "VolumeDisplay.h"
 #include "pqImageRefiner.h"
@@ -23,10 +25,7 @@
 #include "vtkNew.h"
 #include "vtkPVRenderView.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
-#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMPropertyIterator.h"
-#include "vtkSMProxyListDomain.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMRepresentationProxy.h"
 #include "vtkSMSessionProxyManager.h"
@@ -46,6 +45,7 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -111,32 +111,6 @@ vtkSMProxy* drawnAsSchlieren(pqOutputPort* flow, pqView* view)
   return shown && pqRepresentationRefiner::isSchlieren(shown) ? shown->getProxy() : nullptr;
 }
 
-/// Copies the settings of a filter, or of one in a representation, except flow, camera and size.
-void copySettings(vtkSMProxy* from, vtkSMProxy* to)
-{
-  auto properties = vtkSmartPointer<vtkSMPropertyIterator>::Take(to->NewPropertyIterator());
-  for (; !properties->IsAtEnd(); properties->Next())
-  {
-    const char* name = properties->GetKey();
-    vtkSMProperty* property = properties->GetProperty();
-    vtkSMProperty* pattern = from->GetProperty(name);
-    if (!pattern || property->GetInformationOnly() || property->GetIsInternal() ||
-      std::strcmp(name, "Input") == 0)
-    {
-      continue;
-    }
-    if (property->FindDomain<vtkSMProxyListDomain>())
-    {
-      // Copies curves, which filters do not share.
-      vtkSMProxy* curve = vtkSMPropertyHelper(property).GetAsProxy();
-      curve->Copy(vtkSMPropertyHelper(pattern).GetAsProxy());
-      curve->UpdateVTKObjects();
-      continue;
-    }
-    property->Copy(pattern);
-  }
-}
-
 /// Renders a view once, with complete images.
 void renderCompletely(pqRenderView* view, vtkSMProxy* representation)
 {
@@ -154,12 +128,12 @@ void renderCompletely(pqRenderView* view, vtkSMProxy* representation)
 class Builder
 {
 public:
-  /// `pattern`: the proxy whose settings are used; null: defaults for the flow.
-  explicit Builder(pqOutputPort* flow, vtkSMProxy* pattern)
+  /// `pattern`: the proxy whose settings are used; null: `defaults` for the flow.
+  explicit Builder(pqOutputPort* flow, vtkSMProxy* pattern, FlowDefaults defaults = {})
     : Flow(flow)
     , Pattern(pattern)
     , Server(flow->getServer())
-    , Defaults(flowDefaults(arraysOfFlow(flow)))
+    , Defaults(std::move(defaults))
   {
   }
 
@@ -389,13 +363,16 @@ private:
     if (this->Pattern)
     {
       copySettings(this->Pattern, bench);
+      set(bench);
+      useKOf(this->Pattern, bench);
     }
     else
     {
       setFlowDefaults(bench, this->Defaults);
       setInt(bench, "Quality", Filter::AUTOMATIC);
+      setInt(bench, "LockK", Filter::LOCK_ALWAYS);
+      set(bench);
     }
-    set(bench);
     bench->UpdateVTKObjects();
     this->Images.push_back(shown);
   }
@@ -456,7 +433,8 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-SchlierenViews::Result SchlierenViews::add(Arrangement arrangement, const Cell& cell)
+SchlierenViews::Result SchlierenViews::add(
+  Arrangement arrangement, const Cell& cell, double pressure)
 {
   pqOutputPort* flow = pqActiveObjects::instance().activePort();
   const QString missing = flow ? problemOfServer(flow->getServer()) : QString();
@@ -476,13 +454,22 @@ SchlierenViews::Result SchlierenViews::add(Arrangement arrangement, const Cell& 
   {
     return { false, true, problem };
   }
+  const std::vector<FlowArray> arrays = arraysOfFlow(flow);
+  FlowDefaults defaults = pressure > 0 ? flowDefaultsAt(arrays, pressure) : flowDefaults(arrays);
+  if (defaults.arrays.empty())
+  {
+    return { false, true,
+      "'" + flow->getSource()->getSMName() + "': " + QString::fromStdString(defaults.message),
+      !flowDefaultsAt(arrays, pressureOfRoom).arrays.empty() };
+  }
   vtkSMProxy* drawn = drawnAsSchlieren(flow, pqActiveObjects::instance().activeView());
   vtkSMProxy* pattern = selected ? selected->getProxy() : drawn ? benchOf(drawn) : nullptr;
   QApplication::setOverrideCursor(Qt::WaitCursor);
   const auto cursor = qScopeGuard([] { QApplication::restoreOverrideCursor(); });
   static const char* const names[] = { "Add Schlieren View", "Add Three Images", "Compare Light" };
+  traceLoading(flow->getServer());
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
-  Builder builder(flow, pattern);
+  Builder builder(flow, pattern, std::move(defaults));
   const Result result = builder.add(arrangement, cell);
   END_UNDO_SET();
   builder.render();

@@ -4,9 +4,11 @@
 
 #include "pqApplyHooks.h"
 #include "pqImageDisplayKeeper.h"
+#include "pqImageProbe.h"
 #include "pqImageProgress.h"
 #include "pqImageStatus.h"
 #include "pqRepresentationRefiner.h"
+#include "pqViewNames.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -34,6 +36,8 @@ void pqSchlierenStart::startup()
   new pqImageDisplayKeeper(this);
   new pqRepresentationRefiner(this);
   new pqImageProgress(this);
+  new pqImageProbe(this);
+  new pqViewNames(this);
   // Waits for ParaView's window, which may come after its plugins.
   auto* hooks = new pqApplyHooks(this);
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqSchlierenToolBar.h"
 
+#include "FlowDefaults.h"
+#include "MenuActions.h"
+
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
@@ -108,9 +111,9 @@ void pqSchlierenToolBar::addToEmpty(QWidget* frame)
       }
       if (views)
       {
-        this->showResult(SchlierenViews::add(SchlierenViews::Arrangement::OneImage,
+        this->add(SchlierenViews::Arrangement::OneImage,
           { qobject_cast<pqMultiViewWidget*>(views)->layoutManager(),
-            cell->property("FRAME_INDEX").toInt() }));
+            cell->property("FRAME_INDEX").toInt() });
       }
     },
     Qt::QueuedConnection); // the button is deleted with the empty cell
@@ -129,8 +132,8 @@ QAction* pqSchlierenToolBar::addArrangement(const char* name, const QString& tex
   button->setAccessibleName(action->iconText());
   button->setAccessibleDescription(hint);
   this->Arrangements.append(action);
-  QObject::connect(action, &QAction::triggered, this,
-    [this, arrangement]() { this->showResult(SchlierenViews::add(arrangement)); });
+  QObject::connect(
+    action, &QAction::triggered, this, [this, arrangement]() { this->add(arrangement); });
   return action;
 }
 
@@ -146,6 +149,17 @@ void pqSchlierenToolBar::addMenu()
   menu->setObjectName("menuSchlieren");
   menu->addActions(this->actions());
   menu->addSeparator();
+  QAction* figure = menu->addAction("Save Schlieren &Figure...",
+    [this]() {
+      this->showResult({ false, true, menuActions::saveFigure() });
+    });
+  figure->setObjectName("actionSaveFigure");
+  figure->setToolTip(
+    "Save the image of the active view with axes, legend and title as PNG, PDF or SVG");
+  QAction* example = menu->addAction("&Example", [this]() { this->showExample(); });
+  example->setObjectName("actionExample");
+  example->setToolTip("Open an under-expanded air jet and show it as a schlieren image");
+  menu->addSeparator();
   QAction* status = menu->addAction("Show &Status in Views");
   status->setObjectName("actionStatus");
   status->setCheckable(true);
@@ -157,6 +171,49 @@ void pqSchlierenToolBar::addMenu()
   guide->setToolTip("Show what the settings mean in ParaView's help");
   const QList<QAction*> menus = window->menuBar()->actions();
   window->menuBar()->insertMenu(menus.empty() ? nullptr : menus.last(), menu);
+}
+
+//------------------------------------------------------------------------------
+void pqSchlierenToolBar::add(
+  SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell, double pressure)
+{
+  const SchlierenViews::Result result = SchlierenViews::add(arrangement, cell, pressure);
+  delete this->UniformPressure;
+  if (result.lacksPressure)
+  {
+    this->UniformPressure = new QPushButton(QString("Air at %1 Pa").arg(pressureOfRoom));
+    this->UniformPressure->setObjectName("UniformPressure");
+    this->message()->addButton(this->UniformPressure, QMessageBox::AcceptRole);
+    QObject::connect(
+      this->UniformPressure, &QPushButton::clicked, this,
+      [this, arrangement, cell]() { this->add(arrangement, cell, pressureOfRoom); },
+      Qt::QueuedConnection); // the button is deleted
+  }
+  this->showResult(result);
+}
+
+//------------------------------------------------------------------------------
+QMessageBox* pqSchlierenToolBar::message()
+{
+  if (!this->Message)
+  {
+    this->Message = new QMessageBox(QMessageBox::Information, "Schlieren", QString(),
+      QMessageBox::Ok, pqCoreUtilities::mainWidget());
+    this->Message->setObjectName("SchlierenMessage");
+  }
+  return this->Message;
+}
+
+//------------------------------------------------------------------------------
+void pqSchlierenToolBar::showExample()
+{
+  const QString problem = menuActions::openExample();
+  if (problem.isEmpty())
+  {
+    this->add(SchlierenViews::Arrangement::OneImage);
+    return;
+  }
+  this->showResult({ false, true, problem });
 }
 
 //------------------------------------------------------------------------------
@@ -179,16 +236,14 @@ void pqSchlierenToolBar::makeRoom()
 //------------------------------------------------------------------------------
 void pqSchlierenToolBar::showResult(const SchlierenViews::Result& result)
 {
+  if (!result.isMade && result.message.isEmpty())
+  {
+    return; // cancelled
+  }
   if (!result.isMade)
   {
-    if (!this->Message)
-    {
-      this->Message = new QMessageBox(QMessageBox::Information, "Schlieren", QString(),
-        QMessageBox::Ok, pqCoreUtilities::mainWidget());
-      this->Message->setObjectName("SchlierenMessage");
-    }
-    this->Message->setText(result.message);
-    this->Message->open();
+    this->message()->setText(result.message);
+    this->message()->open();
   }
   else if (!result.message.isEmpty())
   {

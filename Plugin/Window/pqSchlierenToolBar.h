@@ -10,6 +10,7 @@
 
 class QAction;
 class QMessageBox;
+class QPushButton;
 
 /// The toolbar and menu Schlieren; its first action is also in empty cells of a layout.
 class pqSchlierenToolBar : public QToolBar, public pqViewFrameActionsInterface
@@ -35,8 +36,14 @@ private:
 
   /// Moves to the last row of toolbars, where there is room, unless the user has moved it before.
   void makeRoom();
+  /// Makes views, or shows why not and, where that helps, offers air at the pressure of a room.
+  void add(SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell = {},
+    double pressure = 0);
+  void showExample();
   void showResult(const SchlierenViews::Result& result);
+  QMessageBox* message();
 
   QList<QAction*> Arrangements;
   QPointer<QMessageBox> Message;
+  QPointer<QPushButton> UniformPressure; ///< in Message
 };

@@ -399,3 +399,23 @@ TEST(Implausible, MoistAir)
   EXPECT_EQ(kindOfAir(kelvins, scalar("p", 700, 1013), 100), "");
   EXPECT_EQ(kindOfAir(kelvins, scalar("p", 0.9, 1.1)), "pressure");
 }
+
+TEST(FlowDefaults, UniformPressureCompletesATemperature)
+{
+  const std::vector<FlowArray> warm = { velocity, scalar("T", 290, 320, FlowArray::Cells) };
+  EXPECT_TRUE(flowDefaults(warm).arrays.empty());
+  const FlowDefaults room = flowDefaultsAt(warm, pressureOfRoom);
+  EXPECT_EQ(room.indexModel, MediumSettings::Ciddor);
+  EXPECT_EQ(room.association, FlowArray::Cells);
+  EXPECT_EQ(room.arrays, (Arrays{ { "Temperature", "T" } }));
+  EXPECT_EQ(room.uniformPressure, 101325);
+  EXPECT_TRUE(room.isSure);
+  EXPECT_EQ(room.message, "Air; temperature: 'T' in K; pressure: 101325 Pa everywhere.");
+
+  // Neither what a flow has itself, nor degrees Celsius.
+  EXPECT_EQ(flowDefaultsAt({ scalar("rho", 1, 2) }, pressureOfRoom).uniformPressure, 0);
+  EXPECT_EQ(flowDefaultsAt({ scalar("T", 290, 320), scalar("p", 9e4, 1e5) }, pressureOfRoom)
+              .arrayOf("Pressure"),
+    "p");
+  EXPECT_TRUE(flowDefaultsAt({ scalar("T", 20, 50) }, pressureOfRoom).arrays.empty());
+}

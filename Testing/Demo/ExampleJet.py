@@ -15,6 +15,6 @@ assert pixels.shape == (480, 900, 3), pixels.shape
 pixels = pixels[10:-10, 15:-15]  # around the image lies the view's background
 assert np.ptp(pixels, axis=2).max() <= 1, "The image is not grey"
 assert pixels.std() > 10, "The image is blank"
-# Mirrored about the axis, light and dark change places.
-signal = pixels[..., 0] - np.median(pixels)
+# Mirrored about the axis, light and dark change places; on the right the legend covers some of it.
+signal = pixels[:, :600, 0] - np.median(pixels)
 assert np.corrcoef(signal.ravel(), signal[::-1].ravel())[0, 1] < -0.9

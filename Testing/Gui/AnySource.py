@@ -27,6 +27,40 @@ user.check_message("'warm': There is no density, nor a temperature together with
                    "refractive index. Load or compute one (Documentation/density.md says how), or choose an "
                    "array yourself. Where the pressure of air is the same everywhere, UniformPressure completes the "
                    "temperature (101325 Pa in a room). There are point arrays T (287.353 to 526.829).")
+
+# Where only a temperature is there, air at the pressure of a room is offered; undone for what comes next.
+user.press("OneImage")
+user.event("pqClientMainWindow/SchlierenMessage/qt_msgbox_buttonbox/UniformPressure", "activate")
+user.python("""
+until(lambda: displays())
+settle_views()
+(display,) = displays()
+bench = display.SchlierenBench
+assert (bench.IndexModel, list(bench.Temperature), bench.UniformPressure) == ("Ciddor", ["POINTS", "T"], 101325), (
+    bench.IndexModel, bench.Temperature, bench.UniformPressure)
+intensity = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Intensity")
+assert np.ptp(vtk_to_numpy(intensity)) > 0.2
+""")
+user.undo()
+
+# From the Representation box: the view says why there is no image, and what helps does.
+user.python("""
+import re
+view = GetActiveViewOrCreate("RenderView")
+shown = Show(FindSource("warm"), view)
+shown.SetRepresentationType("Schlieren")
+Render(view)
+def line():
+    return widget("Frame.0", "Viewport", "SchlierenStatus")
+until(lambda: line() is not None and line().isVisible())
+assert line().text().startswith("No image: ") and "UniformPressure (101325 Pa in a room)" in line().text(), line().text()
+shown.SchlierenBench.UniformPressure = 101325
+Render(view)
+settle_views()
+until(lambda: re.match("[0-9]+ samples? per pixel", line().text()))
+Hide(FindSource("warm"), view)
+SetActiveSource(FindSource("warm"))
+""")
 user.python(MESH + """
 table = Histogram(Input=mesh, registrationName="table")
 table.UpdatePipeline()
@@ -86,7 +120,7 @@ user.choose("Cutoff/ComboBox", "Color Filter")
 user.apply()
 user.press("OneImage")
 user.save_state("filter.pvsm")
-user.play("")
+user.play("", expected="No array is chosen for Density, and none is known by its name. Choose one of: point arrays T (287.353")
 
 load("nothing.pvsm")
 assert not filters() and len(simple.GetRenderViews()) == 1

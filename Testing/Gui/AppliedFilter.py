@@ -4,6 +4,8 @@
 3-D view, undone and redone in one step and traced; a slow image is coarse at first, and becomes better while the
 window answers."""
 
+import re
+
 import numpy as np
 from views_testing import (INSIDE, OPEN_JET, TRACE, ViewsSession, check_display, filters, load, image_array,
                            play_trace, shown, simple, values, views)
@@ -110,6 +112,11 @@ def check(state):
     return values(bench), image_array(bench, "Intensity")
 
 
+with open(TRACE, encoding="utf-8") as file:
+    trace = file.read()
+# What is not used is not traced.
+assert ".Density = ['POINTS', 'rho']" in trace
+assert not re.search(r"schlieren1\.(Temperature|Pressure|Humidity|IndexArray)", trace), trace
 made, intensity = check("applied.pvsm")
 assert np.ptp(intensity) > 0.2
 play_trace("traced.pvsm", OPEN_JET)

@@ -75,7 +75,7 @@ user.python(SETTLE + NOTE + begin("played"))
 vcr("Play")
 user.python(SETTLE + "save('played')\n" + begin("stepped"))
 user.check_at(PANEL + "/Accept", "enabled", "false")
-user.check("LockK/ComboBox", "currentText", "Over Time")
+user.check("LockK/ComboBox", "currentText", "Always")
 user.python(FIND + f"""
 with open({NOTES!r}, "w") as file:
     for text in (widget("propertiesPanel", "Sensitivity", "Note").text(), information(bench, "Status")):
@@ -193,7 +193,7 @@ load("saved.pvsm")
 (_, (_, view)) = views()
 (flow,) = simple.GetSources().values()
 bench = drawn(flow, view).SchlierenBench
-assert bench.LockK == "Over Time"
+assert bench.LockK == "Always"
 simple.SaveAnimation(os.path.join(FOLDER, "script.png"), view, FrameWindow=[0, 3], ImageResolution=SIZE)
 for step in range(len(TIMES)):
     difference = png(os.path.join(FOLDER, f"script.{step:04}.png")) - png(os.path.join(FOLDER, f"saved.{step:04}.png"))

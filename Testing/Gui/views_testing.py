@@ -155,9 +155,13 @@ def check_linked(state, scene, *others):
 
 
 def frame_view(view, scale):
-    """Parallel light, an image that is 2 * scale high, and nothing else in it: no window's size matters then."""
+    """Parallel light, an image that is 2 * scale high, at its own k, and nothing else in it: no window's size matters
+    then."""
     view.CameraParallelProjection, view.CameraParallelScale = 1, scale
     view.OrientationAxesVisibility = 0
+    for display in view.Representations:
+        if display.GetProperty("SchlierenBench") is not None:
+            display.SchlierenBench.LockK = "Off"
 
 
 def check_display(representation, white=1):

@@ -129,8 +129,9 @@ until(lambda: plane.property("side") == {side})
     def view_event(self, frame, event, place, button, buttons):
         self.event(VIEW.format(frame), event, f"({place[0]:g},{place[1]:g},{button},{buttons},0)")
 
-    def play(self, script, seconds=240):
-        """Plays it after the Python script `script`, and fails where a step does or VTK complains."""
+    def play(self, script, seconds=240, expected=None):
+        """Plays it after the Python script `script`, and fails where a step does or VTK complains, but for lines with
+        the text `expected`, which must be there."""
         events, before = os.path.join(FOLDER, "events.xml"), os.path.join(FOLDER, "before.py")
         with open(events, "w", encoding="utf-8") as file:
             file.write("\n".join(["<pqevents>"] + self.lines + ["</pqevents>", ""]))
@@ -148,6 +149,9 @@ until(lambda: plane.property("side") == {side})
         assert done.returncode == 0, f"paraview ended with {done.returncode}"
         # Of a server without a display, which since VTK 9.6 draws even so.
         said = re.sub(r"Generic Warning: In vtkXOpenGLRenderWindow.*\nbad X server connection", "", done.stdout)
+        if expected:
+            assert expected in said, expected
+            said = "\n".join(line for line in said.splitlines() if expected not in line)
         assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", said)
         # What ParaView warns of where an image is shown by an array that it does not have.
         assert not re.search("Could not determine array range|Failed to locate selected", done.stdout)

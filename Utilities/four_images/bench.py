@@ -109,15 +109,6 @@ def output_of(proxy, what, messages, port=0):
     return image
 
 
-def facts_of(image):
-    """The first value of each array of the field data."""
-    facts = {}
-    for index in range(image.GetFieldData().GetNumberOfArrays()):
-        array = image.GetFieldData().GetAbstractArray(index)
-        facts[array.GetName()] = array.GetValue(0)
-    return facts
-
-
 def check_light(blocked, frame):
     """Says which fraction of the light is blocked; a mistake where all of it is."""
     fraction = blocked.sum() * frame.pixel ** 2 / frame.shadow

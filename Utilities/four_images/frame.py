@@ -45,13 +45,3 @@ class Frame:
         middle = np.array([self.center @ self.u, self.center @ self.v])
         half = np.array([self.width, self.height]) * self.pixel / 2
         (self.left, self.bottom), (self.right, self.top) = middle - half, middle + half
-
-    def axis_name(self, axis):
-        for index, letter in enumerate("xyz"):
-            if abs(axis[index]) > 1 - 1e-9:
-                return letter if axis[index] > 0 else "-" + letter
-        return "u" if axis is self.u else "v"
-
-
-# ---------------------------------------------------------------------------------------------
-# The four images, each a numpy array of frame.height rows (bottom row first)

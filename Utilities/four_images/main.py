@@ -24,11 +24,12 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E4
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
 
-from bench import (bounds_of, check_light, configure, facts_of, load_plugin, new_bench, open_flow,  # noqa: E402
+from bench import (bounds_of, check_light, configure, load_plugin, new_bench, open_flow,  # noqa: E402
                    output_of)
 from frame import Frame  # noqa: E402
 from messages import Messages, Progress, say  # noqa: E402
-from sheet import compose  # noqa: E402
+from sheet import FigureError, compose  # noqa: E402
+from schlieren_figure import facts_of  # noqa: E402
 
 
 def bench_images(reader, array, frame, options, messages):
@@ -136,7 +137,7 @@ def main(options):
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")
         images = bench_images(reader, array, frame, options, messages)
         begin = time.monotonic()
-        clear = images[0][1]["AmbientRefractivity"]
+        clear = images[0][1]["AmbientRefractivity"][0]
         medium = refractivity(reader, array, clear, options, messages)
         volume = volume_rendering(medium, frame)
         say(f"Volume rendering: {time.monotonic() - begin:.1f} s")
@@ -147,6 +148,6 @@ def main(options):
 if __name__ == "__main__":
     try:
         main(OPTIONS)
-    except DemoError as problem:
+    except (DemoError, FigureError) as problem:
         print(f"error: {' '.join(str(problem).split())}", file=sys.stderr)
         sys.exit(1)

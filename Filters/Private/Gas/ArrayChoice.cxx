@@ -217,15 +217,8 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
   MediumSettings& settings = choice.settings;
   ArraySelection& density = settings.Arrays[S::DensityArray];
   const bool isAuto = given.IndexModel == S::Auto;
-  std::vector<FlowArray> arrays = known;
-  for (const FlowArray::Association association : { FlowArray::Points, FlowArray::Cells })
-  {
-    if (given.UniformPressure > 0) // as if an array had it
-    {
-      arrays.push_back(
-        { "Pressure [Pa]", association, 1, { given.UniformPressure, given.UniformPressure } });
-    }
-  }
+  const std::vector<FlowArray> arrays =
+    given.UniformPressure > 0 ? withUniformPressure(known, given.UniformPressure) : known;
   FlowDefaults defaults;
   if (isAuto && !density.isChosen() && given.MixtureArrays.empty())
   {

@@ -21,6 +21,8 @@ namespace
 
 using filters::textOf;
 
+constexpr const char* uniformPressure = "Pressure [Pa]"; ///< the array of withUniformPressure()
+
 const std::set<std::string> indices = { "n", "ior", "refractiveindex", "indexofrefraction",
   "refractionindex" };
 const std::set<std::string> refractivities = { "refractivity", "nminus1" };
@@ -524,6 +526,33 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
           ? " Where the pressure of air is the same everywhere, UniformPressure completes the "
             "temperature (101325 Pa in a room)."
           : ""));
+}
+
+//------------------------------------------------------------------------------
+std::vector<FlowArray> withUniformPressure(std::vector<FlowArray> arrays, double pascals)
+{
+  for (const FlowArray::Association association : associations)
+  {
+    arrays.push_back({ uniformPressure, association, 1, { pascals, pascals } });
+  }
+  return arrays;
+}
+
+//------------------------------------------------------------------------------
+FlowDefaults flowDefaultsAt(const std::vector<FlowArray>& arrays, double pascals)
+{
+  FlowDefaults defaults = flowDefaults(withUniformPressure(arrays, pascals));
+  if (defaults.arrayOf("Pressure") == uniformPressure)
+  {
+    defaults.arrays.erase(std::remove(defaults.arrays.begin(), defaults.arrays.end(),
+                            std::make_pair(std::string("Pressure"), std::string(uniformPressure))),
+      defaults.arrays.end());
+    defaults.uniformPressure = pascals;
+    const std::string array = quoted(uniformPressure) + " in Pa";
+    const std::size_t at = defaults.message.find(array);
+    defaults.message.replace(at, array.size(), textOf(pascals, 6) + " Pa everywhere");
+  }
+  return defaults;
 }
 
 //------------------------------------------------------------------------------

@@ -129,6 +129,8 @@ void addLegend(vtkImageData* output, const SchlierenSettings& settings,
     }
     addFieldValues<vtkUnsignedCharArray>(output, "LegendColors", bytes, 3);
   }
+  addFieldValue<vtkDoubleArray>(
+    output, "WhiteLevel", colors == ColorScale::LinearToTwice ? 2. : 1.);
   addFieldValue<vtkDoubleArray>(output, "LengthScale", settings.LengthScale);
   if (legend.quantity == Quantity::Deflection)
   {

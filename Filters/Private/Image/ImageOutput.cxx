@@ -131,6 +131,8 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
   place(output, image.frame.origin[0], image.frame.origin[1], image.frame.pixelSize);
+  addFieldValues<vtkDoubleArray>(output, "AxisRight", image.frame.u);
+  addFieldValues<vtkDoubleArray>(output, "AxisUp", image.frame.v);
 
   vtkPointData* arrays = output->GetPointData();
   arrays->SetScalars(newArray<vtkFloatArray>("Intensity", image.intensity, 1, "1"));

@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The mouse rests in a view: what the image has there is shown, of a flow drawn as Schlieren and of a filter's image,
+zoomed, too; nothing beside the image. Plot Over Line on an image in mm, as the guide says."""
+
+from filter_testing import SCENE
+from views_testing import INSIDE, ViewsSession
+
+user = ViewsSession()
+user.press("OneImage")
+user.python("""
+import re
+FACTORS = {"": 1, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
+def rest(view, right, up):
+    "What is shown where the mouse rests, places from 0 to 1."
+    frame = GetLayout(view).GetViewLocation(view.SMProxy)
+    over = widget(f"Frame.{frame}", "Viewport")
+    place = QtCore.QPoint(int(right * over.width()), int((1 - up) * over.height()))
+    QtWidgets.QToolTip.showText(over.mapToGlobal(place), "nothing new")
+    event = QtGui.QHelpEvent(QEvent.Type.ToolTip, place, over.mapToGlobal(place))
+    QApplication.sendEvent(over, event)
+    return QtWidgets.QToolTip.text(), (place.x() + 0.5) / over.width(), 1 - (place.y() + 0.5) / over.height()
+def numbers(line, unit):
+    "The values of a line, in the unit without a prefix."
+    texts, prefix = re.fullmatch(f".*: (.*) ([mµn]?){unit}", line).groups()
+    return [float(text) * FACTORS[prefix] for text in texts.split(", ")]
+def check(text, image, column, row, scale):
+    pixel = row * image.GetDimensions()[0] + column
+    place, deflection, path, light = text.split("\\n")
+    assert place.startswith("x, y: "), place
+    arrays = image.GetPointData()
+    assert np.allclose(numbers(place, "m"), np.multiply(image.GetPoint(pixel)[:2], scale), rtol=1e-3), place
+    eps = arrays.GetArray("Deflection").GetTuple(pixel)[:2]
+    assert np.allclose(numbers(deflection, "rad"), eps, rtol=1e-3, atol=1e-3 * max(map(abs, eps))), (deflection, eps)
+    assert np.allclose(numbers(path, "m"), arrays.GetArray("OpticalPathDifference").GetValue(pixel), rtol=1e-3)
+    assert np.isclose(float(light.split(": ")[1]), arrays.GetArray("Intensity").GetValue(pixel), rtol=1e-2), light
+(drawn,) = by_name("Schlieren View")
+(display,) = displays()
+display.SchlierenBench.LengthScale = 1e-3
+Render(drawn)
+settle_views()
+for right, up in ((0.4, 0.55), (0.6, 0.5)):
+    text, x, y = rest(drawn, right, up)
+    image = display.SchlierenBench.GetClientSideObject().GetOutputDataObject(0)
+    columns, rows, _ = image.GetDimensions()
+    check(text, image, int(x * columns), int(y * rows), 1e-3)
+
+# Of a filter, whose pixels are larger than the screen's.
+bench, flat = by_name("bench", "RenderView2")
+settle(bench)
+image = bench.GetClientSideObject().GetOutputDataObject(0)
+seen = set()
+for zoom in (1, 3):
+    flat.CameraParallelScale = flat.CameraParallelScale / zoom
+    flat.CameraParallelProjection = 1
+    Render(flat)
+    for right, up in ((0.5, 0.5), (0.42, 0.61)):
+        text, x, y = rest(flat, right, up)
+        size, camera = flat.ViewSize, flat.GetActiveCamera()
+        pixel = 2 * camera.GetParallelScale() / size[1]
+        u = camera.GetFocalPoint()[0] + (x - 0.5) * size[0] * pixel
+        v = camera.GetFocalPoint()[1] + (y - 0.5) * size[1] * pixel
+        column, row = (int(round((at - image.GetOrigin()[i]) / image.GetSpacing()[i])) for i, at in enumerate((u, v)))
+        check(text, image, column, row, 1)
+        seen.add((column, row))
+assert len(seen) == 3, seen
+flat.CameraParallelScale = 200
+Render(flat)
+assert rest(flat, 0.02, 0.5)[0] == "nothing new", "There is something beside the image"
+""")
+user.python("""
+bench, = by_name("bench")
+millimetres = Transform(Input=bench)
+millimetres.Transform.Scale = 3 * [1000]
+millimetres.UpdatePipeline()
+bounds = millimetres.GetDataInformation().GetBounds()
+plot = PlotOverLine(Input=millimetres, Point1=[bounds[0], 0.5, 0], Point2=[bounds[1], 0.5, 0])
+table = servermanager.Fetch(plot).GetPointData()
+length, path = (vtk_to_numpy(table.GetArray(name)) for name in ("arc_length", "OpticalPathDifference"))
+image = bench.GetClientSideObject().GetOutputDataObject(0)
+columns, rows, _ = image.GetDimensions()
+paths = vtk_to_numpy(image.GetPointData().GetArray("OpticalPathDifference")).reshape(rows, columns)
+places = image.GetOrigin()[0] + image.GetSpacing()[0] * np.arange(columns)
+row = (0.5e-3 - image.GetOrigin()[1]) / image.GetSpacing()[1]
+below = int(row)
+expected = (1 - row + below) * paths[below] + (row - below) * paths[below + 1]
+assert np.isclose(length[-1], 1000 * np.ptp(places)), length[-1]
+found = np.interp(1000 * (places - places[0]), length, path)
+assert np.abs(found - expected).max() < 2e-3 * np.ptp(expected), np.abs(found - expected).max() / np.ptp(expected)
+""")
+user.play(INSIDE + SCENE)

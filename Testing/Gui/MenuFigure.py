@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The menu's Example opens the jet and shows it as a schlieren image; Save Schlieren Figure saves what the active view
+shows, of a drawn flow and of a filter; without an image it says why."""
+
+import json
+import os
+
+import numpy as np
+from views_testing import ViewsSession, drawn, load, png, simple, views
+from window_testing import FOLDER
+
+FIGURE, IMAGE = os.path.join(FOLDER, "it's a figure.png"), os.path.join(FOLDER, "image.svg")
+
+
+def save_figure(user, path):
+    user.menu("menuSchlieren", "actionSaveFigure")
+    user.event("pqClientMainWindow/SaveSchlierenFigure", "filesSelected", path)
+
+
+user = ViewsSession()
+user.menu("menuSchlieren", "actionExample")
+user.python("""
+until(lambda: displays())
+settle_views()
+(display,) = displays()
+view = next(view for view in GetRenderViews() if display in view.Representations)
+sources = set(GetSources())
+""")
+save_figure(user, FIGURE)
+user.python("""
+(display,) = displays()
+view = next(view for view in GetRenderViews() if display in view.Representations)
+assert {name for name, _ in GetSources()} == {"ladenburg_jet_3d.vti"}, GetSources()
+display.SchlierenLegend = view.OrientationAxesVisibility = 0
+SaveScreenshot(os.path.join(FOLDER, "seen.png"), view, ImageResolution=list(view.ViewSize))
+""")
+user.save_state("example.pvsm")
+
+# Of a filter that is chosen and applied.
+user.choose_filter("Schlieren")
+user.apply()
+user.python("settle_views()")
+save_figure(user, IMAGE)
+user.play("import os\nfrom paraview.simple import *")
+
+load("example.pvsm")
+(_, scene), (_, view) = views()
+jet = simple.FindSource("ladenburg_jet_3d.vti")
+assert drawn(jet, view).SchlierenBench.Density == ["POINTS", "rho"]
+assert simple.GetRepresentation(jet, scene).Representation == "Volume"
+
+numbers = png(FIGURE.replace(".png", "_intensity.png"))[..., 0]
+seen = png(os.path.join(FOLDER, "seen.png"))[..., 0]
+assert numbers.shape == seen.shape and np.abs(numbers / 257 - seen).max() < 1.01
+assert png(FIGURE).shape[0] > numbers.shape[0]
+with open(IMAGE.replace(".svg", ".json"), encoding="utf-8") as file:
+    description = json.load(file)
+assert description["sources"][0]["properties"]["FileName"][0].endswith("ladenburg_jet_3d.vti")
+with open(IMAGE, encoding="utf-8") as file:
+    assert "x / mm" in file.read()
