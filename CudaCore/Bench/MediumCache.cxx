@@ -271,10 +271,21 @@ void MediumInUse<Real>::useOwn()
 template <class Real>
 void MediumInUse<Real>::refine(const Column& column, const Monitor& monitor)
 {
+  if (current_.refinedFor && current_.refinedFor->tie() == column.tie() &&
+    current_.changesThen == onDevices().changes)
+  {
+    return; // to find out that nothing is missing takes long, too
+  }
+  current_.refinedFor.reset();
   if (!refineOnce(column, monitor))
   {
     useOwn();
     refineOnce(column, monitor);
+  }
+  if (!monitor.aborted || !monitor.aborted())
+  {
+    current_.refinedFor = column;
+    current_.changesThen = onDevices().changes;
   }
 }
 

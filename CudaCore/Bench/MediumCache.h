@@ -7,6 +7,7 @@
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Medium/Samples/SlopeBlocks.h"
+#include "Medium/Tree/BrickRays.h"
 #include "Rays/Cuda/CudaTracer.h"
 #include "Rays/Ranks/ProcessTracer.h"
 #include "Schlieren.h"
@@ -94,6 +95,8 @@ struct MediumOfBench
 
   std::shared_ptr<MediumOnDevices<Real>> shared;
   std::int64_t changesSeen = noChange; ///< those that the bench's rays are of
+  std::optional<Column> refinedFor;    ///< the last view whose voxels were made, as the next
+  std::int64_t changesThen = noChange; ///< of the medium
 };
 
 class MediumCache
