@@ -1,17 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The one file that sees every stage: runs them in order and keeps their results.
-#include "Bench/CutoffMaker.h"
-#include "Bench/MediumCache.h"
-#include "Bench/PassLoop.h"
-#include "Bench/RayCache.h"
-#include "Bench/StageSettings.h"
-#include "Bench/TargetError.h"
-#include "Bench/UnfinishedImage.h"
+#include "Bench/Stages.h"
+
 #include "Bench/Validation.h"
-#include "Bench/Watch.h"
 #include "Device/DeviceError.h"
-#include "Schlieren.h"
 
 #include <algorithm>
 #include <limits>
@@ -48,15 +40,6 @@ Monitor monitorOfVoxels(UnfinishedImage& request, const Monitor& monitor)
   return ofTree;
 }
 
-Projection projectionFor(const RaySettings& settings, const Light& light,
-  const UnfinishedImage& request, const Image& image)
-{
-  // Of straight rays all is of first order, and the bend makes nothing longer.
-  const bool bends = settings.kernel.path != PathModel::Straight;
-  return projectionOf(request.scene, image.frame, light,
-    bends ? (1 + image.exitRefractivity) * request.field.lengthScale : 0);
-}
-
 /// The most that nu may vary in a cube that counts as homogeneous.
 template <class Real>
 double homogeneityLimit(const Medium<Real>& medium, const Scene& scene)
@@ -66,115 +49,7 @@ double homogeneityLimit(const Medium<Real>& medium, const Scene& scene)
   return std::max(scene.homogeneityTolerance * medium.rangeOfNu, rounding * medium.largestNu);
 }
 
-Image abortedImage()
-{
-  Image image;
-  image.aborted = true;
-  return image;
-}
-
-template <class Real>
-DeflectionErrors deflectionErrors(
-  const Medium<Real>& medium, const Light& light, const Field& field, const Image& image)
-{
-  return { light.faces.ratio * noiseFloor(medium, field, light),
-    light.faces.ratio * image.medium.deflectionError };
-}
-
-/// What has been found out about an image whose settings are to keep its target error.
-struct Aim
-{
-  Field field;
-  Scene
-    scene; ///< with the medium and the path model that the target needs, as far as that is known
-  Device device;
-  std::unique_ptr<UnfinishedImage> request{}; ///< with all settings, once they are found
-  bool isPaused = false;
-  bool isShown = false; ///< with one ray per pixel
-};
-
-/// How the rays of a view are bounded and to be traced.
-struct BoundedRays
-{
-  BoundKey key;
-  DisplacementBound bound;
-  RaySettings settings;
-};
-
 } // namespace
-
-struct Bench::Stages
-{
-  Work work;
-  Processes* processes = nullptr;              ///< null: there are no others
-  std::unique_ptr<UnfinishedImage> unfinished; ///< after a pause
-  std::optional<Aim> aim;                      ///< likewise, before that
-  MediumCache media{ work };
-  RayCache rays;
-  CutoffMaker cutoffs;
-  TargetCache targets;
-
-  void cancel()
-  {
-    unfinished.reset();
-    aim.reset();
-  }
-
-  /// Begins an image with a target error, which renderAim() then makes. One that may be paused is first shown with one ray
-  /// per pixel.
-  void beginAim(const Field& field, const Scene& scene, Device device);
-  /// Finds its settings, and then works on it. Keeps what has been found after a pause.
-  Image renderAim(const Monitor& monitor);
-  Image renderFirst(const Monitor& monitor);
-
-  /// Works on an image until it is finished, aborted or paused, on the device of its scene, and keeps what is left after a
-  /// pause.
-  Image render(std::unique_ptr<UnfinishedImage> request, const Monitor& monitor);
-
-private:
-  /// What finds the settings for an image in this medium.
-  template <class Real>
-  Pilot<Real>& pilotFor(MediumOnDevices<Real>& onDevices, const Light& light,
-    const UnfinishedImage& request, Image& image);
-  /// Finds the settings with the medium and the path model of the scene. False if others are needed, which it then writes
-  /// into the scene.
-  template <class Real>
-  bool findSettings(Aim& ofImage, const Watch& watch);
-
-  /// Drops rays, before their medium goes or after it has changed.
-  void clearRays()
-  {
-    rays.clear();
-    targets.clear();
-  }
-  /// Drops them where another medium is to be made.
-  const Scene& clearedFor(const UnfinishedImage& request);
-  /// How the rays of an image are bounded and to be traced, and where the medium is steepest.
-  template <class Real>
-  BoundedRays boundRays(MediumOnDevices<Real>& onDevices, const Light& light,
-    const UnfinishedImage& request, Image& image);
-  /// Finds the medium's voxels that a view needs, and its light.
-  template <class Real>
-  Light prepareMedium(
-    MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch, Image& image);
-
-  /// The same on the device of the request, without an answer to its failures.
-  template <class Real>
-  Image proceed(UnfinishedImage& request, const Watch& watch);
-
-  /// An image without light.
-  Image begin(const UnfinishedImage& request) const;
-  /// Finds what the rays of an image are traced by, and drops other rays.
-  template <class Real>
-  RaysOfImage<Real> prepareRays(
-    MediumOnDevices<Real>& medium, const Light& light, UnfinishedImage& request, Image& image);
-  /// Writes what there is of an image into it. False if aborted.
-  bool develop(bool hasAllPasses, UnfinishedImage& request, const Watch& watch, Image& image);
-
-  /// What replaces a request that a device has failed; null where nothing can.
-  static std::unique_ptr<UnfinishedImage> instead(
-    const UnfinishedImage& request, const DeviceError& failure);
-};
 
 Image Bench::Stages::begin(const UnfinishedImage& request) const
 {
@@ -315,151 +190,14 @@ Light Bench::Stages::prepareMedium(
   return light;
 }
 
-template <class Real>
-Pilot<Real>& Bench::Stages::pilotFor(MediumOnDevices<Real>& onDevices, const Light& light,
-  const UnfinishedImage& request, Image& image)
-{
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
-  const BoundedRays bounded = boundRays(onDevices, light, request, image);
-  const Projection projection = projectionFor(bounded.settings, light, request, image);
-  return targets.pilotOf<Real>({ bounded.key, bounded.settings.kernel, field.lengthScale,
-                                 projection, scene.filmEstimator, scene.seed },
-    [&]
-    {
-      const PilotBench<Real> bench{ &onDevices.medium, light, scene, projection, bounded.settings,
-        marginFor(bounded.bound, scene, image.frame, light) };
-      return std::make_unique<Pilot<Real>>(
-        bench, deflectionErrors(onDevices.medium, light, field, image));
-    });
-}
-
-template <class Real>
-bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
-{
-  const Field& field = ofImage.field;
-  Scene& scene = ofImage.scene;
-  UnfinishedImage request(field, scene);
-  Image image = begin(request);
-  MediumInUse<Real> inUse(media, field, clearedFor(request));
-  const Light light = prepareMedium(inUse, request, watch, image);
-  if (watch.isAborted())
-  {
-    return true;
-  }
-  if (inUse.seesChange())
-  {
-    clearRays();
-  }
-  const Medium<Real>& medium = inUse.medium();
-  Pilot<Real>& pilot = pilotFor(inUse.onDevices(), light, request, image);
-  const double k = scene.kScale.value_or(
-    automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
-  CutoffMaker maker;
-  const Cutoffs cutoff = maker.cutoffOf(scene, k, image.frame.pixelSize);
-  if (ofImage.isPaused)
-  {
-    pilot.resume(cutoff);
-  }
-  else
-  {
-    pilot.begin(scene, cutoff);
-  }
-  const KnownErrors known = knownErrors(
-    pilot.bench(), pilot.view(), deflectionErrors(medium, light, field, image).medium, k);
-  if (refine(known, image.medium.isMemoryShort, scene))
-  {
-    return false;
-  }
-  const bool hasWalls =
-    !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
-  const AccurateSettings chosen =
-    chooseFor(pilot, hasWalls, known, targets.lastFor(scene), watch.monitor());
-  ofImage.isPaused = pilot.isPaused();
-  if (watch.isAborted() || ofImage.isPaused)
-  {
-    return true;
-  }
-  targets.keep(scene, chosen);
-  Scene accurate = scene;
-  accurate.stepSize = chosen.step;
-  accurate.adaptiveTolerance = adaptiveToleranceFor(chosen.step, scene.adaptiveTolerance);
-  accurate.samplesPerPixel = chosen.samples;
-  ofImage.request = std::make_unique<UnfinishedImage>(field, accurate);
-  ofImage.request->device = ofImage.device;
-  ofImage.request->accuracy = chosen.accuracy;
-  return true;
-}
-
-void Bench::Stages::beginAim(const Field& field, const Scene& scene, Device device)
-{
-  aim.emplace(Aim{ field, scene, device });
-  Scene& accurate = aim->scene;
-  accurate.interpolation = Interpolation::Cubic;
-  accurate.homogeneityTolerance = 0;
-  if (field.source)
-  {
-    accurate.mediumTolerance = toleranceForTarget(field, scene);
-  }
-  media.adopt(field, accurate);
-}
-
-Image Bench::Stages::renderFirst(const Monitor& monitor)
-{
-  Aim ofImage = std::move(*aim);
-  aim.reset();
-  std::unique_ptr<UnfinishedImage> request = std::move(unfinished);
-  if (!request)
-  {
-    Scene first = ofImage.scene;
-    first.targetError = 0;
-    first.stepSize = longestStep;
-    first.samplesPerPixel = 1;
-    request = std::make_unique<UnfinishedImage>(ofImage.field, first);
-    request->device = ofImage.device;
-  }
-  Image image = render(std::move(request), monitor);
-  if (!image.aborted)
-  {
-    ofImage.isShown = image.finished;
-    image.finished = false;
-    aim = std::move(ofImage);
-  }
-  return image;
-}
-
-Image Bench::Stages::renderAim(const Monitor& monitor)
-{
-  if (monitor.paused && !aim->isShown)
-  {
-    return renderFirst(monitor);
-  }
-  Aim ofImage = std::move(*aim);
-  aim.reset();
-  {
-    const Watch watch(monitor);
-    const auto find = [&]
-    {
-      return ofImage.scene.precision == Precision::Single ? findSettings<float>(ofImage, watch)
-                                                          : findSettings<double>(ofImage, watch);
-    };
-    while (!watch.isAborted() && !find())
-    {
-    }
-  }
-  if (ofImage.request)
-  {
-    return render(std::move(ofImage.request), monitor);
-  }
-  if (!ofImage.isPaused)
-  {
-    return abortedImage();
-  }
-  Image nothing = begin(UnfinishedImage(ofImage.field, ofImage.scene));
-  nothing.finished = false;
-  aim = std::move(ofImage);
-  return nothing;
-}
+template BoundedRays Bench::Stages::boundRays(
+  MediumOnDevices<float>&, const Light&, const UnfinishedImage&, Image&);
+template BoundedRays Bench::Stages::boundRays(
+  MediumOnDevices<double>&, const Light&, const UnfinishedImage&, Image&);
+template Light Bench::Stages::prepareMedium(
+  MediumInUse<float>&, UnfinishedImage&, const Watch&, Image&);
+template Light Bench::Stages::prepareMedium(
+  MediumInUse<double>&, UnfinishedImage&, const Watch&, Image&);
 
 template <class Real>
 Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)

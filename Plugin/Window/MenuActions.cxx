@@ -64,7 +64,7 @@ QString menuActions::openExample()
     return "The example is a file of this computer, which the server does not read. Disconnect "
            "from the server first.";
   }
-  const QString file = QFileInfo(pluginFile()).absolutePath() + "/ladenburg_jet_3d.vti";
+  const QString file = QFileInfo(pluginFile()).canonicalPath() + "/ladenburg_jet_3d.vti";
   if (!QFileInfo::exists(file))
   {
     return "The example '" + file + "' is not there. It is installed with the plugin.";

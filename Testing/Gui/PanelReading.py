@@ -117,7 +117,8 @@ with open(REPORT, encoding="utf-8") as file:
 assert lines == ["Interactive – errors up to 10 %, fastest",
                  "Fine – errors up to 1 %, 5 times as long",
                  "Publication – errors up to 0.2 %, 20 times as long",
-                 "Reference – to compare with, hundreds of times as long", "Custom – as set below",
+                 "Reference – to compare with, hundreds of times as long",
+                 "Automatic – errors that cannot be seen", "Custom – as set below",
                  "Grid True True", "Status True True"], lines
 
 for state, point in (("point", [0.01, 0.0025, 0]), ("none", [])):

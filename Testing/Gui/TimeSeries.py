@@ -131,7 +131,7 @@ def scripted(name, time, size=None):
         bench = Schlieren(
             Input=flow, Density=["POINTS", "rho"], ImageSize=size, ViewDirection=list(kept["direction"]),
             ViewUp=list(kept["up"]), FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]),
-            AutoKScale=0, KScale=float(kept["k"]), **SAMPLES.get(name, {}))
+            AutoKScale=0, KScale=float(kept["k"]), Quality="Automatic", **SAMPLES.get(name, {}))
         bench.UpdatePipeline(time)
         arrays = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData()
         made[key] = [vtk_to_numpy(arrays.GetArray(array)).copy() for array in ("Intensity", "OpticalPathDifference")]
