@@ -158,15 +158,16 @@ for time in (TIMES[0], TIMES[-1]):
     flow.UpdatePipeline(time)
     own = Schlieren(Input=flow, Density=["POINTS", "rho"], ViewDirection=list(kept["direction"]),
                     ViewUp=list(kept["up"]), FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]),
-                    ImageSize=[int(pixels) for pixels in kept["dimensions"][:2]])
+                    ImageSize=[int(pixels) for pixels in kept["dimensions"][:2]], Quality="Automatic")
     own.UpdatePipeline(time)
     k = own.FieldData["KScale"].GetRange()[0]
     simple.Delete(own)
-    assert np.isclose(k, kept["k"], rtol=1e-9) == (time == TIMES[0]), (time, k, kept["k"])
+    # The first image of a view has one ray per pixel.
+    assert np.isclose(k, kept["k"], rtol=1e-3) == (time == TIMES[0]), (time, k, kept["k"])
 assert np.abs(scripted("played", 0)[0] - scripted("played", 0.7)[0]).max() > 0.5
 
-# Each time has been shown, in this order, with all pixels and at one k: those that are saved, and those that take no
-# longer than the window may be busy, in the end as a script makes them.
+# Each time has been shown, in this order, with all pixels and at one k: those that are saved as a script makes them, those
+# that are played with one ray per pixel, at least.
 for name in ("played", "again", "saved"):
     with open(LOG, encoding="utf-8") as file:
         part = file.read().split(f"= {name}\n")[1].split("=")[0]
@@ -178,8 +179,8 @@ for name in ("played", "again", "saved"):
     assert sorted(last) == TIMES
     for time, row in last.items():
         least = scripted(name, time, size)[1].min()
-        assert np.isclose(row["least"], least, rtol=5e-3 if name == "again" else 1e-6), (name, row, least)
-        assert row["finished"] == 1 or name == "again", (name, row)
+        assert np.isclose(row["least"], least, rtol=1e-6 if name == "saved" else 5e-3), (name, row, least)
+        assert row["finished"] == 1 or name != "saved", (name, row)
 
 # The saved frames are these images, pixel by pixel.
 for step, time in enumerate(TIMES):
