@@ -473,20 +473,26 @@ RayCounts CudaFilm::develop(Films& films) const
 void CudaFilm::developCentres(Image& image) const
 {
   const std::size_t pixels = memory_->pixels;
-  const CudaBuffer<double> paths(pixels);
-  const CudaBuffer<float> others(5 * pixels);
-  const CentreArrays onDevice{ others.data(), others.data() + 2 * pixels, paths.data(),
-    others.data() + 4 * pixels };
-  launchKernel(centresKernel,
-    static_cast<unsigned>((pixels + threadsPerBlock - 1) / threadsPerBlock), threadsPerBlock, 0,
-    nullptr, static_cast<const PixelRays*>(memory_->sums.data()), static_cast<std::int64_t>(pixels),
-    onDevice);
-  checkCuda(cudaGetLastError(), "Starting the kernel of pixels' centres");
   const CentreArrays onHost = centreArraysOf(image, pixels);
-  fetch(onHost.deflection, onDevice.deflection, 2 * pixels * sizeof(float));
-  fetch(onHost.displacement, onDevice.displacement, 2 * pixels * sizeof(float));
-  fetch(onHost.opticalPathDifference, onDevice.opticalPathDifference, pixels * sizeof(double));
-  fetch(onHost.blockedFraction, onDevice.blockedFraction, pixels * sizeof(float));
+  // In the room of shaded rays, which have been deposited: there may be no other.
+  constexpr std::size_t bytesPerPixel = sizeof(double) + 5 * sizeof(float);
+  const std::size_t mostAtOnce = memory_->shadedBytes / bytesPerPixel;
+  for (std::size_t first = 0; first < pixels; first += mostAtOnce)
+  {
+    const std::size_t count = std::min(mostAtOnce, pixels - first);
+    auto* const paths = reinterpret_cast<double*>(memory_->shaded->data());
+    auto* const others = reinterpret_cast<float*>(paths + count);
+    const CentreArrays onDevice{ others, others + 2 * count, paths, others + 4 * count };
+    launchKernel(centresKernel,
+      static_cast<unsigned>((count + threadsPerBlock - 1) / threadsPerBlock), threadsPerBlock, 0,
+      nullptr, static_cast<const PixelRays*>(memory_->sums.data()) + first,
+      static_cast<std::int64_t>(count), onDevice);
+    checkCuda(cudaGetLastError(), "Starting the kernel of pixels' centres");
+    fetch(onHost.deflection + 2 * first, onDevice.deflection, 2 * count * sizeof(float));
+    fetch(onHost.displacement + 2 * first, onDevice.displacement, 2 * count * sizeof(float));
+    fetch(onHost.opticalPathDifference + first, paths, count * sizeof(double));
+    fetch(onHost.blockedFraction + first, onDevice.blockedFraction, count * sizeof(float));
+  }
 }
 
 } // namespace schlieren
