@@ -66,6 +66,7 @@ for cutoff, unseen in (("Knife Edge", 0.004), ("Interferogram", 0.02)):
         image = output(pieces)
         seen.append(image.GetFieldData().HasArray("ErrorReached"))
         pieces.UpdatePropertyInformation()
+        assert seen[-1] or "error not known yet" in pieces.Status or "Preview" in pieces.Status, pieces.Status
         if pieces.GetProperty("Finished").GetData():
             break
         pieces.InvokeCommand("Refine")

@@ -122,7 +122,8 @@ std::string statusInWords(
   return words + deviceInWords(image) + ", " + accuracyInWords(image, scene) +
     (image.accuracy.target > 0 ? ", " + errorInWords(image.accuracy, scene) + ", limited by " +
           limitInWords(image.accuracy)
-                               : "");
+        : scene.targetError > 0 ? ", error not known yet"
+                                : "");
 }
 
 } // namespace filters
