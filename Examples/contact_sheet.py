@@ -15,7 +15,7 @@ import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(ROOT, "Utilities", "four_images"))
+sys.path[:0] = [os.path.join(ROOT, *folder) for folder in (("Examples",), ("Utilities", "four_images"))]
 
 from arguments import DemoError, options_or_exit, parse_arguments  # noqa: E402
 
@@ -39,6 +39,7 @@ from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402
 
 from bench import bounds_of, check_light, load_plugin, new_bench, open_flow, output_of  # noqa: E402
 from frame import Frame  # noqa: E402
+from load_schlieren import plugin_file  # noqa: E402
 from messages import Messages, say  # noqa: E402
 from sheet import FigureError, Sheet, format_length, grey  # noqa: E402
 from schlieren_figure import facts_of, rows_of  # noqa: E402
@@ -338,10 +339,7 @@ def compose(groups, frame, used, options, facts):
 
 def main(options):
     """Writes the sheet; (groups of tiles, frame)."""
-    built = os.path.join(ROOT, "build", "release", "plugin-file.txt")
-    if not options.plugin and os.path.exists(built):
-        with open(built) as file:
-            options.plugin = file.read().strip()
+    options.plugin = options.plugin or plugin_file()
     messages = Messages()
     load_plugin(options, messages)
     begin = time.monotonic()

@@ -8,6 +8,7 @@ It writes sphere.vti, jet.vti (all arrays) and sphere.png, jet.png: the same one
 """
 
 import os
+import sys
 
 from paraview.simple import *
 from vtkmodules.vtkImagingCore import vtkImageShiftScale
@@ -16,15 +17,10 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-plugin = os.environ.get("SCHLIEREN_PLUGIN")
-built = os.path.join(root, "build", "release", "plugin-file.txt")
-if not plugin and os.path.exists(built):
-    with open(built) as file:
-        plugin = file.read().strip()
-if plugin:
-    LoadPlugin(plugin, remote=False, ns=globals())
-else:  # that of the package paraview-schlieren
-    LoadDistributedPlugin("Schlieren", remote=False, ns=globals())
+sys.path.insert(0, os.path.join(root, "Examples"))
+from load_schlieren import load_schlieren  # noqa: E402
+
+load_schlieren(globals())
 
 # Each rank makes its layers of the mesh, as a parallel solver would.
 EXTENT = """

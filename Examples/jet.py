@@ -6,19 +6,15 @@
 """
 
 import os
+import sys
 
 from paraview.simple import *
 
 root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-plugin = os.environ.get("SCHLIEREN_PLUGIN")
-built = os.path.join(root, "build", "release", "plugin-file.txt")
-if not plugin and os.path.exists(built):
-    with open(built) as file:
-        plugin = file.read().strip()
-if plugin:
-    LoadPlugin(plugin, remote=False, ns=globals())
-else:  # that of the package paraview-schlieren
-    LoadDistributedPlugin("Schlieren", remote=False, ns=globals())
+sys.path.insert(0, os.path.join(root, "Examples"))
+from load_schlieren import load_schlieren  # noqa: E402
+
+load_schlieren(globals())
 
 jet = OpenDataFile(os.path.join(root, "Testing", "Data", "ladenburg_jet_3d.vti"))
 jet.UpdatePipeline()  # so that the filter can offer its arrays

@@ -6,6 +6,7 @@
 """
 
 import os
+import sys
 import time
 
 import matplotlib
@@ -18,11 +19,10 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
 root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-plugin = os.environ.get("SCHLIEREN_PLUGIN")
-if not plugin:
-    with open(os.path.join(root, "build", "release", "plugin-file.txt")) as file:
-        plugin = file.read().strip()
-LoadPlugin(plugin, remote=False, ns=globals())
+sys.path.insert(0, os.path.join(root, "Examples"))
+from load_schlieren import load_schlieren  # noqa: E402
+
+load_schlieren(globals())
 
 jet = OpenDataFile(os.path.join(root, "Testing", "Data", "ladenburg_jet_3d.vti"))
 jet.UpdatePipeline()

@@ -6,6 +6,7 @@
 """
 
 import os
+import sys
 
 import numpy as np
 from paraview import servermanager
@@ -13,12 +14,11 @@ from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-plugin = os.environ.get("SCHLIEREN_PLUGIN")
-if not plugin:
-    with open(os.path.join(root, "build", "release", "plugin-file.txt")) as file:
-        plugin = file.read().strip()
-LoadPlugin(plugin, remote=False, ns=globals())
-import schlieren_figure  # noqa: E402
+sys.path.insert(0, os.path.join(root, "Examples"))
+from load_schlieren import load_schlieren  # noqa: E402
+
+load_schlieren(globals())
+import schlieren_figure  # noqa: E402, which comes with the plugin
 
 case = OpenFOAMReader(FileName=os.path.join(root, "Testing", "Data", "ladenburg_openfoam", "ladenburg.foam"))
 case.MeshRegions = ["internalMesh"]
