@@ -10,6 +10,7 @@
 #include "Device/CudaDevice.h"
 #include "Device/Parallel.h"
 #include "Film/Image.h"
+#include "Film/Sensor.h"
 #include "Medium/Index/IndexModels.h"
 #include "Medium/Samples/Field.h"
 #include "Medium/Samples/FieldGradients.h"
@@ -85,17 +86,33 @@ enum class PatternKind
   Image
 };
 
-/// What is behind the flow for Cutoff::Background.
+/// What is behind the flow for Cutoff::Background. Dots and stripes stand in the world: a corner of dots' cells and the middle
+/// of a bright stripe are where u = v = 0.
 struct BackgroundPattern
 {
   PatternKind kind = PatternKind::Dots;
   std::optional<double> distance; ///< from where the data begins, away from the viewer, in what
                                   ///< light leaves them into; unset: one depth
-  /// Period of stripes, and of the cells that have a dot each: data units of the image; 0: eight pixels. What is finer
-  /// than four pixels fades to grey, and is gone at two.
+  /// Period of stripes, and of the cells that have a dot each: data units; 0: pixelsPerPeriod. What is finer than four
+  /// pixels fades to grey, and is gone at two.
   double period = 0;
   double angle = 0; ///< of stripes, degrees: direction across them, from u to v
   std::shared_ptr<const RgbImage> image; ///< stretched over what the camera sees
+  double pixelsPerPeriod = 8;
+};
+
+/// The lens of a camera: that of Cutoff::Background and of views with a perspective. What is out of focus is blurred, each
+/// pass being what one point of the aperture sees.
+struct Lens
+{
+  double aperture =
+    0; ///< diameter of the pupil, data units; of a view with a perspective. 0: a pinhole
+  /// Of the telecentric lens of a parallel view: diameter of the pupil by focal length, which light from an object has as
+  /// its full range of slopes. 0: a pinhole.
+  double apertureRatio = 0;
+  /// From the pupil to the plane in focus, data units, with a perspective; unset: Cutoff::Background the pattern, others
+  /// what Scene::focusOffset says.
+  std::optional<double> focusDistance;
 };
 
 /// Everything about the bench that is not the medium.
@@ -121,6 +138,7 @@ struct Scene
   double focusOffset = 0;
 
   LightSource source;
+  Lens lens;
 
   ExitInto exitInto = ExitInto::Surroundings;
   double exitRefractivity = airRefractivity; ///< n - 1, of ExitInto::Custom

@@ -287,6 +287,11 @@ schlieren::Image vtkSchlierenFilter::Begin(
     sceneFrom(facing(*this, inside.Refractivity->FlatAxis), field.grid, inside.RgbImages);
   addObjects(scene, this->GradedFilter, this->Medium->GetMaker());
   addBackground(scene, *this, inside.Scene);
+  if (inside.Pupil.aperture > 0)
+  {
+    scene.lens.aperture = inside.Pupil.aperture;
+    scene.lens.focusDistance = inside.Pupil.focusDistance;
+  }
   if (inside.FirstInstant && choosesK(*this))
   {
     scene.kScale = inside.FirstInstant->kScale;
@@ -432,6 +437,10 @@ bool vtkSchlierenFilter::Show(
   if (!image.color.empty())
   {
     addColor(output, image, colors);
+  }
+  if (this->FullWell != 0)
+  {
+    addRecorded(output, sensorFrom(*this), scene.threads);
   }
   if (schlieren::techniqueOf(scene.cutoff).hasFringes && scene.fringes.finite)
   {

@@ -224,6 +224,18 @@ void vtkSchlierenFilter::SetBackgroundScene(vtkImageData* image, double distance
 }
 
 //------------------------------------------------------------------------------
+void vtkSchlierenFilter::SetPupil(double diameter, double focusDistance)
+{
+  schlieren::Lens& pupil = this->Inside->Pupil;
+  if (pupil.aperture != diameter || pupil.focusDistance != focusDistance)
+  {
+    pupil.aperture = diameter;
+    pupil.focusDistance = focusDistance;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::HasOwnColor() const
 {
   return CutoffHasColor(this->Cutoff, this->WhiteLight, this->BackgroundPattern);

@@ -96,6 +96,10 @@ struct OpticsSettings
   double BackgroundPeriod = 0;
   double BackgroundAngle = 0;
   std::string BackgroundImage;
+  double FNumber = 0;
+  double LensFocalLength = 50;
+  double FocusDistance = 0;
+  double SensorWidth = 0;
   bool ColorByField = false;
   std::vector<double> FieldColors;
 
@@ -130,6 +134,10 @@ struct OpticsSettings
     use("BackgroundPeriod", this->BackgroundPeriod);
     use("BackgroundAngle", this->BackgroundAngle);
     use("BackgroundImage", this->BackgroundImage);
+    use("FNumber", this->FNumber);
+    use("LensFocalLength", this->LensFocalLength);
+    use("FocusDistance", this->FocusDistance);
+    use("SensorWidth", this->SensorWidth);
     use("ColorByField", this->ColorByField);
     use("FieldColors", this->FieldColors);
   }
@@ -183,6 +191,11 @@ struct FilmSettings
   int HistogramSize = 256;
   int Seed = 1;
   int PreviewReduction = 1;
+  double FullWell = 0;
+  double Exposure = 0.8;
+  double ReadNoise = 10;
+  double Gamma = 1;
+  int BitDepth = 8;
 
   template <class Visit>
   void visit(const Visit& use) const
@@ -194,6 +207,11 @@ struct FilmSettings
     use("HistogramSize", this->HistogramSize);
     use("Seed", this->Seed);
     use("PreviewReduction", this->PreviewReduction);
+    use("FullWell", this->FullWell);
+    use("Exposure", this->Exposure);
+    use("ReadNoise", this->ReadNoise);
+    use("Gamma", this->Gamma);
+    use("BitDepth", this->BitDepth);
   }
 };
 

@@ -23,7 +23,11 @@
  * - `BlockedFraction` (float): fraction of the pixel's rays that a solid stopped;
  * - `Background` (float) and `BackgroundDisplacement` (3 floats, data units), with
  *   BACKGROUND_ORIENTED only: the image without the flow, and the point of the pattern that is
- *   seen, less that without the flow (the image has moved in the opposite direction).
+ *   seen, less that without the flow (the image has moved in the opposite direction); with an
+ *   FNumber, this and the rays' other arrays are means over the aperture;
+ * - `Recorded` and, with BACKGROUND_ORIENTED, `RecordedBackground` (unsigned chars, or unsigned
+ *   shorts for a BitDepth above 8), with a FullWell: what the sensor makes of `Intensity` and
+ *   `Background`.
  *
  * Field data: `AxisRight` and `AxisUp` (u and v), `Device`, `PathModel` (the one used: `Straight`, `Refracted` or `Difference`),
  * `KScale` (the k used), `UndisturbedLevel` (intensity of undisturbed light), `SaturatedShare`
@@ -618,7 +622,8 @@ public:
    * The pattern of BACKGROUND_ORIENTED, one of BackgroundPatterns (default: DOTS):
    * BackgroundDistance behind the side of the data where light enters (data units; negative, the
    * default: one data depth); dots and stripes BackgroundPeriod apart (data units; 0, the default:
-   * eight pixels; they fade below four and vanish at two); stripes across BackgroundAngle
+   * eight pixels; they fade below four and vanish at two), which stand in the world: a bright stripe
+   * and a corner of dots' cells are where u = v = 0; stripes across BackgroundAngle
    * (degrees; 0, the default: u); PICTURE: BackgroundImage, given as ColorFilterImage is; SCENE:
    * that of SetBackgroundScene().
    */
@@ -640,6 +645,55 @@ public:
    * negative; negative: one data depth. Null (the default): images with this pattern fail.
    */
   void SetBackgroundScene(vtkImageData* image, double distance);
+
+  ///@{
+  /**
+   * The lens of the camera, for BACKGROUND_ORIENTED and for all images with a ViewAngle: its focal
+   * length over its aperture (0, the default: a pinhole, everything is in focus), its focal length
+   * (LensFocalLength, millimetres, positive; default: 50) and the distance from the camera to what
+   * is in focus (FocusDistance, data units, with a ViewAngle; 0, the default: BACKGROUND_ORIENTED
+   * the pattern, others what FocusOffset says). Each sample of a pixel sees one point of the
+   * aperture: something w wide that is blurred over d takes 10 d / w SamplesPerPixel for an error
+   * of a hundredth. Without a ViewAngle the lens is telecentric and focuses on the pattern.
+   * SensorWidth (millimetres; 0, the default: off) sets the ViewAngle to that of a sensor this wide
+   * behind the lens.
+   */
+  vtkSetMacro(FNumber, double);
+  vtkGetMacro(FNumber, double);
+  vtkSetMacro(LensFocalLength, double);
+  vtkGetMacro(LensFocalLength, double);
+  vtkSetMacro(FocusDistance, double);
+  vtkGetMacro(FocusDistance, double);
+  vtkSetMacro(SensorWidth, double);
+  vtkGetMacro(SensorWidth, double);
+  ///@}
+
+  /**
+   * Sets the pupil of a view's camera instead of FNumber and FocusDistance: its diameter and the
+   * distance of what is in focus, data units. `diameter` 0 (the default): there is none.
+   */
+  void SetPupil(double diameter, double focusDistance);
+
+  ///@{
+  /**
+   * The camera's sensor, which makes the array `Recorded` of `Intensity`, and `RecordedBackground`
+   * of `Background`: electrons that a pixel can hold (FullWell; 0, the default: no sensor), how
+   * much of them light 1 fills (Exposure, positive; default: 0.8), the standard deviation of what
+   * reading adds (ReadNoise, electrons; default: 10), the exponent of its curve (Gamma, positive;
+   * default: 1, linear) and the bits of its values (BitDepth, 1 to 16; default: 8). The value is
+   * (electrons / FullWell) ^ (1 / Gamma) of the full scale; Seed chooses the noise.
+   */
+  vtkSetMacro(FullWell, double);
+  vtkGetMacro(FullWell, double);
+  vtkSetMacro(Exposure, double);
+  vtkGetMacro(Exposure, double);
+  vtkSetMacro(ReadNoise, double);
+  vtkGetMacro(ReadNoise, double);
+  vtkSetMacro(Gamma, double);
+  vtkGetMacro(Gamma, double);
+  vtkSetClampMacro(BitDepth, int, 1, 16);
+  vtkGetMacro(BitDepth, int);
+  ///@}
 
   ///@{
   /**

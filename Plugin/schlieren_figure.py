@@ -27,7 +27,7 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 ENDINGS = (".png", ".pdf", ".svg")
 
 # Properties of the camera and the size, which displays have of their view.
-OF_THE_VIEW = ("ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "ImageSize")
+OF_THE_VIEW = ("ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "SensorWidth", "ImageSize")
 
 
 class FigureError(RuntimeError):
@@ -260,6 +260,9 @@ def filter_like(display, view, size=None):
     half = math.tan(math.radians(angle / 2)) * camera.GetDistance() if angle else camera.GetParallelScale()
     bench.ViewDirection, bench.ViewUp = list(camera.GetDirectionOfProjection()), list(camera.GetViewUp())
     bench.FocalPoint, bench.ParallelScale, bench.ViewAngle = list(camera.GetFocalPoint()), half, angle
+    if angle and camera.GetFocalDistance() > 0 and camera.GetFocalDisk() > 0:  # the view's camera has a lens
+        bench.FNumber = bench.LensFocalLength / (1e3 * camera.GetFocalDisk() * bench.LengthScale)
+        bench.FocusDistance = camera.GetFocalDistance()
     bench.ImageSize = list(size or view.ViewSize)
     bench.SMProxy.UpdateVTKObjects()
     return bench

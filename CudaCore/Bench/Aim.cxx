@@ -49,7 +49,7 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   const double k = scene.kScale.value_or(
     automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
   CutoffMaker maker;
-  const Cutoffs cutoff = maker.cutoffOf(scene, k, image.frame.pixelSize);
+  const Cutoffs cutoff = maker.cutoffOf(scene, k, pixelPlacesOf(image.frame, scene.view, light));
   if (ofImage.isPaused)
   {
     pilot.resume(cutoff);
@@ -90,6 +90,7 @@ void Bench::Stages::beginAim(const Field& field, const Scene& scene, Device devi
   Scene& accurate = aim->scene;
   accurate.interpolation = Interpolation::Cubic;
   accurate.homogeneityTolerance = 0;
+  accurate.samplesPerPixel = raysPerPixel.back();
   if (field.source)
   {
     accurate.mediumTolerance = toleranceForTarget(field, scene);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 
@@ -27,13 +28,12 @@ std::array<float, n> linearValues()
 
 } // namespace
 
-Cutoffs CutoffMaker::patternOf(const Scene& scene, double pixelSize)
+Cutoffs CutoffMaker::patternOf(const Scene& scene, const PixelPlaces& pixels)
 {
-  constexpr double defaultPeriod = 8; // pixels
   const View& view = scene.view;
   const BackgroundPattern& pattern = scene.background;
-  const double period = pattern.period > 0 ? pattern.period / pixelSize : defaultPeriod;
-  const double centre[2] = { 0.5 * (view.width - 1), 0.5 * (view.height - 1) };
+  const double period =
+    pattern.period > 0 ? pattern.period / pixels.sizeBehind : pattern.pixelsPerPeriod;
   switch (pattern.kind)
   {
     case PatternKind::Image:
@@ -45,21 +45,22 @@ Cutoffs CutoffMaker::patternOf(const Scene& scene, double pixelSize)
     case PatternKind::Stripes:
     {
       const double contrast = patternContrast(period);
-      return Stripes{ contrast > 0 ? Carrier::of(period, pattern.angle, view.width, view.height)
-                                   : Carrier{},
-        contrast };
+      Carrier carrier =
+        contrast > 0 ? Carrier::of(period, pattern.angle, pixels.zeroBehind) : Carrier{};
+      carrier.atOrigin = std::remainder(carrier.atOrigin, 1.0); // however far away u = v = 0 is
+      return Stripes{ carrier, contrast };
     }
     case PatternKind::Dots:
       break;
   }
-  return Dots{ { centre[0], centre[1] }, period, scene.seed };
+  return Dots{ { pixels.zeroBehind[0], pixels.zeroBehind[1] }, period, scene.seed };
 }
 
-Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, double pixelSize)
+Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, const PixelPlaces& pixels)
 {
   if (scene.cutoff == Cutoff::Background)
   {
-    return patternOf(scene, pixelSize);
+    return patternOf(scene, pixels);
   }
   if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
   {
@@ -90,7 +91,7 @@ Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, double pixelSize)
       return ColorWheel{ k, { linear.data(), linear.size() } };
     }
     case Cutoff::Interferogram:
-      return interferogram(scene, pixelSize);
+      return interferogram(scene, pixels.size);
     case Cutoff::Shadowgraph:
     case Cutoff::Background:
       break;
@@ -102,7 +103,8 @@ Cutoffs CutoffMaker::interferogram(const Scene& scene, double pixelSize)
 {
   const Fringes& fringes = scene.fringes;
   const Carrier carrier = fringes.finite
-    ? Carrier::of(fringes.spacing / pixelSize, fringes.angle, scene.view.width, scene.view.height)
+    ? Carrier::of(fringes.spacing / pixelSize, fringes.angle,
+        { 0.5 * (scene.view.width - 1), 0.5 * (scene.view.height - 1) })
     : Carrier{};
   if (!fringes.whiteLight)
   {

@@ -126,7 +126,7 @@ Legend legendOf(const Scene& scene, double k)
   Scene undisturbed = scene;
   undisturbed.fringes.finite = false;
   CutoffMaker maker;
-  const Cutoffs cutoff = maker.cutoffOf(undisturbed, k, 1);
+  const Cutoffs cutoff = maker.cutoffOf(undisturbed, k, { 1 });
   legend.light.reserve(3 * static_cast<std::size_t>(legend.width) * legend.height);
   for (int row = 0; row < legend.height; ++row)
   {

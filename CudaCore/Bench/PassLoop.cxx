@@ -109,7 +109,7 @@ void PassLoop<Real>::begin(const TracedRays& rays)
   const View& view = scene.view;
   const std::int64_t margin = ofImage_.margin;
   request_.image->begin(
-    { cutoffs_.cutoffOf(scene, request_.kScale, ofImage_.pixelSize), ofImage_.projection, margin,
+    { cutoffs_.cutoffOf(scene, request_.kScale, ofImage_.pixels), ofImage_.projection, margin,
       (view.width + 2 * margin) * (view.height + 2 * margin) *
         passesToHold(scene.samplesPerPixel) },
     rays_.tintOf(rays, request_.field, scene));

@@ -25,7 +25,7 @@ struct RaysOfImage
   std::int64_t margin; ///< pixels around the image from which light may be bent into it
   DeflectionErrors errors;
   Projection projection; ///< of the film
-  double pixelSize;      ///< data units
+  PixelPlaces pixels;
 };
 
 /// Traces and exposes the passes of an image until all are on the film or the monitor stops it.

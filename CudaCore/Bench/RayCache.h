@@ -30,11 +30,14 @@ struct LightKey
   double angle = 0;
   double film = 0;
   ExitFaces faces = noFaces;
+  Aperture aperture; ///< of a camera, with what all of its passes are
+  int passes = 0;
 
   auto tie() const
   {
-    return std::tie(
-      isOfCamera, distance, shape, width, length, angle, film, faces.refract, faces.ratio);
+    return std::tuple_cat(std::tie(isOfCamera, distance, shape, width, length, angle, film,
+                            faces.refract, faces.ratio, passes),
+      aperture.tie());
   }
 
   static LightKey of(const Scene& scene, const Frame& frame, double film, const ExitFaces& faces)
@@ -42,6 +45,12 @@ struct LightKey
     LightKey key;
     key.faces = faces;
     key.isOfCamera = schlieren::isOfCamera(scene.cutoff);
+    key.aperture = apertureOf(scene, frame, faces);
+    if (key.aperture.slope > 0)
+    {
+      key.passes = scene.samplesPerPixel;
+      return key;
+    }
     if (key.isOfCamera)
     {
       return key;

@@ -75,6 +75,13 @@ double focusDistance(const Frame& frame, double offset)
                          : -0.5 * (frame.exit - frame.entry) + offset;
 }
 
+/// How much nearer to the viewer than the focal point, or than the middle of the data, the plane in focus is.
+double focusOffsetOf(const Scene& scene, const Frame& frame)
+{
+  return frame.pupil > 0 && scene.lens.focusDistance ? frame.pupil - *scene.lens.focusDistance
+                                                     : scene.focusOffset;
+}
+
 /// Where a place at a distance from the plane where rays leave the data, less than 0 within them, seems to be from
 /// outside. So what is in focus there lies where it does in the data.
 double apparentDistance(double distance, const Frame& frame, double exitRatio)
@@ -155,7 +162,29 @@ double filmDistance(const Scene& scene, const Frame& frame, const ExitFaces& fac
     case RecordedPlane::Focus:
       break;
   }
-  return apparentDistance(focusDistance(frame, scene.focusOffset), frame, faces.ratio);
+  return apparentDistance(focusDistance(frame, focusOffsetOf(scene, frame)), frame, faces.ratio);
+}
+
+Aperture apertureOf(const Scene& scene, const Frame& frame, const ExitFaces& faces)
+{
+  const bool isCamera = isOfCamera(scene.cutoff);
+  const bool hasPupil = frame.pupil > 0;
+  Aperture aperture;
+  if (hasPupil)
+  {
+    aperture.slope = 0.5 * scene.lens.aperture / frame.pupil;
+  }
+  else if (isCamera)
+  {
+    aperture.slope = 0.5 * scene.lens.apertureRatio / faces.ratio;
+  }
+  if (aperture.slope > 0)
+  {
+    aperture.focus = isCamera && hasPupil && scene.lens.focusDistance
+      ? apparentDistance(focusDistance(frame, focusOffsetOf(scene, frame)), frame, faces.ratio)
+      : filmDistance(scene, frame, faces);
+  }
+  return aperture;
 }
 
 std::int64_t marginFor(
@@ -169,7 +198,7 @@ std::int64_t marginFor(
   const double slope = slopeOutside(bound, light);
   double largest = 0; // data units of the image
   for (const double distance : { scene.screenDistance.value_or(depth),
-         focusDistance(frame, scene.focusOffset), focusDistance(frame, 0) })
+         focusDistance(frame, focusOffsetOf(scene, frame)), focusDistance(frame, 0) })
   {
     const double film = apparentDistance(distance, frame, light.faces.ratio);
     const double magnification = magnificationAt(scene, frame, film, light.faces.ratio);
@@ -184,12 +213,13 @@ std::int64_t marginFor(
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces)
 {
   const double film = filmDistance(scene, frame, faces);
+  const Aperture aperture = apertureOf(scene, frame, faces);
   if (!isOfCamera(scene.cutoff))
   {
-    return lightFrom(scene.source, film, grid, scene.view, frame, faces);
+    return lightFrom(scene.source, film, grid, scene.view, frame, faces, aperture);
   }
-  return frame.pupil > 0 ? lightFrom(LightSource{}, film, grid, scene.view, frame, faces)
-                         : reversedLight(grid, frame, faces);
+  return frame.pupil > 0 ? lightFrom(LightSource{}, film, grid, scene.view, frame, faces, aperture)
+                         : reversedLight(grid, frame, faces, aperture);
 }
 
 Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
@@ -224,6 +254,12 @@ Projection projectionOf(
     1 / (frame.pixelSize * light.magnification), pathPerDataUnit, light.inclination };
   projection.exitRatio = light.faces.ratio;
   projection.isOfCamera = isOfCamera(scene.cutoff);
+  if (projection.isOfCamera && light.pupilTilt > 0)
+  {
+    projection.pupilTilt = light.pupilTilt;
+    projection.pastFocus =
+      light.faces.ratio * (projection.distance - apertureOf(scene, frame, light.faces).focus);
+  }
   if (frame.pupil > 0)
   {
     projection.perSourceDistance = light.faces.ratio / (frame.pupil * light.magnification);
@@ -236,6 +272,18 @@ Projection projectionOf(
   return projection;
 }
 
+PixelPlaces pixelPlacesOf(const Frame& frame, const View& view, const Light& light)
+{
+  PixelPlaces pixels{ frame.pixelSize, frame.pixelSize * light.magnification, { 0, 0 } };
+  const double middle[2] = { 0.5 * (view.width - 1), 0.5 * (view.height - 1) };
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const double focal = frame.origin[axis] + middle[axis] * frame.pixelSize;
+    pixels.zeroBehind[axis] = middle[axis] - focal / pixels.sizeBehind;
+  }
+  return pixels;
+}
+
 FilmSettings filmSettingsOf(const Scene& scene)
 {
   return { scene.view.width, scene.view.height, scene.samplesPerPixel, scene.seed,
@@ -246,7 +294,13 @@ FilmSettings filmSettingsOf(const Scene& scene)
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)
 {
   pass.offset = pixelOffset(number, scene.seed);
-  if (!isOfCamera(scene.cutoff))
+  if (light.pupilTilt > 0)
+  {
+    const std::array<double, 2> place = pupilPoint(number, scene.samplesPerPixel);
+    pass.tilt[0] = light.pupilTilt * place[0];
+    pass.tilt[1] = light.pupilTilt * place[1];
+  }
+  else if (!isOfCamera(scene.cutoff))
   {
     const std::array<double, 2> place =
       sourcePoint(scene.source, scene.knifeEdgeAngle, number, scene.seed);

@@ -3,6 +3,7 @@
 // What a scene needs of each stage.
 #pragma once
 
+#include "Bench/CutoffMaker.h"
 #include "Film/Development.h"
 #include "Film/Shading.h"
 #include "Medium/Medium.h"
@@ -52,6 +53,9 @@ ExitFaces exitFacesOf(const Scene& scene, double ambient, double largestN);
 /// outside. Data units. With a perspective rays leave the data at their far end, behind which a screen is, too.
 double filmDistance(const Scene& scene, const Frame& frame, const ExitFaces& faces);
 
+/// The aperture through which a scene is seen: a pinhole where there is no camera.
+Aperture apertureOf(const Scene& scene, const Frame& frame, const ExitFaces& faces);
+
 /// Pixels around the image from which light may be bent into it, at most an eighth of its longer
 /// side (or 16). At least one, because the film distributes a ray over four pixels. The same for all
 /// cutoffs, so that changing the cutoff needs no re-tracing, but for a camera's rays, which stay in their pixel.
@@ -62,6 +66,9 @@ Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const Ex
 
 /// Finds what a view sees of a source's medium, with the margin around the image.
 Column columnOf(const Scene& scene, const Light& light, const Frame& frame);
+
+/// What the pixels of a view show.
+PixelPlaces pixelPlacesOf(const Frame& frame, const View& view, const Light& light);
 
 FilmSettings filmSettingsOf(const Scene& scene);
 

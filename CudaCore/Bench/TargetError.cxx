@@ -3,7 +3,6 @@
 #include "Bench/TargetError.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,7 +15,6 @@ namespace
 constexpr double coarsestTolerance = 0.01, finestTolerance = 3e-4;
 
 constexpr double longestStepAtWalls = 1, shortestStep = 0.25; // voxels
-constexpr std::array<int, 4> raysPerPixel{ 1, 4, 16, 64 };
 
 /// The error of a step by its difference to half of it: 4/3 of it for an order of 2. Beside walls the order is below 1.
 constexpr double errorByHalving = 1.5;
@@ -275,6 +273,13 @@ bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene)
   return false;
 }
 
+/// Whether what is compared is of one ray per pixel, however many there are: of a pattern seen through a pinhole.
+template <class Real>
+bool needsOneRay(const PilotBench<Real>& bench)
+{
+  return isOfCamera(bench.scene.cutoff) && !(bench.projection.pupilTilt > 0);
+}
+
 /// Finds what other patches say of settings, and writes it into them. Nothing if aborted.
 template <class Real>
 void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& steps,
@@ -289,7 +294,7 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
     pilot.compare(Patches::ToVerify, { step, steps.rays }, { 0.5 * step, steps.rays }, monitor);
   Differences ofRays;
   double byRays = 0;
-  if (!isOfCamera(scene.cutoff))
+  if (!needsOneRay(pilot.bench()))
   {
     const auto compare = [&](int fewer, int more)
     {
@@ -316,7 +321,7 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
 {
   const Scene& scene = pilot.bench().scene;
   const double target = scene.targetError;
-  const bool hasFilm = !isOfCamera(scene.cutoff);
+  const bool hasFilm = !needsOneRay(pilot.bench());
   const StepRange steps = stepsFor(*pilot.bench().medium, hasWalls, hasFilm);
   const auto isAborted = [&] { return monitor.aborted && monitor.aborted(); };
   AccurateSettings settings{};

@@ -11,6 +11,7 @@
 #include "Bench/RayCache.h"
 #include "Film/Image.h"
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -19,6 +20,9 @@
 
 namespace schlieren
 {
+
+/// The rays per pixel that are tried.
+constexpr std::array<int, 4> raysPerPixel{ 1, 4, 16, 64 };
 
 /// Errors that are known without patches, in the unit of the target.
 struct KnownErrors

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/Validation.h"
 
+#include "Bench/StageSettings.h"
+
 #include "Film/NoiseFilters.h"
 #include "Math/Units.h"
 #include "Medium/Medium.h"
@@ -192,6 +194,40 @@ void validateScene(const Scene& scene)
   }
 }
 
+/// The lens of a camera, where there is one. `frame`: of the image.
+void validateLens(const Scene& scene, const Frame& frame)
+{
+  const auto require = [](bool isGood, const auto&... message)
+  {
+    if (!isGood)
+    {
+      std::ostringstream text;
+      (text << ... << message);
+      throw Error(text.str());
+    }
+  };
+  const Lens& lens = scene.lens;
+  const bool isGood = lens.aperture >= 0 && std::isfinite(lens.aperture) &&
+    lens.apertureRatio >= 0 && std::isfinite(lens.apertureRatio);
+  require(isGood, "The lens has an aperture of ", lens.aperture,
+    " data units. Set FNumber to a positive number, or to 0 for a pinhole.");
+  require(
+    !lens.focusDistance || (*lens.focusDistance > 0 && *lens.focusDistance <= largestDistance),
+    "FocusDistance is ", lens.focusDistance.value_or(0),
+    ". Set it to a positive number of data units, or to 0 for the pattern or the focal point.");
+  const Aperture aperture = apertureOf(scene, frame, noFaces);
+  double slope = aperture.slope;
+  if (frame.pupil > 0)
+  {
+    const double distance = frame.pupil + aperture.focus + frame.focus - frame.entry;
+    slope = distance > 0 ? slope * frame.pupil / distance : 0;
+  }
+  require(slope <= 1, "The lens's aperture is ", 2 * slope,
+    " times as wide as its distance from what is in focus. Increase FNumber, so that light is "
+    "inclined by no more than 45 "
+    "degrees.");
+}
+
 /// How light travels: from where, and to what film. `frame`: of the image.
 void validateLight(const Scene& scene, const Frame& frame)
 {
@@ -207,6 +243,7 @@ void validateLight(const Scene& scene, const Frame& frame)
   const double depth = frame.exit - frame.entry;
   require(std::isfinite(scene.focusOffset), "FocusOffset is ", scene.focusOffset,
     ". Set it to a finite number of data units, 0 for the middle of the data.");
+  validateLens(scene, frame);
   if (isOfCamera(scene.cutoff))
   {
     const double distance = scene.background.distance.value_or(depth);
@@ -231,7 +268,8 @@ void validateLight(const Scene& scene, const Frame& frame)
   const bool isFocused = techniqueOf(scene.cutoff).plane == RecordedPlane::Focus;
   if (frame.pupil > 0)
   {
-    magnification = isFocused ? 1 - scene.focusOffset / frame.pupil : 1;
+    magnification =
+      isFocused && !scene.lens.focusDistance ? 1 - scene.focusOffset / frame.pupil : 1;
     require(magnification > 0, "FocusOffset is ", scene.focusOffset,
       ", so the plane in focus is not in front of the camera, ", frame.pupil,
       " from its focal point. Set it to less than that.");

@@ -36,7 +36,7 @@ void CentreValues::forEachPixel(const std::vector<TracedRays>& passes, const Use
             pixels_.empty() ? PixelRays{} : pixels_[static_cast<std::size_t>(pixel)];
           for (const TracedRays& rays : passes)
           {
-            ofPixel.add(rays.exits[rays.rayOf(column, row)]);
+            ofPixel.add(rays.exits[rays.rayOf(column, row)], areAllWanted_);
           }
           use(pixel, ofPixel);
         }

@@ -13,7 +13,7 @@ namespace schlieren
 {
 
 /// What the first of a pixel's rays carries, which starts in the pixel's centre. Where
-/// that does not reach the film, the sums over those that do.
+/// that does not reach the film, or all are wanted, the sums over those that do.
 struct PixelRays
 {
   double deflection[2]{ 0, 0 };
@@ -24,9 +24,9 @@ struct PixelRays
   std::int32_t blocked = 0;
   std::int32_t rays = 0;
 
-  SCHLIEREN_HD void add(const RayExit& exit)
+  SCHLIEREN_HD void add(const RayExit& exit, bool areAllWanted)
   {
-    const bool isFirst = rays == 0;
+    const bool isFirst = rays == 0 && !areAllWanted;
     ++rays;
     blocked += exit.fate == RayFate::Blocked ? 1 : 0;
     if (exit.reachesFilm() && hasCentre == 0)
@@ -71,7 +71,8 @@ struct CentreArrays
 CentreArrays centreArraysOf(Image& image, std::size_t pixels);
 
 /// What light carries at the pixels' centres. A mean over all rays of a pixel would belong to another place: the mean
-/// place of a few samples is not the centre. Only where the centre is dark is it the mean over the rays beside it.
+/// place of a few samples is not the centre. Only where the centre is dark is it the mean over the rays beside it; and where
+/// each ray comes through another place of a camera's aperture.
 /// Each pixel is summed in the order of the passes, so that no result depends on the number of threads, or on which
 /// passes come at once.
 class CentreValues
@@ -83,6 +84,9 @@ public:
     , threads_(threads)
   {
   }
+
+  /// Makes all values means over their pixels' rays.
+  void wantAll() { areAllWanted_ = true; }
 
   /// Adds passes that more will follow. The first of all starts in the centres.
   void add(const std::vector<TracedRays>& passes);
@@ -98,6 +102,7 @@ private:
   std::int64_t width_;
   std::int64_t height_;
   int threads_;
+  bool areAllWanted_ = false;
   std::vector<PixelRays> pixels_; ///< of what has been added; most often nothing
 };
 

@@ -186,7 +186,8 @@ __global__ void shadeKernel(const CutoffKind cutoff, const Projection projection
       counts.add(exit);
       if (column >= 0 && column < sums.film.columns && row >= 0 && row < sums.film.rows)
       {
-        sums.pixels[row * sums.film.columns + column].add(exit); // no other thread has this pixel
+        // No other thread has this pixel.
+        sums.pixels[row * sums.film.columns + column].add(exit, projection.pupilTilt > 0);
         counts.addShaded(exit, cutoff);
       }
     }

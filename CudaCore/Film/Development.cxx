@@ -6,6 +6,7 @@
 #include "Rays/Light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -69,6 +70,11 @@ bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
     }
   }
   pass.offset = pixelOffset(passes_, settings_.seed);
+  const std::array<double, 2> place = pupilPoint(passes_, settings_.samplesPerPixel);
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    pass.tilt[axis] = exposure_.projection.pupilTilt * place[axis];
+  }
   if (filmOnDevice_)
   {
     filmOnDevice_->expose(

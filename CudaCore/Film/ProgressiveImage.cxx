@@ -17,6 +17,10 @@ void ProgressiveImage::begin(const Exposure& exposure, std::optional<Tint> tint)
 {
   exposure_ = exposure;
   films_ = filmsOf(settings_, exposure.cutoff, std::move(tint), exposure.maxRays);
+  if (exposure.projection.pupilTilt > 0)
+  {
+    centres_.wantAll();
+  }
   if (settings_.isOfCamera)
   {
     undisturbed_.emplace(settings_, exposure_);

@@ -24,6 +24,9 @@ struct Projection
   double exitRatio = 1;                   ///< see Light; of lengths, these are outside of the data
   double perSourceDistance = 0; ///< 1 / from the source to the film, by data unit; 0: collimated
   bool isOfCamera = false; ///< rays come from the image: their light belongs to where they start
+  double pupilTilt = 0;    ///< of a camera: see Light; 0: a pinhole
+  double pastFocus =
+    0; ///< of a camera with an aperture: how far what the film shows is past what is in focus, in the data
 };
 
 /// Whether what the film shows of a ray has come through the medium. All that a camera sees counts as such: its
@@ -115,7 +118,8 @@ SCHLIEREN_HD RayAtFilm rayAtFilm(const RayExit& exit, double column, double row,
     exit.opticalPathDifference + shift.longer * projection.pathPerDataUnit, { 0, 0 }, { 0, 0 } };
   for (int axis = 0; axis < 2; ++axis)
   {
-    ray.position[axis] = start[axis] + shift.moved[axis] * projection.perDataUnit;
+    const double spread = tilt[axis] * projection.pastFocus;
+    ray.position[axis] = start[axis] + (shift.moved[axis] + spread) * projection.perDataUnit;
     ray.place[axis] = projection.isOfCamera ? start[axis] : ray.position[axis];
   }
   return ray;

@@ -13,6 +13,7 @@
 #include "Optics/Color.h"
 #include "Optics/RayAtFilm.h"
 
+#include <array>
 #include <cmath>
 
 namespace schlieren
@@ -24,13 +25,13 @@ struct Carrier
   double perColumn = 0, perRow = 0; ///< of a pixel
   double atOrigin = 0;              ///< at the centre of pixel (0, 0)
 
-  /// Fringes `spacing` pixels apart, and more of them in the direction of `degrees` from u to v.
-  static Carrier of(double spacing, double degrees, int width, int height)
+  /// Fringes `spacing` pixels apart, and more of them in the direction of `degrees` from u to v, counted from `zero`.
+  static Carrier of(double spacing, double degrees, const std::array<double, 2>& zero)
   {
     const double turn = std::remainder(degrees, 360.0);
     const double column = std::abs(turn) == 90 ? 0 : std::cos(turn * radiansPerDegree) / spacing;
     const double row = std::abs(turn) == 180 ? 0 : std::sin(turn * radiansPerDegree) / spacing;
-    return { column, row, -0.5 * (column * (width - 1) + row * (height - 1)) };
+    return { column, row, -(column * zero[0] + row * zero[1]) };
   }
 
   bool isNone() const { return perColumn == 0 && perRow == 0; }

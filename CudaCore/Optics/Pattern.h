@@ -28,7 +28,7 @@ struct Dots
 {
   static constexpr int channels = 1;
 
-  double centre[2]; ///< of the image, pixels; a corner of cells
+  double corner[2]; ///< of cells, pixels
   double period;    ///< edge of a cell, pixels
   std::uint32_t seed;
 
@@ -40,8 +40,8 @@ struct Dots
   {
     light[0] = 0.5;
     const double contrast = patternContrast(period);
-    const double x = (ray.position[0] - centre[0]) / period;
-    const double y = (ray.position[1] - centre[1]) / period;
+    const double x = (ray.position[0] - corner[0]) / period;
+    const double y = (ray.position[1] - corner[1]) / period;
     constexpr double largest = 1e15; // where cells are still distinct
     if (!(contrast > 0 && fabs(x) < largest && fabs(y) < largest))
     {
@@ -82,7 +82,7 @@ private:
   }
 };
 
-/// Light and dark as a cosine, brightest in the middle of the image.
+/// Light and dark as a cosine.
 struct Stripes
 {
   static constexpr int channels = 1;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace schlieren
@@ -243,10 +244,13 @@ Light collimatedLight(const Grid& grid, const Frame& frame)
   return lightAlong(vec(frame.w), grid, frame);
 }
 
-Light reversedLight(const Grid& grid, const Frame& frame, const ExitFaces& faces)
+Light reversedLight(
+  const Grid& grid, const Frame& frame, const ExitFaces& faces, const Aperture& aperture)
 {
   Light light = lightAlong(-1.0 * vec(frame.w), grid, frame);
   light.faces = faces;
+  light.toFocus = light.depth + faces.ratio * aperture.focus / light.unit;
+  light.pupilTilt = light.steepest[0] = light.steepest[1] = aperture.slope;
   return light;
 }
 
@@ -257,13 +261,15 @@ double distanceInData(double distance, const Frame& frame, double exitRatio)
 }
 
 Light lightFrom(const LightSource& source, double film, const Grid& grid, const View& view,
-  const Frame& frame, const ExitFaces& faces)
+  const Frame& frame, const ExitFaces& faces, const Aperture& aperture)
 {
   const bool isFromPupil = frame.pupil > 0;
   Light light = isFromPupil ? reversedLight(grid, frame) : collimatedLight(grid, frame);
   light.faces = faces;
   const double halfDepth = 0.5 * light.depth;
-  light.toFilm = light.depth + faces.ratio * film / light.unit;
+  const double toFilm = light.depth + faces.ratio * film / light.unit;
+  light.toFocus =
+    aperture.slope > 0 ? light.depth + faces.ratio * aperture.focus / light.unit : toFilm;
   double perDistance =
     source.distance ? light.unit / distanceInData(*source.distance, frame, faces.ratio) : 0;
   double middle = 0; // of the data, from the image's plane along the light
@@ -273,10 +279,14 @@ Light lightFrom(const LightSource& source, double film, const Grid& grid, const 
     middle = (frame.focus - 0.5 * (frame.entry + frame.exit)) / light.unit;
     light.first = std::max(0., halfDepth - middle - 1 / perDistance);
   }
-  light.magnification = 1 + (light.toFilm - halfDepth + middle) * perDistance;
+  light.magnification = 1 + (toFilm - halfDepth + middle) * perDistance;
   if (light.first >= light.depth)
   {
     light.magnification = 1; // all data are behind the pupil, which no ray meets
+  }
+  else if (aperture.slope > 0)
+  {
+    light.pupilTilt = aperture.slope / (1 + (light.toFocus - halfDepth + middle) * perDistance);
   }
 
   // Towards the axis where it enters.
@@ -296,7 +306,7 @@ Light lightFrom(const LightSource& source, double film, const Grid& grid, const 
     light.inclination.atOrigin[i] = -axis[i] * light.inclination.perPixel;
     light.steepest[i] =
       (axis[i] + 0.5 + static_cast<double>(maxMargin(view))) * light.inclination.perPixel +
-      reach / (light.magnification * faces.ratio);
+      (light.pupilTilt > 0 ? light.pupilTilt : reach / (light.magnification * faces.ratio));
   }
   return light;
 }
@@ -354,6 +364,25 @@ std::array<double, 2> sourcePoint(
   const double angle = knifeEdgeAngle * radiansPerDegree;
   return { across * std::cos(angle) - along * std::sin(angle),
     across * std::sin(angle) + along * std::cos(angle) };
+}
+
+std::array<double, 2> pupilPoint(std::int64_t pass, std::int64_t passes)
+{
+  if (pass == 0)
+  {
+    return { 0, 0 };
+  }
+  constexpr double goldenSection = 0.61803398874989484820;
+  auto stride =
+    std::max<std::int64_t>(1, std::llround(goldenSection * static_cast<double>(passes)));
+  while (std::gcd(stride, passes) != 1)
+  {
+    ++stride;
+  }
+  const std::int64_t place = pass % passes * stride % passes;
+  const double radius = std::sqrt((static_cast<double>(place) + 0.5) / static_cast<double>(passes));
+  const double angle = 2 * pi * fraction(static_cast<double>(place) * goldenSection);
+  return { radius * std::cos(angle), radius * std::sin(angle) };
 }
 
 PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed)

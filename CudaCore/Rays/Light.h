@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 
 namespace schlieren
 {
@@ -35,8 +36,9 @@ struct Inclination
 /// before anything bends it. With X the point's place from the axis in the image's plane, which is that
 /// through the middle of the data, and zeta the distance along w from there, the line is
 ///   P(zeta) = X (1 + zeta / R) + t (zeta - z),
-/// R being the distance of the source, z the film's plane, and t the tilt of the light of one point of an
-/// extended source (Pass). So all light of X meets the film at X (1 + z / R), wherever it comes from.
+/// R being the distance of the source, z the film's plane or what a camera is focused on, and t the tilt of the light of one
+/// point of an extended source or of a lens's aperture (Pass). So all light of X meets that plane at X (1 + z / R), wherever
+/// it comes from.
 /// With a perspective, the image's plane is that of the focal point instead, from which zeta counts then.
 /// Where the data are left into something else, the line is that in the data. There, light seems to come from further
 /// away or nearer than it does, by the ratio of the indices (apparent depth, for small angles): a pupil is where it
@@ -48,8 +50,9 @@ struct Light
   Vec3<double> perColumn; ///< index coordinates on the entry plane, per pixel along u
   Vec3<double> perRow;    ///< index coordinates on the entry plane, per pixel along v
   Inclination inclination;
-  double first;  ///< entry plane to where light begins, along w: not 0 of a pupil within the data
-  double toFilm; ///< entry plane to the film along w; matters to tilted light only
+  double first;   ///< entry plane to where light begins, along w: not 0 of a pupil within the data
+  double toFocus; ///< entry plane to where the light of a point of the image meets, along w
+  double pupilTilt; ///< the largest tilt of light through an aperture; 0: there is none
 
   Vec3<double> perLength; ///< index coordinates per unit of length along w
   Vec3<double> lengthPer; ///< its inverse, axis by axis; infinite where it is 0
@@ -72,7 +75,7 @@ struct Light
   /// How far a pass's tilt moves that, so that the light meets the film where it did.
   SCHLIEREN_HD Vec3<double> shift(const double (&tilt)[2]) const
   {
-    return scaled(indexScale, (-toFilm * tilt[0]) * u + (-toFilm * tilt[1]) * v);
+    return scaled(indexScale, (-toFocus * tilt[0]) * u + (-toFocus * tilt[1]) * v);
   }
   /// The smallest cosine between its rays and w.
   SCHLIEREN_HD double smallestCosine() const
@@ -90,22 +93,40 @@ Frame frameOf(const Grid& grid, const View& view);
 /// The light of the image `frame` of `grid`, all of it along w.
 Light collimatedLight(const Grid& grid, const Frame& frame);
 
+/// The aperture of a camera's lens.
+struct Aperture
+{
+  /// With a perspective its radius by its distance from the plane of the focal point; else, of a telecentric lens, the
+  /// largest slope of the light that it gathers. In the data. 0: a pinhole.
+  double slope = 0;
+  double focus =
+    0; ///< from the plane where light leaves the data to the one in focus, data units, out there
+
+  auto tie() const { return std::tie(slope, focus); }
+};
+
 /// The same from the viewer, against w: the rays of a camera. They start on the frame's exit plane.
-Light reversedLight(const Grid& grid, const Frame& frame, const ExitFaces& faces = noFaces);
+Light reversedLight(const Grid& grid, const Frame& frame, const ExitFaces& faces = noFaces,
+  const Aperture& aperture = {});
 
 /// Distance from the middle of the data to a source as it seems to be from there. `distance`: to where it is.
 double distanceInData(double distance, const Frame& frame, double exitRatio);
 
 /// The light of a source on the line through the middle of the image; with a perspective it is the pupil, and light
-/// goes against w. `film`: from the plane where light leaves the data to the film, data units, out there.
+/// goes against w, through the aperture. `film`: from the plane where light leaves the data to the film, data units, out
+/// there; without an aperture it is in focus.
 Light lightFrom(const LightSource& source, double film, const Grid& grid, const View& view,
-  const Frame& frame, const ExitFaces& faces = noFaces);
+  const Frame& frame, const ExitFaces& faces = noFaces, const Aperture& aperture = {});
 
 /// The place of pass `pass` in an extended source, as slopes along u and v seen from the middle of the data.
 /// Pass 0 is its centre. Later ones follow the sequence of multiples of the golden ratio and of sqrt(2)
 /// (Kronecker), which fills a disc evenly by area. `knifeEdgeAngle`, degrees: across a slit.
 std::array<double, 2> sourcePoint(
   const LightSource& source, double knifeEdgeAngle, std::int64_t pass, std::uint32_t seed);
+
+/// The place of pass `pass` of `passes` in an aperture of radius 1. They lie on a spiral that fills it most evenly (Vogel
+/// 1979), in an order in which the first ones are all over it. Pass 0 is the centre.
+std::array<double, 2> pupilPoint(std::int64_t pass, std::int64_t passes);
 
 /// Data coordinates of a place in index coordinates.
 Vector placeOf(const Grid& grid, const Vec3<double>& index);

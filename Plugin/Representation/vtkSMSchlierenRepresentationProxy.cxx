@@ -45,15 +45,15 @@ void vtkSMSchlierenRepresentationProxy::CreateVTKObjects()
     return;
   }
   here->SetRequest([self = vtkWeakPointer<vtkSMSchlierenRepresentationProxy>(this)](
-                     const double request[14]) { return self ? self->Fetch(request) : nullptr; });
+                     const double request[16]) { return self ? self->Fetch(request) : nullptr; });
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkImageData> vtkSMSchlierenRepresentationProxy::Fetch(const double request[14])
+vtkSmartPointer<vtkImageData> vtkSMSchlierenRepresentationProxy::Fetch(const double request[16])
 {
   vtkClientServerStream stream;
   stream << vtkClientServerStream::Invoke << VTKOBJECT(this) << "TraceForClient"
-         << vtkClientServerStream::InsertArray(request, 14) << vtkClientServerStream::End;
+         << vtkClientServerStream::InsertArray(request, 16) << vtkClientServerStream::End;
   this->ExecuteStream(stream, false, vtkPVSession::DATA_SERVER);
   vtkNew<vtkSchlierenImageInformation> information;
   this->GatherInformation(information, vtkPVSession::DATA_SERVER);

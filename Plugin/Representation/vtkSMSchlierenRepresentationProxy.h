@@ -36,7 +36,7 @@ private:
   void operator=(const vtkSMSchlierenRepresentationProxy&) = delete;
 
   /// The image for a request; see vtkSchlierenRepresentation::TraceForClient().
-  vtkSmartPointer<vtkImageData> Fetch(const double request[14]);
+  vtkSmartPointer<vtkImageData> Fetch(const double request[16]);
 };
 
 #endif

@@ -187,7 +187,8 @@ bool vtkSchlierenActor::View::operator==(const View& other) const
 {
   return this->Direction == other.Direction && this->Up == other.Up &&
     this->FocalPoint == other.FocalPoint && this->ParallelScale == other.ParallelScale &&
-    this->ViewAngle == other.ViewAngle && this->Size == other.Size;
+    this->ViewAngle == other.ViewAngle && this->Size == other.Size && this->Pupil == other.Pupil &&
+    this->FocusDistance == other.FocusDistance;
 }
 
 //------------------------------------------------------------------------------
@@ -208,6 +209,12 @@ vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
   {
     view.ParallelScale = camera->GetDistance() * std::tan(half);
     view.ViewAngle = 2 * vtkMath::DegreesFromRadians(half);
+    // By default a camera has a disc, but no distance.
+    if (camera->GetFocalDistance() > 0 && camera->GetFocalDisk() > 0)
+    {
+      view.Pupil = camera->GetFocalDisk();
+      view.FocusDistance = camera->GetFocalDistance();
+    }
   }
   // Uses the window's size, that of all tiles; the renderer's is outdated in captured layouts.
   const int* size = renderer->GetRenderWindow()->GetSize();
@@ -231,6 +238,8 @@ bool vtkSchlierenActor::LookThrough(const View& view)
   this->Bench->SetFocalPoint(view.FocalPoint.data());
   this->Bench->SetParallelScale(view.ParallelScale);
   this->Bench->SetViewAngle(view.ViewAngle);
+  this->Bench->SetSensorWidth(0); // the camera has its own angle
+  this->Bench->SetPupil(view.Pupil, view.FocusDistance);
   this->Bench->SetImageSize(view.Size.data());
   return isMoved;
 }

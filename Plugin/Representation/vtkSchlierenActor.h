@@ -46,6 +46,8 @@ public:
     double ParallelScale = 0;
     double ViewAngle = 0; // degrees; 0: parallel
     std::array<int, 2> Size{};
+    double Pupil = 0; // diameter, data units; 0: the bench's
+    double FocusDistance = 0;
     bool operator==(const View& other) const;
   };
 

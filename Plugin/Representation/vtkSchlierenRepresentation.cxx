@@ -101,7 +101,7 @@ bool vtkSchlierenRepresentation::GetFinished()
 int vtkSchlierenRepresentation::GetReduction() { return this->Actor->GetReduction(); }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenRepresentation::TraceForClient(const double request[14])
+void vtkSchlierenRepresentation::TraceForClient(const double request[16])
 {
   vtkSchlierenActor::View view;
   std::copy(request, request + 3, view.Direction.begin());
@@ -110,6 +110,8 @@ void vtkSchlierenRepresentation::TraceForClient(const double request[14])
   view.ParallelScale = request[9];
   view.ViewAngle = request[10];
   view.Size = { static_cast<int>(request[11]), static_cast<int>(request[12]) };
+  view.Pupil = request[14];
+  view.FocusDistance = request[15];
   this->TracedImage = nullptr;
   this->Guarded(
     [&]
@@ -248,9 +250,9 @@ void vtkSchlierenRepresentation::UseRequest()
   this->Actor->SetTracerElsewhere(
     [this](const vtkSchlierenActor::View& view, int occasion)
     {
-      double request[14] = { 0, 0, 0, 0, 0, 0, 0, 0, 0, view.ParallelScale, view.ViewAngle,
+      double request[16] = { 0, 0, 0, 0, 0, 0, 0, 0, 0, view.ParallelScale, view.ViewAngle,
         static_cast<double>(view.Size[0]), static_cast<double>(view.Size[1]),
-        static_cast<double>(occasion) };
+        static_cast<double>(occasion), view.Pupil, view.FocusDistance };
       std::copy(view.Direction.begin(), view.Direction.end(), request);
       std::copy(view.Up.begin(), view.Up.end(), request + 3);
       std::copy(view.FocalPoint.begin(), view.FocalPoint.end(), request + 6);

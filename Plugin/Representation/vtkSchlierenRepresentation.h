@@ -65,14 +65,14 @@ public:
    * (null: it failed). `request`: direction, up, focal point, parallel scale, columns, rows and one
    * of vtkSchlierenActor::Occasions.
    */
-  void TraceForClient(const double request[14]);
+  void TraceForClient(const double request[16]);
   VTK_WRAPEXCLUDE vtkImageData* GetTracedImage() const { return this->TracedImage; }
   ///@}
 
   /**
    * Sets, on a client, the function that requests an image of its server.
    */
-  using Request = std::function<vtkSmartPointer<vtkImageData>(const double request[14])>;
+  using Request = std::function<vtkSmartPointer<vtkImageData>(const double request[16])>;
   VTK_WRAPEXCLUDE void SetRequest(Request request);
 
   void SetVisibility(bool isVisible) override;

@@ -219,14 +219,14 @@ Real dotsAt(Pair place, std::uint32_t seed)
 }
 
 /// The pattern behind the flow. What is finer than four pixels fades, and is gone at two.
-Real patternAt(const Scene& scene, Pair place)
+Real patternAt(const Scene& scene, const Ray& ray)
 {
   const BackgroundPattern& pattern = scene.background;
-  const Real pixel = 2 * Real(scene.view.parallelScale) / scene.view.height;
+  const Real pixel = ray.magnification * 2 * Real(scene.view.parallelScale) / scene.view.height;
   const Real period = pattern.period > 0 ? Real(pattern.period) : 8 * pixel;
   const Real light = pattern.kind == PatternKind::Dots
-    ? dotsAt(place / period, scene.seed)
-    : (1 + std::cos(2 * pi * along(place, pattern.angle) / period)) / 2;
+    ? dotsAt(ray.behind / period, scene.seed)
+    : (1 + std::cos(2 * pi * along(ray.behind, pattern.angle) / period)) / 2;
   return 0.5L + limited((period / pixel - 2) / 2) * (light - 0.5L);
 }
 
@@ -268,7 +268,7 @@ Color lightOf(const Scene& scene, const Ray& ray)
       return grey((1 + std::cos(2 * pi * turns)) / 2);
     }
     case Cutoff::Background:
-      return grey(patternAt(scene, ray.place));
+      return grey(patternAt(scene, ray));
     default:
       return grey(1);
   }
@@ -339,6 +339,8 @@ struct Bench
     const Vec origin = middle + inData(place) - film * tilt; // undisturbed: origin + zeta * steep
     Ray ray;
     ray.place = place;
+    ray.magnification = magnification;
+    ray.behind = inImage(middle) + magnification * place;
     // Where it is in the box; with a perspective not before the pupil.
     Real from = -1 / (scene.view.viewAngle > 0 ? curvature : 0), to = exit;
     const Vec index = indexOf(flow.grid, origin), speed = inIndex(flow.grid, steep);
@@ -365,6 +367,7 @@ struct Bench
     ray.displacement = inImage(end.position + toPlane(exit) * t - (origin + exit * steep));
     ray.shift = inImage(end.position + toPlane(film) * t - (origin + film * steep));
     ray.place += ray.shift / magnification;
+    ray.behind += ray.shift;
     // Against the undisturbed wave: a plane, on the film a sphere around the source.
     const auto longer = [&](Real zeta, Real curved)
     {

@@ -93,6 +93,8 @@ struct Ray
   Pair deflection, displacement; ///< displacement: where it leaves the data, as opticalPath
   Pair shift, place; ///< on the film, in data units there, and where it lands in the image
   Real opticalPath = 0, onFilm = 0; ///< difference to undisturbed light, metres
+  Pair behind;                      ///< where it lands along u and v of the data, data units
+  Real magnification = 1;           ///< of the image there
 };
 
 /// Traces the rays through the pixels' centres, row by row, for a scene with parallelScale and ExitInto::Surroundings. They

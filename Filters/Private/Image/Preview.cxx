@@ -46,14 +46,14 @@ int reductionAtFirst(const schlieren::View& view)
 //------------------------------------------------------------------------------
 void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction)
 {
-  constexpr double pixelsPerPeriod = 8; // the tracer's default
   constexpr double fewestPerPeriod = 4; // finer periods fade to grey
-  if (scene.background.period == 0)
-  {
-    scene.background.period =
-      std::max(pixelsPerPeriod, fewestPerPeriod * reduction) * frame.pixelSize;
-  }
-  scene.view = previewView(scene.view, frame, reduction);
+  const schlieren::View whole = scene.view;
+  scene.view = previewView(whole, frame, reduction);
+  // Keeps the pattern's size, where that is one of the image's pixels.
+  const double larger = std::max(static_cast<double>(whole.width) / scene.view.width,
+    static_cast<double>(whole.height) / scene.view.height);
+  scene.background.pixelsPerPeriod =
+    std::max(scene.background.pixelsPerPeriod, fewestPerPeriod * reduction) / larger;
   scene.targetError = 0;
   scene.samplesPerPixel = std::min(scene.samplesPerPixel, 1); // keeps invalid values
   scene.stepSize = std::max(scene.stepSize, interactiveStepSize());

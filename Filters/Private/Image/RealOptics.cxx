@@ -8,7 +8,9 @@
 
 #include "vtkMath.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
@@ -160,6 +162,91 @@ schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schli
     source.length = metresPerMillimetre * optics.SourceLength / optics.FocalLength;
   }
   return source;
+}
+
+//------------------------------------------------------------------------------
+schlieren::Lens lensFrom(const SchlierenSettings& settings)
+{
+  schlieren::Lens lens;
+  const double number = settings.FNumber;
+  if (number != 0)
+  {
+    requirePositive("FNumber", number, "", "the lens, or to 0 for a pinhole");
+    requirePositive("LensFocalLength", settings.LensFocalLength, "mm", "the lens");
+    lens.aperture =
+      metresPerMillimetre * settings.LensFocalLength / (number * settings.LengthScale);
+    lens.apertureRatio = 1 / number;
+  }
+  if (settings.FocusDistance != 0)
+  {
+    lens.focusDistance = settings.FocusDistance;
+  }
+  return lens;
+}
+
+//------------------------------------------------------------------------------
+double viewAngleFrom(
+  const SchlierenSettings& settings, const schlieren::View& view, const schlieren::Grid& grid)
+{
+  if (settings.SensorWidth == 0)
+  {
+    return view.viewAngle;
+  }
+  requirePositive("SensorWidth", settings.SensorWidth, "mm", "the sensor, or to 0");
+  requirePositive("LensFocalLength", settings.LensFocalLength, "mm", "the lens");
+  const double perMillimetre = metresPerMillimetre / settings.LengthScale; // data units
+  const double height = perMillimetre * settings.SensorWidth * view.height / view.width;
+  const double focalLength = perMillimetre * settings.LensFocalLength;
+  // The sensor is closer to the lens for things far away: the thin lens's equation.
+  const auto tangentFor = [&](double distance)
+  { return 0.5 * height * (1 / focalLength - 1 / distance); };
+  const auto angleOf = [](double tangent)
+  { return 2 * vtkMath::DegreesFromRadians(std::atan(tangent)); };
+  if (settings.FocusDistance > 0)
+  {
+    if (!(settings.FocusDistance > focalLength))
+    {
+      refuse("FocusDistance", settings.FocusDistance, "data units",
+        "but a lens focuses on nothing nearer than its LensFocalLength, here " +
+          textOf(focalLength, 4) + " data units. Set it to more than that.");
+    }
+    return angleOf(tangentFor(settings.FocusDistance));
+  }
+  const bool isOnPattern = techniqueOf(settings).plane == schlieren::RecordedPlane::Background;
+  const auto distanceAt = [&](double tangent)
+  {
+    schlieren::View turned = view;
+    turned.viewAngle = angleOf(tangent);
+    const schlieren::Frame frame = schlieren::frameOf(grid, turned);
+    const double depth = frame.exit - frame.entry;
+    const double behind = settings.BackgroundDistance < 0 ? depth : settings.BackgroundDistance;
+    return frame.pupil + (isOnPattern ? frame.focus - frame.entry + behind : 0);
+  };
+  // The distance to what is in focus depends on the angle in its turn.
+  constexpr int halvings = 60;
+  constexpr double steepest = 11; // below 170 degrees
+  double least = 0, most = std::min(0.5 * height / focalLength, steepest);
+  for (int i = 0; i < halvings; ++i)
+  {
+    const double middle = 0.5 * (least + most);
+    (tangentFor(distanceAt(middle)) > middle ? least : most) = middle;
+  }
+  return angleOf(most);
+}
+
+//------------------------------------------------------------------------------
+schlieren::Sensor sensorFrom(const SchlierenSettings& settings)
+{
+  requirePositive("FullWell", settings.FullWell, "electrons", "the sensor, or to 0 for none");
+  requirePositive("Exposure", settings.Exposure, "full wells", "light 1");
+  requirePositive("Gamma", settings.Gamma, "", "the sensor's curve, 1 for a linear one");
+  if (!(settings.ReadNoise >= 0) || !std::isfinite(settings.ReadNoise))
+  {
+    refuse("ReadNoise", settings.ReadNoise, "electrons",
+      "but it is a standard deviation. Set it to 0 or more.");
+  }
+  return { settings.FullWell, settings.Exposure, settings.ReadNoise, settings.Gamma,
+    settings.BitDepth, static_cast<std::uint32_t>(settings.Seed) };
 }
 
 //------------------------------------------------------------------------------

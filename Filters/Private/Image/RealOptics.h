@@ -40,6 +40,16 @@ std::string kInWords(double k, bool isKept);
 
 schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schlieren::Frame& frame);
 
+/// Returns the lens of a view's camera.
+schlieren::Lens lensFrom(const SchlierenSettings& settings);
+
+/// Returns the ViewAngle of a sensor behind the lens, degrees: that of `view` without a SensorWidth.
+double viewAngleFrom(
+  const SchlierenSettings& settings, const schlieren::View& view, const schlieren::Grid& grid);
+
+/// Returns the sensor for FullWell > 0.
+schlieren::Sensor sensorFrom(const SchlierenSettings& settings);
+
 /// Returns the spacing of finite fringes, data units: given, by the beams, or a tenth of the image.
 double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame);
 

@@ -68,7 +68,7 @@ schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbI
 }
 
 /// Returns the view of the full image.
-schlieren::View viewFrom(const ViewSettings& settings)
+schlieren::View viewFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
 {
   schlieren::View view;
   std::copy_n(settings.ViewDirection, 3, view.viewDirection.begin());
@@ -82,6 +82,7 @@ schlieren::View viewFrom(const ViewSettings& settings)
   view.viewAngle = settings.ViewAngle;
   view.width = settings.ImageSize[0];
   view.height = settings.ImageSize[1];
+  view.viewAngle = viewAngleFrom(settings, view, grid);
   return view;
 }
 
@@ -136,7 +137,7 @@ std::string noteOnView(const SchlierenSettings& settings, int flatAxis)
 //------------------------------------------------------------------------------
 schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
 {
-  const schlieren::View view = viewFrom(settings);
+  const schlieren::View view = viewFrom(settings, grid);
   const schlieren::Frame frame = schlieren::frameOf(grid, view);
   const int reduction = settings.PreviewReduction;
   return reduction > 1 ? schlieren::frameOf(grid, previewView(view, frame, reduction)) : frame;
@@ -147,9 +148,10 @@ schlieren::Scene sceneFrom(
   const SchlierenSettings& settings, const schlieren::Grid& grid, RgbImageReader& images)
 {
   schlieren::Scene scene;
-  scene.view = viewFrom(settings);
+  scene.view = viewFrom(settings, grid);
   const schlieren::Frame frame = schlieren::frameOf(grid, scene.view);
   scene.source = lightSourceFrom(settings, frame);
+  scene.lens = lensFrom(settings);
   scene.cutoff = static_cast<schlieren::Cutoff>(settings.Cutoff);
   scene.knifeEdgeAngle = settings.KnifeEdgeAngle;
   scene.invertCutoff = settings.InvertCutoff;

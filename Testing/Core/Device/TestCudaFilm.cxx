@@ -166,7 +166,7 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
   std::set<std::size_t> kinds;
   const auto check = [&]
   {
-    const Cutoffs cutoff = maker.cutoffOf(scene, 300, 0.013);
+    const Cutoffs cutoff = maker.cutoffOf(scene, 300, { 0.013 });
     kinds.insert(cutoff.index());
     SCOPED_TRACE(cutoff.index());
     expectSameImages(cutoff, FilmEstimator::Sheet);

@@ -159,6 +159,57 @@ TEST_P(Background, IsTheSameWithoutFlow)
   }
 }
 
+/// A pattern hangs on its wall, wherever the camera looks: stripes are bright where u = 0, dots are the same ones.
+TEST_P(Background, StandsInTheWorld)
+{
+  const SampledField<float> gas(
+    cube(16, 1, { 3, -2, 1 }), [](double, double, double) { return 3e-4; });
+  constexpr double period = 0.7, behind = 3, pupil = 10;
+  Scene scene = cameraScene(GetParam());
+  scene.view.parallelScale = 1;
+  scene.background.distance = behind;
+  scene.background.period = period;
+  for (const bool hasPerspective : { false, true })
+  {
+    scene.view.viewAngle =
+      hasPerspective ? 2 * std::atan(scene.view.parallelScale / pupil) / radiansPerDegree : 0;
+    for (const double moved : { 0., 0.123 })
+    {
+      scene.view.focalPoint = Vector{ 3 + moved, -2 - 2 * moved, 1 };
+      // The wall is behind the data, which end 1 behind the focal point.
+      const double scale = hasPerspective ? (pupil + 1 + behind) / pupil : 1;
+      scene.background.kind = PatternKind::Stripes;
+      const Image image = Bench().render(gas.field, scene);
+      double worst = 0;
+      for (int column = 0; column < image.width; ++column)
+      {
+        const double focal = 3 + moved;
+        const double place = focal + (centreOf(image, column, 9).u - focal) * scale;
+        worst = std::max(worst,
+          std::abs(image.background[pixelOf(image, column, 9)] - 0.5 -
+            0.5 * std::cos(2 * pi * place / period)));
+      }
+      EXPECT_LT(worst, 0.03); // 17 pixels a period: what pixels and splats blur
+    }
+    // By whole pixels, a camera that pans sees the same dots elsewhere.
+    scene.background.kind = PatternKind::Dots;
+    constexpr int by = 5;
+    scene.view.focalPoint = Vector{ 3, -2, 1 };
+    const Image here = Bench().render(gas.field, scene);
+    const double scale = hasPerspective ? (pupil + 1 + behind) / pupil : 1;
+    scene.view.focalPoint = Vector{ 3 + by * scale * here.frame.pixelSize, -2, 1 };
+    const Image there = Bench().render(gas.field, scene);
+    double worst = 0;
+    for (int column = 2; column + by < here.width - 2; ++column)
+    {
+      worst = std::max(worst,
+        static_cast<double>(std::abs(here.background[pixelOf(here, column + by, 9)] -
+          there.background[pixelOf(there, column, 9)])));
+    }
+    EXPECT_LT(worst, 1e-5);
+  }
+}
+
 TEST_P(Background, ImageIsStretchedOverTheView)
 {
   const SampledField<float> gas(cube(16, 1), [](double, double, double) { return 3e-4; });

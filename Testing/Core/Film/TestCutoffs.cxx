@@ -45,13 +45,13 @@ std::vector<double> lightOf(const Scene& scene, double k, const RayAtFilm& ray)
       const auto light = lightOf(kind, ray);
       return std::vector<double>(light.begin(), light.end());
     },
-    maker.cutoffOf(scene, k, 1));
+    maker.cutoffOf(scene, k, { 1 }));
 }
 
 double levelOf(const Scene& scene, double k)
 {
   CutoffMaker maker;
-  return undisturbedLevel(maker.cutoffOf(scene, k, 1));
+  return undisturbedLevel(maker.cutoffOf(scene, k, { 1 }));
 }
 
 TEST(KnifeEdge, FollowsItsFormula)
@@ -305,7 +305,7 @@ TEST(CutoffMaker, ForgetsNoImageAndKeepsNoOldOne)
   scene.cutoff = Cutoff::ColorFilter;
   const auto light = [&maker, &scene]
   {
-    const Cutoffs cutoff = maker.cutoffOf(scene, 1, 1);
+    const Cutoffs cutoff = maker.cutoffOf(scene, 1, { 1 });
     return lightOf(std::get<ColorImage>(cutoff), bent(0, 0));
   };
   const std::array<double, 3> red{ 1, 0, 0 }, blue{ 0, 0, 1 };
@@ -314,7 +314,7 @@ TEST(CutoffMaker, ForgetsNoImageAndKeepsNoOldOne)
   EXPECT_EQ(light(), red);
   Scene other;
   other.cutoff = Cutoff::GradedFilter;
-  maker.cutoffOf(other, 1, 1); // its table takes the place
+  maker.cutoffOf(other, 1, { 1 }); // its table takes the place
   EXPECT_EQ(light(), red);
   scene.colorFilter = image(1, 1, { 0, 0, 255 });
   EXPECT_EQ(light(), blue);

@@ -43,7 +43,7 @@ Color whiteLightAt(double path)
 Interferogram cutoffOf(const Scene& scene, double pixelSize)
 {
   CutoffMaker maker;
-  return std::get<Interferogram>(maker.cutoffOf(scene, 0, pixelSize));
+  return std::get<Interferogram>(maker.cutoffOf(scene, 0, { pixelSize }));
 }
 
 Scene interferogram()
@@ -406,7 +406,7 @@ TEST(WhiteLight, ACarrierIsAPathBesideTheGas)
   scene.fringes.whiteLight = true;
   scene.fringes.dispersion = likeAir;
   CutoffMaker maker;
-  const WhiteLight light = std::get<WhiteLight>(maker.cutoffOf(scene, 0, 1));
+  const WhiteLight light = std::get<WhiteLight>(maker.cutoffOf(scene, 0, { 1 }));
   expectNear(lightOf(light, { { 0, 0 }, 0, { 50, 0 } }), { 1, 1, 1 }, 1e-5);
   for (const double path : { 0., 1e-6, -4e-6, 40e-6 })
   {
@@ -435,13 +435,13 @@ TEST(WhiteLightTable, IsTheSameLight)
     scene.fringes.finite = !isDispersed;
     scene.fringes.spacing = 7;
     scene.fringes.angle = 20;
-    const Carrier carrier = isDispersed ? Carrier{} : Carrier::of(7, 20, 301, 201);
+    const Carrier carrier = isDispersed ? Carrier{} : Carrier::of(7, 20, { 150, 100 });
     if (isDispersed)
     {
       scene.fringes.dispersion = likeAir;
     }
     CutoffMaker maker;
-    const WhiteLightTable table = std::get<WhiteLightTable>(maker.cutoffOf(scene, 0, 1));
+    const WhiteLightTable table = std::get<WhiteLightTable>(maker.cutoffOf(scene, 0, { 1 }));
     const WhiteLight light = WhiteLight::of(heliumNeon, scene.fringes.dispersion, carrier);
     for (double path = -40e-6; path < 40e-6; path += 77e-9)
     {
@@ -465,7 +465,7 @@ TEST(WhiteLightTable, IsNotTakenForGasesThatItIsNotMadeFor)
   for (const auto& [least, most] : { std::pair{ 0.5, 1. }, { 1., 1.5 }, { -1., 1. } })
   {
     scene.fringes.dispersion = [=](double lambda) { return lambda < 500e-9 ? most : least; };
-    EXPECT_TRUE(std::holds_alternative<WhiteLight>(maker.cutoffOf(scene, 0, 1)));
+    EXPECT_TRUE(std::holds_alternative<WhiteLight>(maker.cutoffOf(scene, 0, { 1 })));
   }
 }
 

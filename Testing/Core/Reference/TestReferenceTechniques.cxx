@@ -144,7 +144,8 @@ std::vector<Named> techniquesIn(const Vector& direction)
     {
       scene.cutoff = Cutoff::Background;
       scene.background.kind = PatternKind::Stripes;
-      scene.background.period = 0.9;
+      scene.background.period = 2.7; // three times as far away as the image's plane
+      scene.background.angle = 90;
       scene.view.viewAngle = 3;
     });
   add("dots", 1e-2,

@@ -156,10 +156,14 @@ TEST(Preview, ShowsTheSameBackground)
   const double pixel =
     schlieren::frameOf(grid, sceneFrom(filter->GetSettings(), grid, images).view).pixelSize;
   filter->SetCutoff(vtkSchlierenFilter::BACKGROUND_ORIENTED);
-  filter->SetPreviewReduction(2);
-  EXPECT_DOUBLE_EQ(sceneFrom(filter->GetSettings(), grid, images).background.period, 8 * pixel);
-  filter->SetPreviewReduction(4); // finer than four of its pixels would be grey
-  EXPECT_DOUBLE_EQ(sceneFrom(filter->GetSettings(), grid, images).background.period, 16 * pixel);
+  const auto period = [&](int reduction)
+  {
+    filter->SetPreviewReduction(reduction);
+    const schlieren::Scene scene = sceneFrom(filter->GetSettings(), grid, images);
+    return scene.background.pixelsPerPeriod * schlieren::frameOf(grid, scene.view).pixelSize;
+  };
+  EXPECT_DOUBLE_EQ(period(2), 8 * pixel);
+  EXPECT_DOUBLE_EQ(period(4), 16 * pixel); // finer than four of its pixels would be grey
   filter->SetBackgroundPeriod(0.1);
   EXPECT_EQ(sceneFrom(filter->GetSettings(), grid, images).background.period, 0.1);
 }
