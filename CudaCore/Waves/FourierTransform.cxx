@@ -66,12 +66,19 @@ bool transformRows(ComplexField& field, Direction direction, int threads, const 
     monitor);
 }
 
-/// Transforms columns there and back, and filters them in between.
-void filterColumns(ComplexField& field, std::int64_t begin, std::int64_t end,
-  const SpectrumFilter& filter, Transform& transform, std::vector<Value>& lines)
+/// What happens to columns.
+struct ColumnWork
+{
+  bool isForward;
+  const SpectrumFilter* filter; ///< null: none
+  bool isBackward;
+};
+
+/// Transforms columns begin ... end - 1, `columnsAtOnce` at most.
+void transformColumns(ComplexField& field, std::int64_t begin, std::int64_t end,
+  const ColumnWork& work, Transform& transform, std::vector<Value>& lines)
 {
   const std::int64_t rows = field.rows;
-  Value* spectrum = lines.data() + columnsAtOnce * rows;
   for (std::int64_t row = 0; row < rows; ++row)
   {
     for (std::int64_t column = begin; column < end; ++column)
@@ -82,9 +89,21 @@ void filterColumns(ComplexField& field, std::int64_t begin, std::int64_t end,
   for (std::int64_t column = begin; column < end; ++column)
   {
     Value* line = lines.data() + (column - begin) * rows;
-    transformLine(transform, Direction::Forward, line, spectrum, rows);
-    filter(column, spectrum);
-    transformLine(transform, Direction::Backward, spectrum, line, rows);
+    Value* spectrum = lines.data() + columnsAtOnce * rows;
+    if (work.isForward)
+    {
+      transformLine(transform, Direction::Forward, line, spectrum, rows);
+      std::copy(spectrum, spectrum + rows, line);
+    }
+    if (work.filter != nullptr)
+    {
+      (*work.filter)(column, line);
+    }
+    if (work.isBackward)
+    {
+      transformLine(transform, Direction::Backward, line, spectrum, rows);
+      std::copy(spectrum, spectrum + rows, line);
+    }
   }
   for (std::int64_t row = 0; row < rows; ++row)
   {
@@ -93,6 +112,24 @@ void filterColumns(ComplexField& field, std::int64_t begin, std::int64_t end,
       field.row(row)[column] = lines[static_cast<std::size_t>((column - begin) * rows + row)];
     }
   }
+}
+
+bool transformColumns(
+  ComplexField& field, const ColumnWork& work, int threads, const Monitor& monitor)
+{
+  return parallelFor(
+    field.columns, linesInPiece, threads,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      Transform transform;
+      std::vector<Value> lines(static_cast<std::size_t>((columnsAtOnce + 1) * field.rows));
+      for (std::int64_t column = begin; column < end; column += columnsAtOnce)
+      {
+        transformColumns(
+          field, column, std::min(end, column + columnsAtOnce), work, transform, lines);
+      }
+    },
+    monitor);
 }
 
 } // namespace
@@ -124,20 +161,24 @@ double frequencyOf(std::int64_t index, std::int64_t points, double spacing)
   return static_cast<double>(number) / (static_cast<double>(points) * spacing);
 }
 
+bool makeSpectrum(ComplexField& field, int threads, const Monitor& monitor)
+{
+  return transformRows(field, Direction::Forward, threads, monitor) &&
+    transformColumns(field, { true, nullptr, false }, threads, monitor);
+}
+
+bool makeField(
+  ComplexField& spectrum, const SpectrumFilter& filter, int threads, const Monitor& monitor)
+{
+  return transformColumns(spectrum, { false, &filter, true }, threads, monitor) &&
+    transformRows(spectrum, Direction::Backward, threads, monitor);
+}
+
 bool filterSpectrum(
   ComplexField& field, const SpectrumFilter& filter, int threads, const Monitor& monitor)
 {
-  const auto filterPiece = [&](std::int64_t begin, std::int64_t end)
-  {
-    Transform transform;
-    std::vector<Value> lines(static_cast<std::size_t>((columnsAtOnce + 1) * field.rows));
-    for (std::int64_t column = begin; column < end; column += columnsAtOnce)
-    {
-      filterColumns(field, column, std::min(end, column + columnsAtOnce), filter, transform, lines);
-    }
-  };
   return transformRows(field, Direction::Forward, threads, monitor) &&
-    parallelFor(field.columns, linesInPiece, threads, filterPiece, monitor) &&
+    transformColumns(field, { true, &filter, true }, threads, monitor) &&
     transformRows(field, Direction::Backward, threads, monitor);
 }
 

@@ -42,7 +42,14 @@ double frequencyOf(std::int64_t index, std::int64_t points, double spacing);
 /// Multiplies the spectrum along y of one column of a field's spectrum, by its number along x.
 using SpectrumFilter = std::function<void(std::int64_t column, std::complex<double>* alongY)>;
 
-/// Multiplies the spectrum of a field. The result does not depend on the number of threads. False if aborted.
+/// Replaces a field by its spectrum. False if aborted.
+bool makeSpectrum(ComplexField& field, int threads, const Monitor& monitor = {});
+
+/// Multiplies a spectrum, and replaces it by its field. False if aborted.
+bool makeField(
+  ComplexField& spectrum, const SpectrumFilter& filter, int threads, const Monitor& monitor = {});
+
+/// Multiplies the spectrum of a field: both in one. The result does not depend on the number of threads. False if aborted.
 bool filterSpectrum(
   ComplexField& field, const SpectrumFilter& filter, int threads, const Monitor& monitor = {});
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Waves/ScreenWaves.h"
 
-#include "Device/Parallel.h"
 #include "Math/Units.h"
-#include "Waves/WaveField.h"
+#include "Waves/WavePixels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 namespace schlieren
 {
@@ -18,44 +18,7 @@ namespace
 
 using Value = ComplexField::Value;
 
-constexpr std::int64_t rowsInPiece = 16;
 constexpr double marginInFresnelWidths = 8;
-
-/// Numbers for the pixels of an image and for those around it, row by row.
-struct PixelLight
-{
-  std::int64_t columns, rows;
-  std::vector<double> light;
-};
-
-/// Means of |1 + field|^2 over the points of each pixel that rays have been traced for.
-PixelLight developed(const ComplexField& field, const WaveGrid& grid, const LightAtExit& light,
-  std::int64_t raysPerPixel, int threads)
-{
-  PixelLight pixels{ light.columns / raysPerPixel, light.rows / raysPerPixel, {} };
-  pixels.light.resize(static_cast<std::size_t>(pixels.columns * pixels.rows));
-  const std::int64_t perPixel = grid.pointsPerRay * raysPerPixel;
-  const double perPoint = 1 / static_cast<double>(perPixel * perPixel);
-  parallelFor(pixels.rows, rowsInPiece, threads,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t row = begin * perPixel; row < end * perPixel; ++row)
-      {
-        const Value* point = field.row(grid.below + row) + grid.left;
-        double* pixel = pixels.light.data() + row / perPixel * pixels.columns;
-        for (std::int64_t column = 0; column < pixels.columns; ++column)
-        {
-          double sum = 0;
-          for (std::int64_t i = 0; i < perPixel; ++i, ++point)
-          {
-            sum += std::norm(1. + *point);
-          }
-          pixel[column] += perPoint * sum;
-        }
-      }
-    });
-  return pixels;
-}
 
 /// Over how many of the rays beside the image light falls to undisturbed light. Those next to it may be bent into it.
 double taperOf(double border, double fresnelWidth)
@@ -70,7 +33,7 @@ double airy(double x) { return x == 0 ? 1 : 2 * std::cyl_bessel_j(1., pi * x) / 
 
 /// Blurs light by the source's image, of which each place of a screen receives the light of all points.
 bool blur(
-  PixelLight& pixels, const Screen& screen, double pixel, double distance, const Monitor& monitor)
+  WavePixels& pixels, const Screen& screen, double pixel, double distance, const Monitor& monitor)
 {
   const double width = std::abs(distance) * screen.source.width;
   const double length = std::abs(distance) * screen.source.length;
@@ -108,17 +71,14 @@ bool blur(
   return true;
 }
 
-std::vector<float> cropped(const PixelLight& pixels, std::int64_t width, std::int64_t height)
+double largestDeflection(const LightAtExit& light)
 {
-  std::vector<float> image(static_cast<std::size_t>(width * height));
-  const std::int64_t left = (pixels.columns - width) / 2, below = (pixels.rows - height) / 2;
-  for (std::int64_t row = 0; row < height; ++row)
+  double largest = 0;
+  for (std::size_t ray = 0; ray < light.size(); ++ray)
   {
-    const double* from = pixels.light.data() + (below + row) * pixels.columns + left;
-    std::transform(from, from + width, image.begin() + row * width,
-      [](double light) { return static_cast<float>(std::max(0., light)); });
+    largest = std::max(largest, std::hypot(light.deflection[0][ray], light.deflection[1][ray]));
   }
-  return image;
+  return largest;
 }
 
 } // namespace
@@ -144,82 +104,96 @@ double marginOnScreen(
     std::abs(distance) * (largestDeflection + source);
 }
 
+SpaceFilter::SpaceFilter(const FreeSpace& space, const ComplexField& field)
+  : space_(space)
+{
+  const std::int64_t points[2] = { field.columns, field.rows };
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double length = static_cast<double>(points[axis]) * space.spacing;
+    limits_[axis] = 1 / (space.wavelength * std::hypot(2 * space.distance / length, 1));
+  }
+}
+
+double SpaceFilter::turns(double fx, double fy) const
+{
+  // By which the frequency lags behind light along the normal, without losing small angles.
+  const double wavelength = space_.wavelength, square = fx * fx + fy * fy;
+  const double cosine = std::sqrt(std::max(0., 1 - wavelength * wavelength * square));
+  return -space_.distance * wavelength * square / (1 + cosine);
+}
+
+std::complex<double> SpaceFilter::at(double fx, double fy, const double (&tilt)[2]) const
+{
+  const double f[2] = { fx + space_.carrier[0], fy + space_.carrier[1] };
+  const double square = std::pow(f[0] + tilt[0], 2) + std::pow(f[1] + tilt[1], 2);
+  if (std::abs(f[0]) > limits_[0] || std::abs(f[1]) > limits_[1] ||
+    space_.wavelength * space_.wavelength * square >= 1)
+  {
+    return 0;
+  }
+  const double phase = 2 * pi *
+    (turns(f[0] + tilt[0], f[1] + tilt[1]) -
+      turns(space_.carrier[0] + tilt[0], space_.carrier[1] + tilt[1]));
+  return { std::cos(phase), std::sin(phase) };
+}
+
 bool propagate(ComplexField& field, const FreeSpace& space, int threads, const Monitor& monitor)
 {
-  const double distance = space.distance, wavelength = space.wavelength;
-  const auto limitAlong = [&](std::int64_t points)
-  {
-    const double length = static_cast<double>(points) * space.spacing;
-    return 1 / (wavelength * std::hypot(2 * distance / length, 1));
-  };
-  const double limits[2] = { limitAlong(field.columns), limitAlong(field.rows) };
-  // Turns by which a frequency lags behind light along the normal, without losing small angles.
-  const auto turns = [&](double square)
-  {
-    const double cosine = std::sqrt(1 - wavelength * wavelength * square);
-    return -distance * wavelength * square / (1 + cosine);
-  };
-  const double ofCarrier =
-    turns(space.carrier[0] * space.carrier[0] + space.carrier[1] * space.carrier[1]);
+  const SpaceFilter ofSpace(space, field);
   const auto filter = [&](std::int64_t column, Value* alongY)
   {
-    const double fx = frequencyOf(column, field.columns, space.spacing) + space.carrier[0];
+    const double fx = frequencyOf(column, field.columns, space.spacing);
     for (std::int64_t row = 0; row < field.rows; ++row)
     {
-      const double fy = frequencyOf(row, field.rows, space.spacing) + space.carrier[1];
-      const double square = fx * fx + fy * fy;
-      if (std::abs(fx) > limits[0] || std::abs(fy) > limits[1] ||
-        wavelength * wavelength * square >= 1)
-      {
-        alongY[row] = 0;
-        continue;
-      }
-      const double phase = 2 * pi * (turns(square) - ofCarrier);
-      alongY[row] *= Value(std::cos(phase), std::sin(phase));
+      alongY[row] *= ofSpace.at(fx, frequencyOf(row, field.rows, space.spacing));
     }
   };
   return filterSpectrum(field, filter, threads, monitor);
 }
 
-std::vector<float> lightOnScreen(
-  LightAtExit&& light, const Screen& screen, const Monitor& monitor, WaveReport& report)
+FieldBeforeScreen fieldBefore(const LightAtExit& light, const Screen& screen, double leastMargin,
+  int fields, WaveReport& report)
 {
   const double wavelength = screen.wavelength / light.refractiveIndex;
   const std::int64_t border =
     (light.columns / screen.raysPerPixel - screen.width) / 2 * screen.raysPerPixel;
-  const double pixel = light.spacing * screen.raysPerPixel;
-  continueBehindBodies(light);
   report.plane = std::clamp(bestPlane(light, screen.planeOtherwise), 0., screen.largestPlane);
   const double distance = screen.distance + report.plane;
   report.fresnelWidth = fresnelWidth(wavelength, distance);
-  report.blur = blurOnScreen(screen.source, pixel, distance);
+  report.blur = blurOnScreen(screen.source, light.spacing * screen.raysPerPixel, distance);
   const LightOnPlane plane = bringToPlane(light, report.plane, screen.threads);
+  const double margin =
+    std::max(leastMargin, marginOnScreen(screen, wavelength, distance, largestDeflection(light)));
+  const WaveGrid grid = gridFor(
+    light, { screen.wavelength, margin, border, screen.raysPerPixel, fields, screen.memoryBudget });
   report.leastTubeRatio = plane.leastTubeRatio;
-  double bent = 0;
-  for (std::size_t ray = 0; ray < light.size(); ++ray)
-  {
-    bent = std::max(bent, std::hypot(light.deflection[0][ray], light.deflection[1][ray]));
-  }
-  const WaveGrid grid = gridFor(light,
-    { screen.wavelength, marginOnScreen(screen, wavelength, distance, bent), border,
-      screen.raysPerPixel, screen.memoryBudget });
+  report.raysPerPixel = screen.raysPerPixel;
   report.pointsPerPixel = grid.pointsPerRay * screen.raysPerPixel;
   report.columns = grid.columns;
   report.rows = grid.rows;
-  ComplexField field = fieldOf(plane, grid, screen.wavelength,
-    taperOf(static_cast<double>(border), report.fresnelWidth / light.spacing), screen.threads);
-  const FreeSpace space{ wavelength, distance, grid.spacing, { grid.carrier[0], grid.carrier[1] } };
-  if (!propagate(field, space, screen.threads, monitor))
+  const double taper = taperOf(static_cast<double>(border), report.fresnelWidth / light.spacing);
+  return { grid, fieldOf(plane, grid, screen.wavelength, taper, screen.threads),
+    { wavelength, distance, grid.spacing, { grid.carrier[0], grid.carrier[1] } } };
+}
+
+std::vector<float> lightOnScreen(
+  const LightAtExit& light, const Screen& screen, const Monitor& monitor, WaveReport& report)
+{
+  FieldBeforeScreen before = fieldBefore(light, screen, 0, 1, report);
+  if (!propagate(before.field, before.space, screen.threads, monitor))
   {
     return {};
   }
-  PixelLight pixels = developed(field, grid, light, screen.raysPerPixel, screen.threads);
+  WavePixels pixels(light, screen.raysPerPixel);
+  pixels.add(before.field, before.grid, 1, 1, screen.threads);
   const bool isExtended = screen.source.shape != SourceShape::Point;
-  if (isExtended && !blur(pixels, screen, pixel, distance, monitor))
+  const double pixel = light.spacing * screen.raysPerPixel;
+  if (isExtended && !blur(pixels, screen, pixel, before.space.distance, monitor))
   {
     return {};
   }
-  return cropped(pixels, screen.width, screen.height);
+  return pixels.image(screen.width, screen.height);
 }
 
 } // namespace schlieren

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <sstream>
 #include <vector>
 
@@ -57,8 +58,8 @@ Tilt commonTilt(const LightAtExit& light)
 
 void requireMemory(const WaveGrid& grid, const GridRequest& request, double pixel)
 {
-  const double bytes = static_cast<double>(grid.columns) * static_cast<double>(grid.rows) *
-    static_cast<double>(sizeof(Value));
+  const double bytes = request.fields * static_cast<double>(grid.columns) *
+    static_cast<double>(grid.rows) * static_cast<double>(sizeof(Value));
   if (bytes <= static_cast<double>(request.memoryBudget))
   {
     return;
@@ -86,11 +87,10 @@ double taperAt(double place, std::int64_t rays, double taper)
   return t <= 0 ? 0 : t >= 1 ? 1 : 1 / (1 + std::exp(1 / t - 1 / (1 - t)));
 }
 
-/// Paths without the carrier's, less their mean along the border: light there is about 1, as undisturbed light around it.
+/// Paths without the carrier's, less their median along the border: light there is about 1, as undisturbed light around it.
 RayValues pathsToUse(const LightOnPlane& plane, const WaveGrid& grid, double wavelength)
 {
-  RayValues paths(plane.path.size());
-  double sum = 0, rays = 0;
+  RayValues paths(plane.path.size()), border;
   for (std::int64_t row = 0; row < plane.rows; ++row)
   {
     const bool isEnd = row == 0 || row + 1 == plane.rows;
@@ -103,14 +103,15 @@ RayValues pathsToUse(const LightOnPlane& plane, const WaveGrid& grid, double wav
             grid.carrier[1] * static_cast<double>(row));
       if (isEnd || column == 0 || column + 1 == plane.columns)
       {
-        sum += paths[ray];
-        ++rays;
+        border.push_back(paths[ray]);
       }
     }
   }
+  const auto middle = border.begin() + static_cast<std::ptrdiff_t>(border.size() / 2);
+  std::nth_element(border.begin(), middle, border.end());
   for (double& path : paths)
   {
-    path -= sum / rays;
+    path -= *middle;
   }
   return paths;
 }

@@ -31,6 +31,7 @@ struct GridRequest
   double margin;             ///< that the field needs around the image
   std::int64_t border;       ///< rays beside the image, on each side
   std::int64_t raysPerPixel; ///< along each axis
+  int fields;                ///< that are there at once
   std::size_t memoryBudget;  ///< bytes
 };
 

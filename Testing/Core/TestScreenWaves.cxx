@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Waves on a screen, from what rays carry where they leave the data.
-#include "WaveForms.h"
-
-#include <gtest/gtest.h>
+#include "WaveBench.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,96 +16,6 @@ using namespace schlieren::waveforms;
 namespace
 {
 
-/// What a ray carries that starts at x; nothing changes along y.
-struct Ray
-{
-  double path = 0, deflection = 0, displacement = 0;
-  bool isBlocked = false;
-};
-using RayAt = std::function<Ray(double x)>;
-
-/// A screen of width x 2 pixels.
-struct Bench1d
-{
-  double pixel;
-  std::int64_t width;
-  double distance;
-  double wavelength = green;
-  double largestDeflection = 0; ///< for the margin
-  int raysPerPixel = 1;
-  double planeOtherwise = 0, largestPlane = 1;
-  LightSource source{};
-  std::size_t memoryBudget = std::size_t{ 1 } << 30;
-
-  Screen screen() const
-  {
-    Screen screen;
-    screen.wavelength = wavelength;
-    screen.distance = distance;
-    screen.width = width;
-    screen.height = 2;
-    screen.raysPerPixel = raysPerPixel;
-    screen.source = source;
-    screen.planeOtherwise = planeOtherwise;
-    screen.largestPlane = largestPlane;
-    screen.memoryBudget = memoryBudget;
-    screen.threads = 2;
-    return screen;
-  }
-  std::int64_t margin() const
-  {
-    return static_cast<std::int64_t>(
-      std::ceil(marginOnScreen(screen(), wavelength, distance, largestDeflection) / pixel));
-  }
-  LightAtExit rays(const RayAt& rayAt) const
-  {
-    LightAtExit light;
-    light.spacing = pixel / raysPerPixel;
-    light.resize((width + 2 * margin()) * raysPerPixel, (2 + 2 * margin()) * raysPerPixel);
-    const Numbers x = places(light.columns, light.spacing);
-    for (std::size_t i = 0; i < light.size(); ++i)
-    {
-      const Ray ray = rayAt(x[i % x.size()]);
-      light.path[i] = ray.path;
-      light.deflection[0][i] = ray.deflection;
-      light.displacement[0][i] = ray.displacement;
-      light.isBlocked[i] = ray.isBlocked ? 1 : 0;
-      light.passing[i] = ray.isBlocked ? 0 : 1;
-    }
-    return light;
-  }
-  Numbers image(const RayAt& rayAt, WaveReport* found = nullptr) const
-  {
-    WaveReport report;
-    const std::vector<float> light = lightOnScreen(rays(rayAt), screen(), {}, report);
-    if (found != nullptr)
-    {
-      *found = report;
-    }
-    for (std::int64_t i = 0; i < width; ++i)
-    {
-      EXPECT_FLOAT_EQ(
-        light[static_cast<std::size_t>(i)], light[static_cast<std::size_t>(width + i)]);
-    }
-    return { light.begin(), light.begin() + width };
-  }
-  Numbers pixels() const { return places(width, pixel); }
-};
-
-/// A Gaussian column that bends light on the exit plane.
-RayAt column(double path, double size)
-{
-  return [=](double x)
-  {
-    const double all = path * std::exp(-x * x / (size * size));
-    return Ray{ all, -2 * x / (size * size) * all, 0 };
-  };
-}
-double steepestOfColumn(double path, double size)
-{
-  return path / size * std::sqrt(2 / std::exp(1.));
-}
-
 std::string messageOf(const std::function<void()>& work)
 {
   try
@@ -119,21 +27,6 @@ std::string messageOf(const std::function<void()>& work)
     return error.what();
   }
   return "";
-}
-
-Numbers meansOf(const Numbers& values, std::size_t count)
-{
-  Numbers means;
-  for (std::size_t i = 0; i < values.size(); i += count)
-  {
-    double sum = 0;
-    for (std::size_t j = 0; j < count; ++j)
-    {
-      sum += values[i + j] / static_cast<double>(count);
-    }
-    means.push_back(sum);
-  }
-  return means;
 }
 
 } // namespace

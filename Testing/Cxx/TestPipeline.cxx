@@ -417,20 +417,21 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   vtkNew<vtkSchlierenFilter> filter;
   std::ostringstream text;
   filter->Print(text);
-  for (const char* name : { "IndexModel", "GladstoneDaleConstant", "DensityScale",
-         "SamplingDimensions", "SamplingBounds", "Depth", "Symmetry", "SymmetryAxis",
-         "SymmetryOrigin", "Outside", "Reconstruction", "MediumTolerance", "MediumMemory",
-         "LengthScale", "AutoAmbientRefractivity", "AmbientRefractivity", "ViewDirection", "ViewUp",
-         "FaceFlatData", "FocalPoint", "ParallelScale", "ImageSize", "Wavelength", "Cutoff",
-         "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff", "AutoKScale", "LockK", "LockedK",
-         "KScale", "KFromOptics", "FocalLength", "SourceWidth", "SourceLength", "CutoffPosition",
-         "GradedFilter", "ColorFilterImage", "FringeMode", "FringeSpacing", "FringeAngle",
-         "BeamAngle", "WhiteLight", "ScreenDistance", "FocusOffset", "LightSource",
-         "SourceDistance", "SourceShape", "BackgroundPattern", "BackgroundDistance",
-         "BackgroundPeriod", "BackgroundAngle", "BackgroundImage", "FilmEstimator", "NoiseFilter",
-         "NoiseFilterRadius", "HistogramSize", "MemoryBudget", "Quality", "PathModel", "Integrator",
-         "StepSize", "HomogeneityTolerance", "Interpolation", "SamplesPerPixel", "Precision",
-         "AdaptiveTolerance", "PathTolerance", "Seed", "Device", "NumberOfThreads" })
+  for (const char* name :
+    { "IndexModel", "GladstoneDaleConstant", "DensityScale", "SamplingDimensions", "SamplingBounds",
+      "Depth", "Symmetry", "SymmetryAxis", "SymmetryOrigin", "Outside", "Reconstruction",
+      "MediumTolerance", "MediumMemory", "LengthScale", "AutoAmbientRefractivity",
+      "AmbientRefractivity", "ViewDirection", "ViewUp", "FaceFlatData", "FocalPoint",
+      "ParallelScale", "ImageSize", "Wavelength", "Cutoff", "KnifeEdgeAngle", "CutoffOffset",
+      "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale", "KFromOptics", "FocalLength",
+      "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter", "ColorFilterImage",
+      "FringeMode", "FringeSpacing", "FringeAngle", "BeamAngle", "WhiteLight", "ScreenDistance",
+      "FocusOffset", "LightSource", "SourceDistance", "SourceShape", "LightModel", "Bandwidth",
+      "CoherenceSamples", "BackgroundPattern", "BackgroundDistance", "BackgroundPeriod",
+      "BackgroundAngle", "BackgroundImage", "FilmEstimator", "NoiseFilter", "NoiseFilterRadius",
+      "HistogramSize", "MemoryBudget", "Quality", "PathModel", "Integrator", "StepSize",
+      "HomogeneityTolerance", "Interpolation", "SamplesPerPixel", "Precision", "AdaptiveTolerance",
+      "PathTolerance", "Seed", "Device", "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }
