@@ -19,8 +19,10 @@ namespace schlieren
 namespace
 {
 
-/// Bodies are edges, which take points by the Fresnel width; these many rays along the side of a pixel are the most.
+/// Bodies are edges, which take points by the Fresnel width, each with a ray of its own; at least and at most so many along the
+/// side of a pixel.
 constexpr double raysPerFresnelWidth = 8;
+constexpr int leastRaysPerPixel = 2;
 constexpr int mostRaysPerPixel = 4;
 
 constexpr int mostCoherenceSamples = 1024;
@@ -197,7 +199,8 @@ Screen WaveStage<Real>::screenOf(const Image& image) const
     const double pixel = scale * image.frame.pixelSize;
     const double wanted = std::ceil(raysPerFresnelWidth * pixel /
       fresnelWidth(scene.wavelength, screen.distance + screen.planeOtherwise));
-    screen.raysPerPixel = static_cast<int>(std::clamp(wanted, 1., double{ mostRaysPerPixel }));
+    screen.raysPerPixel =
+      static_cast<int>(std::clamp(wanted, double{ leastRaysPerPixel }, double{ mostRaysPerPixel }));
   }
   return screen;
 }

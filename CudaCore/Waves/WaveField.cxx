@@ -194,11 +194,14 @@ ComplexField fieldOf(
         path.mixRows(y.place, paths);
         amplitude.mixRows(y.place, amplitudes);
         Value* value = field.row(grid.below + row) + grid.left;
-        for (const PointAlong& x : xs)
+        // What a body covers of a ray's cell it covers of all its points: light that is interpolated is blurred.
+        const float* passing = plane.passing.data() + row / grid.pointsPerRay * plane.columns;
+        for (std::size_t column = 0; column < xs.size(); ++column)
         {
+          const PointAlong& x = xs[column];
+          const auto ray = static_cast<std::int64_t>(column) / grid.pointsPerRay;
           const double phase = perMetre * valueAt(x.stencil, paths);
-          const double size = valueAt(x.stencil, amplitudes) *
-            linearAt(plane.passing, plane.columns, plane.rows, x.place, y.place);
+          const double size = valueAt(x.stencil, amplitudes) * static_cast<double>(passing[ray]);
           *value++ = x.taper * y.taper * Value(size * std::cos(phase) - 1, size * std::sin(phase));
         }
       }
