@@ -64,8 +64,8 @@ std::int64_t marginFor(
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces);
 
-/// Finds what a view sees of a source's medium, with the margin around the image.
-Column columnOf(const Scene& scene, const Light& light, const Frame& frame);
+/// Finds what a view sees of a source's medium, with the margin around the image and `around` more pixels.
+Column columnOf(const Scene& scene, const Light& light, const Frame& frame, std::int64_t around);
 
 /// What the pixels of a view show.
 PixelPlaces pixelPlacesOf(const Frame& frame, const View& view, const Light& light);
