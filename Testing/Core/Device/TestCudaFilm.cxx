@@ -213,7 +213,7 @@ TEST_F(HostAndDeviceFilm, ShowsTheSameWithoutTheFlow)
   CutoffMaker maker;
   constexpr std::int64_t passes = 2,
                          maxRays = passes * (width + 2 * margin) * (height + 2 * margin);
-  const Exposure exposure{ maker.cutoffOf(scene, 0, 0.013), projection, margin, maxRays };
+  const Exposure exposure{ maker.cutoffOf(scene, 0, { 0.013 }), projection, margin, maxRays };
   const FilmSettings settings = filmSettingsOf(scene);
   UndisturbedImage onHost(settings, exposure), onDevice(settings, exposure);
   while (onHost.passes() < passes)
