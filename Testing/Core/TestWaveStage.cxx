@@ -100,7 +100,7 @@ TEST(WaveStage, GaussianColumnIsAsItsClosedForm)
                         centreOf(image, i, 0).u + 0.5 * image.frame.pixelSize, 8) /
         image.frame.pixelSize);
     }
-    EXPECT_LT(rms(seen, exact), 5e-4) << name(precision);
+    EXPECT_LT(rms(seen, exact), 1e-4) << name(precision);
     EXPECT_GT(rms(exact, Numbers(exact.size(), 1)), 0.04);
     EXPECT_NEAR(image.waves.plane, 4e-3, 2e-4);
     EXPECT_NEAR(image.waves.fresnelWidth, std::sqrt(green * (0.2 + image.waves.plane)), 1e-9);
