@@ -107,6 +107,39 @@ TEST(WaveStage, GaussianColumnIsAsItsClosedForm)
   }
 }
 
+TEST(WaveStage, DivergingLightIsAsParallelLightOfAnotherDistance)
+{
+  // The image is that in the column's plane, of which the screen is 0.204 m away.
+  const double source = 0.5, magnification = 1 + 0.204 / source;
+  for (const bool isPupil : { false, true })
+  {
+    Scene scene = laserShadowgraph();
+    if (isPupil)
+    {
+      scene.view.viewAngle = 2 * std::atan(scene.view.parallelScale / source) / radiansPerDegree;
+    }
+    else
+    {
+      scene.source.distance = source;
+    }
+    const Image image = Bench().render(columnInVacuum(), scene);
+    ASSERT_EQ(image.lightModel, LightModel::Waves);
+    Numbers seen, exact;
+    for (int i = 0; i < image.width; ++i)
+    {
+      seen.push_back(static_cast<double>(image.intensity[pixelOf(image, i, 40)]));
+      exact.push_back(
+        integral([&](double x) { return lightBehindColumn(x, 0.204 / magnification); },
+          centreOf(image, i, 0).u - 0.5 * image.frame.pixelSize,
+          centreOf(image, i, 0).u + 0.5 * image.frame.pixelSize, 8) /
+        image.frame.pixelSize);
+    }
+    EXPECT_LT(rms(seen, exact), 3e-4) << isPupil;
+    EXPECT_NEAR(image.waves.plane, 4e-3, 2e-4);
+    EXPECT_NEAR(image.waves.fresnelWidth, std::sqrt(green * 0.204 / magnification), 1e-6);
+  }
+}
+
 TEST(WaveStage, AllButTheLightIsOfRays)
 {
   Scene scene = laserShadowgraph();
@@ -182,8 +215,8 @@ TEST(WaveStage, WhatCannotBeMadeIsAnError)
   };
   for (const Case& each :
     { Case{ [](Scene& scene) { scene.cutoff = Cutoff::Interferogram; }, "Cutoff is Interferogram" },
-      Case{ [](Scene& scene) { scene.view.viewAngle = 10; }, "ViewAngle to 0" },
-      Case{ [](Scene& scene) { scene.source.distance = 1; }, "Collimated" },
+      Case{ [](Scene& scene) { scene.view.viewAngle = 40; }, "ViewAngle to less" },
+      Case{ [](Scene& scene) { scene.source.distance = 1e-2; }, "Collimated" },
       Case{ [](Scene& scene) { scene.pathModel = PathModel::Straight; }, "PathModel" },
       Case{ [](Scene& scene) { scene.bandwidth = green; }, "Bandwidth" },
       Case{ [](Scene& scene) { scene.coherenceSamples = 0; }, "CoherenceSamples" },
