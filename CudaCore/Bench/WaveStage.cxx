@@ -193,7 +193,20 @@ bool WaveStage<Real>::areWanted(Image& image) const
   {
     return false;
   }
-  const std::string problem = problemOfWaves(request_.field, scene, image.frame);
+  std::string problem = problemOfWaves(request_.field, scene, image.frame);
+  if (problem.empty() && faces_.ratio != 1 && (image.frame.pupil > 0 || scene.source.distance))
+  {
+    problem =
+      std::string(
+        "LightModel is Waves, but light diverges and is refracted where it leaves the data, as "
+        "through a "
+        "window. Set ViewAngle to 0 and LightSource to Collimated, ExitInto to Surroundings,") +
+      orRays;
+  }
+  if (!problem.empty() && scene.lightModel == LightModel::Waves)
+  {
+    throw Error(problem);
+  }
   const bool isOfScreen = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen;
   if (!problem.empty() || (scene.lightModel == LightModel::Auto && !isOfScreen))
   {
