@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -373,6 +374,11 @@ std::vector<float> WaveStage<Real>::makeLight(
                 "to more than 0, or "
                 "LightModel to Rays.");
   }
+  constexpr double perMillimetre = 1e3;
+  std::ostringstream note;
+  note << std::setprecision(3) << "rays suffice for features wider than "
+       << perMillimetre * 2 * screen.wavelength * image.kScale << " mm in focus";
+  image.lightNote = note.str();
   const Edge edge{ scene.knifeEdgeAngle, scene.cutoffOffset / image.kScale, 1 / image.kScale,
     scene.coherenceSamples, scene.invertCutoff };
   return lightBehindEdge(light, screen, edge, monitor, image.waves);
