@@ -146,7 +146,7 @@ struct Scene
   /// Red, green and blue, 0 ... 1, of each of Field::gradients.
   std::vector<std::array<float, 3>> fieldColors;
 
-  /// Waves are for Cutoff::Shadowgraph and KnifeEdge, of collimated light: the light of each pixel is then that of a wave, for
+  /// Waves are for Cutoff::Shadowgraph, and of collimated light for KnifeEdge: the light of each pixel is then that of a wave, for
   /// which there is one ray in each pixel. All else of the image remains that of rays.
   LightModel lightModel = LightModel::Rays;
   double bandwidth =

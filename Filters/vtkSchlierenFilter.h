@@ -627,10 +627,11 @@ public:
   ///@{
   /**
    * How light continues behind the flow, one of LightModels: as rays (LIGHT_RAYS, the default), or
-   * as waves of Wavelength (LIGHT_WAVES), for SHADOWGRAPH and KNIFE_EDGE with collimated light;
-   * other settings are errors then. LIGHT_AUTO: of a shadowgraph waves where the width of a pixel and the source's image on the screen
-   * is less than four Fresnel widths, sqrt(wavelength distance), and waves can be made. Waves
-   * replace Intensity alone; all other arrays remain those of rays.
+   * as waves of Wavelength (LIGHT_WAVES), for SHADOWGRAPH and, with collimated light, KNIFE_EDGE;
+   * other settings are errors then. Light may diverge by 0.1 at most. LIGHT_AUTO: of a shadowgraph
+   * waves where the width of a pixel and the source's image on the screen is less than four Fresnel
+   * widths, sqrt(wavelength distance), and waves can be made. Waves replace Intensity alone; all
+   * other arrays remain those of rays.
    */
   vtkSetClampMacro(LightModel, int, LIGHT_RAYS, LIGHT_AUTO);
   vtkGetMacro(LightModel, int);

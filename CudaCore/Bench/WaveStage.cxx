@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iomanip>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -29,6 +31,15 @@ constexpr int mostCoherenceSamples = 1024;
 
 constexpr const char* orRays = " or LightModel to Rays.";
 
+/// The largest slope of diverging light, at the image's corners. Scaling is that of small angles: of this one the width of
+/// fringes is wrong by less than 1 %.
+constexpr double largestSlopeOfWaves = 0.1;
+double largestSlope(const Scene& scene, const Frame& frame)
+{
+  const double distance = frame.pupil > 0 ? frame.pupil : scene.source.distance.value_or(0);
+  return 0.5 * frame.pixelSize * std::hypot(scene.view.width, scene.view.height) / distance;
+}
+
 /// How many wavelengths a band is made of: with 8 a band of a fiftieth is right to 2e-4, with 16 one of a fifth to 3e-3.
 int wavelengthsFor(const Scene& scene)
 {
@@ -43,8 +54,25 @@ Scene sceneOfRays(const Scene& scene, int raysPerPixel)
   ofRays.view.width *= raysPerPixel;
   ofRays.view.height *= raysPerPixel;
   ofRays.source = LightSource{};
+  ofRays.source.distance = scene.source.distance;
   ofRays.pathModel = PathModel::Refracted;
   return ofRays;
+}
+
+/// The slopes of rays are yet to be found.
+std::optional<PointSource> pointSourceOf(const Scene& scene, const Frame& frame, double lengthScale)
+{
+  if (frame.pupil > 0)
+  {
+    return PointSource{ lengthScale * frame.pupil, lengthScale * (frame.focus - frame.entry),
+      { 0, 0 }, 0 };
+  }
+  if (scene.source.distance)
+  {
+    return PointSource{ lengthScale * *scene.source.distance,
+      0.5 * lengthScale * (frame.exit - frame.entry), { 0, 0 }, 0 };
+  }
+  return {};
 }
 
 double largestDeflectionOf(const Image& image)
@@ -96,11 +124,18 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
       ", and waves are made of a Shadowgraph or a Knife Edge alone. Set Cutoff to one of these," +
       orRays;
   }
-  if (frame.pupil > 0 || scene.source.distance)
+  const bool isDiverging = frame.pupil > 0 || scene.source.distance;
+  const bool isPlain =
+    scene.cutoff == Cutoff::Shadowgraph && scene.source.shape == SourceShape::Point;
+  if (isDiverging && (!isPlain || largestSlope(scene, frame) > largestSlopeOfWaves))
   {
-    return std::string(
-             "LightModel is Waves, but light diverges, and waves take parallel light. Set ") +
-      (frame.pupil > 0 ? "ViewAngle to 0," : "LightSource to Collimated,") + orRays;
+    return "LightModel is Waves, but light diverges by up to " +
+      std::to_string(largestSlope(scene, frame)) +
+      ", and waves take parallel light, or of a Shadowgraph with a point source light that "
+      "diverges by no more than 0.1. Set " +
+      (frame.pupil > 0 ? "ViewAngle to less (0 is parallel light),"
+                       : "LightSource to Collimated or SourceDistance to more,") +
+      orRays;
   }
   if (!(scene.wavelength > 0 && std::isfinite(scene.wavelength) &&
         std::isfinite(1 / scene.wavelength)))
@@ -159,7 +194,20 @@ bool WaveStage<Real>::areWanted(Image& image) const
   {
     return false;
   }
-  const std::string problem = problemOfWaves(request_.field, scene, image.frame);
+  std::string problem = problemOfWaves(request_.field, scene, image.frame);
+  if (problem.empty() && faces_.ratio != 1 && (image.frame.pupil > 0 || scene.source.distance))
+  {
+    problem =
+      std::string(
+        "LightModel is Waves, but light diverges and is refracted where it leaves the data, as "
+        "through a "
+        "window. Set ViewAngle to 0 and LightSource to Collimated, ExitInto to Surroundings,") +
+      orRays;
+  }
+  if (!problem.empty() && scene.lightModel == LightModel::Waves)
+  {
+    throw Error(problem);
+  }
   const bool isOfScreen = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen;
   if (!problem.empty() || (scene.lightModel == LightModel::Auto && !isOfScreen))
   {
@@ -168,7 +216,7 @@ bool WaveStage<Real>::areWanted(Image& image) const
     return false;
   }
   const Screen screen = screenOf(image);
-  const double distance = screen.distance + screen.planeOtherwise;
+  const double distance = parallelDistance(screen, screen.planeOtherwise);
   image.waves.fresnelWidth =
     fresnelWidth(scene.wavelength / (1 + image.exitRefractivity), distance);
   image.waves.blur =
@@ -192,13 +240,14 @@ Screen WaveStage<Real>::screenOf(const Image& image) const
   screen.sourceAngle = scene.knifeEdgeAngle;
   screen.planeOtherwise = 0.5 * depth;
   screen.largestPlane = depth;
+  screen.pointSource = pointSourceOf(scene, image.frame, scale);
   screen.memoryBudget = scene.memoryBudget;
   screen.threads = scene.threads;
   if (image.raysBlocked > 0)
   {
     const double pixel = scale * image.frame.pixelSize;
     const double wanted = std::ceil(raysPerFresnelWidth * pixel /
-      fresnelWidth(scene.wavelength, screen.distance + screen.planeOtherwise));
+      fresnelWidth(scene.wavelength, parallelDistance(screen, screen.planeOtherwise)));
     screen.raysPerPixel =
       static_cast<int>(std::clamp(wanted, double{ leastRaysPerPixel }, double{ mostRaysPerPixel }));
   }
@@ -259,7 +308,7 @@ void requireMemory(const Pass& pass, const Screen& screen)
 }
 
 template <class Real>
-bool WaveStage<Real>::trace(Image& image, const Screen& screen, LightAtExit& light)
+bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
 {
   const Field& field = request_.field;
   const Scene scene = sceneOfRays(request_.scene, screen.raysPerPixel);
@@ -279,6 +328,15 @@ bool WaveStage<Real>::trace(Image& image, const Screen& screen, LightAtExit& lig
   Pass pass{ -around, -around, scene.view.width + 2 * around, scene.view.height + 2 * around,
     { 0, 0 } };
   requireMemory(pass, screen);
+  if (screen.pointSource)
+  {
+    const double first = static_cast<double>(-around);
+    screen.pointSource->perRay = ofRays.inclination.perPixel;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      screen.pointSource->first[axis] = ofRays.inclination.at(axis, first, 0);
+    }
+  }
   light.spacing = field.lengthScale * frame.pixelSize;
   light.refractiveIndex = 1 + image.exitRefractivity;
   light.resize(pass.columns, pass.rows);
@@ -316,6 +374,11 @@ std::vector<float> WaveStage<Real>::makeLight(
                 "to more than 0, or "
                 "LightModel to Rays.");
   }
+  constexpr double perMillimetre = 1e3;
+  std::ostringstream note;
+  note << std::setprecision(3) << "rays suffice for features wider than "
+       << perMillimetre * 2 * screen.wavelength * image.kScale << " mm in focus";
+  image.lightNote = note.str();
   const Edge edge{ scene.knifeEdgeAngle, scene.cutoffOffset / image.kScale, 1 / image.kScale,
     scene.coherenceSamples, scene.invertCutoff };
   return lightBehindEdge(light, screen, edge, monitor, image.waves);
@@ -354,7 +417,7 @@ bool WaveStage<Real>::run(Image& image)
     rays_.clear();
     return true;
   }
-  const Screen screen = screenOf(image);
+  Screen screen = screenOf(image);
   Monitor monitor;
   monitor.aborted = watch_.monitor().aborted;
   try

@@ -52,8 +52,8 @@ private:
   Screen screenOf(const Image& image) const;
   /// Pixels to trace around an image.
   std::int64_t borderOf(const Image& image, const Screen& screen) const;
-  /// Traces the rays. False if aborted.
-  bool trace(Image& image, const Screen& screen, LightAtExit& light);
+  /// Traces the rays, and finds the slopes of a point source. False if aborted.
+  bool trace(Image& image, Screen& screen, LightAtExit& light);
   const TracedPass* tracePass(
     std::int64_t number, const Pass& pass, const RayTask<Real>& task, Image& image);
 

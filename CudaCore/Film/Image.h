@@ -89,7 +89,7 @@ struct Image
   LightModel lightModel = LightModel::Rays; ///< the one used
   WaveReport waves;                         ///< but of LightModel::Rays
   std::string
-    lightNote;          ///< why LightModel::Auto chose rays, where that is not the blur; else empty
+    lightNote; ///< of LightModel::Auto why not waves, of a knife edge what rays suffice for
   bool aborted = false; ///< the monitor stopped it; all arrays are empty
 
   /// False where the monitor has paused it, and Bench::resume continues it. The arrays then hold the image of

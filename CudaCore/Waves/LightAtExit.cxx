@@ -247,6 +247,52 @@ double linearAt(const std::vector<float>& values, std::int64_t columns, std::int
     fy * ((1 - fx) * static_cast<double>(high[0]) + fx * static_cast<double>(high[1]));
 }
 
+LightAtExit parallelOf(
+  const LightAtExit& light, const PointSource& source, double back, int threads)
+{
+  LightAtExit parallel = light;
+  const double plane = source.toExit - back;
+  const double atExit = source.magnificationAt(source.toExit);
+  const double atPlane = source.magnificationAt(plane);
+  const double toPlane = source.distance * atPlane, toExit = source.distance * atExit;
+  forEachRay(light.columns, light.rows, threads,
+    [&](std::int64_t number)
+    {
+      const auto ray = static_cast<std::size_t>(number);
+      const double place[2] = { static_cast<double>(number % light.columns),
+        static_cast<double>(number / light.columns) };
+      double slope[2], square = 1;
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        slope[axis] = source.first[axis] + place[axis] * source.perRay;
+        square += slope[axis] * slope[axis];
+      }
+      double p[2], sideways = 0, along = 0;
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        const double cosine = slope[axis] / std::sqrt(square);
+        p[axis] = cosine + light.deflection[axis][ray];
+        sideways += p[axis] * p[axis];
+        along += cosine * light.displacement[axis][ray];
+      }
+      const double forward = std::sqrt(std::max(0.01, 1 - sideways));
+      double beside = 0;
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        const double bend = p[axis] / forward - slope[axis];
+        const double moved = light.displacement[axis][ray] - back * bend;
+        parallel.displacement[axis][ray] = moved / atPlane;
+        parallel.deflection[axis][ray] = atPlane * (bend - moved / toPlane);
+        beside += std::pow(slope[axis] * toPlane + moved, 2);
+      }
+      // Paths at exits are those against a plane wave along the undisturbed ray; here, against the sphere.
+      const double sphere = std::sqrt(toPlane * toPlane + beside) - toExit * std::sqrt(square);
+      parallel.path[ray] =
+        light.path[ray] + light.refractiveIndex * (along - back / forward - sphere);
+    });
+  return parallel;
+}
+
 LightOnPlane bringToPlane(const LightAtExit& light, double back, int threads)
 {
   const std::int64_t columns = light.columns, rows = light.rows;

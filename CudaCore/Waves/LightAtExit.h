@@ -39,6 +39,24 @@ void continueBehindBodies(LightAtExit& light);
 /// `otherwise`: where they are hardly bent.
 double bestPlane(const LightAtExit& light, double otherwise);
 
+/// Where diverging light comes from. Places along the light count from the image's plane, in which all undisturbed light
+/// passes the image's points, as metres.
+struct PointSource
+{
+  double distance; ///< from the image's plane
+  double toExit;   ///< from the image's plane to where light leaves the data
+  double first[2]; ///< of the first ray, slopes along u and v
+  double perRay;   ///< slope by column and row
+
+  /// How much larger the image is in a plane.
+  double magnificationAt(double place) const { return 1 + place / distance; }
+};
+
+/// Replaces light that diverges by parallel light whose wave is the same but for its curvature (Fresnel scaling): on the plane
+/// `back` before where it leaves the data, in coordinates of the image's plane.
+LightAtExit parallelOf(
+  const LightAtExit& light, const PointSource& source, double back, int threads);
+
 /// Light on a plane, at points `spacing` apart.
 struct LightOnPlane
 {

@@ -152,17 +152,35 @@ bool propagate(ComplexField& field, const FreeSpace& space, int threads, const M
   return filterSpectrum(field, filter, threads, monitor);
 }
 
-FieldBeforeScreen fieldBefore(const LightAtExit& light, const Screen& screen, double leastMargin,
+double parallelDistance(const Screen& screen, double plane)
+{
+  const double distance = screen.distance + plane;
+  if (!screen.pointSource)
+  {
+    return distance;
+  }
+  const PointSource& source = *screen.pointSource;
+  return distance /
+    (source.magnificationAt(source.toExit - plane) *
+      source.magnificationAt(source.toExit + screen.distance));
+}
+
+FieldBeforeScreen fieldBefore(const LightAtExit& ofRays, const Screen& screen, double leastMargin,
   int fields, WaveReport& report)
 {
-  const double wavelength = screen.wavelength / light.refractiveIndex;
+  const double wavelength = screen.wavelength / ofRays.refractiveIndex;
   const std::int64_t border =
-    (light.columns / screen.raysPerPixel - screen.width) / 2 * screen.raysPerPixel;
-  report.plane = std::clamp(bestPlane(light, screen.planeOtherwise), 0., screen.largestPlane);
-  const double distance = screen.distance + report.plane;
+    (ofRays.columns / screen.raysPerPixel - screen.width) / 2 * screen.raysPerPixel;
+  report.plane = std::clamp(bestPlane(ofRays, screen.planeOtherwise), 0., screen.largestPlane);
+  const double distance = parallelDistance(screen, report.plane);
+  const bool isDiverging = screen.pointSource.has_value();
+  const LightAtExit parallel = isDiverging
+    ? parallelOf(ofRays, *screen.pointSource, report.plane, screen.threads)
+    : LightAtExit{};
+  const LightAtExit& light = isDiverging ? parallel : ofRays;
   report.fresnelWidth = fresnelWidth(wavelength, distance);
   report.blur = blurOnScreen(screen.source, light.spacing * screen.raysPerPixel, distance);
-  const LightOnPlane plane = bringToPlane(light, report.plane, screen.threads);
+  const LightOnPlane plane = bringToPlane(light, isDiverging ? 0 : report.plane, screen.threads);
   const double margin =
     std::max(leastMargin, marginOnScreen(screen, wavelength, distance, largestDeflection(light)));
   const WaveGrid grid = gridFor(

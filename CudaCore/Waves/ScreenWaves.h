@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace schlieren
@@ -31,6 +32,8 @@ struct Screen
   double sourceAngle = 0;             ///< degrees: across a slit, from u to v
   double planeOtherwise = 0;          ///< see bestPlane
   double largestPlane = 0;            ///< how far before the exit the plane may be
+  std::optional<PointSource>
+    pointSource{}; ///< of light that diverges; lengths on the screen are then those of the image
   std::size_t memoryBudget = std::size_t{ 1 } << 30;
   int threads = 0;
 };
@@ -81,6 +84,10 @@ struct FieldBeforeScreen
   ComplexField field;
   FreeSpace space;
 };
+
+/// The distance over which parallel light makes the same image, up to its size: see parallelOf. `plane`: before where light
+/// leaves the data.
+double parallelDistance(const Screen& screen, double plane);
 
 /// Makes the field of light. `light`: of the image and as many rays beside it on each side. `leastMargin`: around the image,
 /// metres; `fields`: that will be there at once. Throws Error.

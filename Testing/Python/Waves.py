@@ -83,7 +83,7 @@ assert "waves are made of a Shadowgraph or a Knife Edge alone" in status_of(shad
 # What waves cannot do is one message.
 flow = Schlieren(Input=gaussian_column(16), Density=["POINTS", "rho"], ImageSize=[32, 32], LightModel="Waves",
                 Cutoff="Circular")
-for settings, words in (({}, "Cutoff to one of these"), ({"Cutoff": "Shadowgraph", "ViewAngle": 20}, "ViewAngle to 0"),
+for settings, words in (({}, "Cutoff to one of these"), ({"Cutoff": "Shadowgraph", "ViewAngle": 30}, "ViewAngle to less"),
                         ({"ViewAngle": 0, "PathModel": "Difference"}, "PathModel to Auto"),
                         ({"PathModel": "Auto", "LengthScale": 10}, "MemoryBudget")):
     for key, value in settings.items():

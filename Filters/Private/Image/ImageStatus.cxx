@@ -116,7 +116,8 @@ std::string wavesInWords(const schlieren::Image& image)
   const schlieren::WaveReport& waves = image.waves;
   if (!image.lightNote.empty())
   {
-    return "rays: " + image.lightNote;
+    return (image.lightModel == schlieren::LightModel::Rays ? "rays: " : "waves: ") +
+      image.lightNote;
   }
   if (!(waves.fresnelWidth > 0))
   {

@@ -86,7 +86,7 @@ TEST(ScreenWaves, OneRayInAPixelIsEnough)
   const Numbers coarse = bench.image(column(path, size), &report);
   EXPECT_EQ(report.pointsPerPixel, 4); // 4 by a wave's length over the largest deflection
   bench.raysPerPixel = 4;
-  EXPECT_LT(rms(coarse, bench.image(column(path, size))), 6e-4);
+  EXPECT_LT(rms(coarse, bench.image(column(path, size))), 2e-4);
 }
 
 TEST(ScreenWaves, FlowMayCrossTheBorder)
@@ -101,7 +101,7 @@ TEST(ScreenWaves, FlowMayCrossTheBorder)
   const Bench1d bench{ scale / 12, 240, distance, green, 4e-3 };
   const Bench1d wide{ scale / 12, 960, distance, green, 4e-3 };
   const Numbers all = wide.image(rays);
-  EXPECT_LT(rms(bench.image(rays), Numbers(all.begin() + 360, all.begin() + 600)), 1e-3);
+  EXPECT_LT(rms(bench.image(rays), Numbers(all.begin() + 360, all.begin() + 600)), 1e-4);
 }
 
 TEST(ScreenWaves, CommonTiltTakesNoPoints)
