@@ -428,11 +428,11 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
       "FringeMode", "FringeSpacing", "FringeAngle", "BeamAngle", "WhiteLight", "ScreenDistance",
       "FocusOffset", "LightSource", "SourceDistance", "SourceShape", "BackgroundPattern",
       "BackgroundDistance", "BackgroundPeriod", "BackgroundAngle", "BackgroundImage", "FNumber",
-      "LensFocalLength", "FocusDistance", "SensorWidth", "FullWell", "Exposure", "ReadNoise",
-      "Gamma", "BitDepth", "FilmEstimator", "NoiseFilter", "NoiseFilterRadius", "HistogramSize",
-      "MemoryBudget", "Quality", "PathModel", "Integrator", "StepSize", "HomogeneityTolerance",
-      "Interpolation", "SamplesPerPixel", "Precision", "AdaptiveTolerance", "PathTolerance", "Seed",
-      "Device", "NumberOfThreads" })
+      "LensFocalLength", "FocusDistance", "SensorWidth", "LensDiffraction", "FullWell", "Exposure",
+      "ReadNoise", "Gamma", "BitDepth", "FilmEstimator", "NoiseFilter", "NoiseFilterRadius",
+      "HistogramSize", "MemoryBudget", "Quality", "PathModel", "Integrator", "StepSize",
+      "HomogeneityTolerance", "Interpolation", "SamplesPerPixel", "Precision", "AdaptiveTolerance",
+      "PathTolerance", "Seed", "Device", "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

@@ -177,6 +177,7 @@ schlieren::Lens lensFrom(const SchlierenSettings& settings)
       metresPerMillimetre * settings.LensFocalLength / (number * settings.LengthScale);
     lens.apertureRatio = 1 / number;
   }
+  lens.diffracts = settings.LensDiffraction;
   if (settings.FocusDistance != 0)
   {
     lens.focusDistance = settings.FocusDistance;

@@ -164,9 +164,9 @@ schlieren::Scene sceneFrom(
   {
     scene.colorFilter = images.read("ColorFilterImage", settings.ColorFilterImage);
   }
+  scene.wavelength = metresPerNanometre * settings.Wavelength;
   if (schlieren::techniqueOf(scene.cutoff).hasFringes)
   {
-    scene.wavelength = metresPerNanometre * settings.Wavelength;
     scene.fringes = fringesFrom(settings, frame);
   }
   if (schlieren::isOfCamera(scene.cutoff))
