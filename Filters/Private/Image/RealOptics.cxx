@@ -28,8 +28,8 @@ constexpr double fringesInImage = 10;
 [[noreturn]] void refuse(
   const char* property, double value, const std::string& unit, const std::string& advice)
 {
-  throw std::runtime_error(
-    std::string(property) + " is " + textOf(value, 4) + " " + unit + ", " + advice);
+  throw std::runtime_error(std::string(property) + " is " + textOf(value, 4) +
+    (unit.empty() ? "" : " ") + unit + ", " + advice);
 }
 
 void requirePositive(
@@ -189,7 +189,7 @@ schlieren::Lens lensFrom(const SchlierenSettings& settings)
 double viewAngleFrom(
   const SchlierenSettings& settings, const schlieren::View& view, const schlieren::Grid& grid)
 {
-  if (settings.SensorWidth == 0)
+  if (settings.SensorWidth == 0 || !(settings.LengthScale > 0)) // the tracer reports the latter
   {
     return view.viewAngle;
   }
