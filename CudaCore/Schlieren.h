@@ -131,7 +131,7 @@ struct Scene
   /// Transmission at evenly spaced places from 0 to 1, linear in between; at least 2.
   std::vector<double> gradedFilter{ 0, 1 };
   std::shared_ptr<const RgbImage> colorFilter; ///< from k eps = (-1, -1) to (1, 1); null: the wheel
-  double wavelength = 632.8e-9;                ///< of an interferogram, metres
+  double wavelength = 632.8e-9;                ///< of an interferogram and of waves, metres
   Fringes fringes;
   BackgroundPattern background;
   /// Distance from where light leaves the data to the screen, data units, in what light leaves them into; unset: one
@@ -149,6 +149,13 @@ struct Scene
   /// Red, green and blue, 0 ... 1, of each of Field::gradients.
   std::vector<std::array<float, 3>> fieldColors;
 
+  /// Waves are for Cutoff::Shadowgraph and KnifeEdge, of collimated light: the light of each pixel is then that of a wave, for
+  /// which there is one ray in each pixel. All else of the image remains that of rays.
+  LightModel lightModel = LightModel::Rays;
+  double bandwidth =
+    0; ///< full width of the spectrum around wavelength of waves, metres; less than wavelength
+  int coherenceSamples =
+    32; ///< points across a knife edge's source, whose waves do not interfere; 1 ... 1024
   FilmEstimator filmEstimator = FilmEstimator::Sheet;
   NoiseFilter noiseFilter = NoiseFilter::None;
   double noiseFilterRadius = 2; ///< pixels

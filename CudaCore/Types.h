@@ -85,6 +85,14 @@ struct LightSource
   double length = 0; ///< of a slit, along the knife edge
 };
 
+/// How light continues behind the flow.
+enum class LightModel
+{
+  Rays,  ///< straight: incoherent light
+  Waves, ///< diffracted: laser light, see WaveReport
+  Auto   ///< as waves where a pixel is fine enough to show that, and an image of waves can be made
+};
+
 /// How rays become an image.
 enum class FilmEstimator
 {
@@ -162,6 +170,23 @@ struct LightBalance
   double onFilm = 0;
   double outside = 0; ///< of the image
 };
+
+/// How an image's light continues behind the flow as waves. Metres.
+struct WaveReport
+{
+  double fresnelWidth =
+    0; ///< sqrt(wavelength distance): how far waves carry light aside on their way; 0: not known
+  double blur = 0; ///< width of a pixel and of the source's image on the screen, added as squares
+  double plane =
+    0; ///< on which light seems to be bent: its distance before where light leaves the data
+  double leastTubeRatio = 1; ///< least ratio of the areas between rays there and where they start
+  std::int64_t pointsPerPixel = 0;    ///< along each axis; 0: there is no wave
+  std::int64_t columns = 0, rows = 0; ///< of points, with what is around the image
+  std::int64_t raysPerPixel = 0;      ///< along each axis
+};
+
+/// A pixel's and source's blur by the Fresnel width from which on diffraction does not show: rays are right then.
+constexpr double blurThatHidesWaves = 4;
 
 /// What the medium of a Field's source consists of.
 struct MediumStatistics

@@ -67,6 +67,7 @@ struct OpticsSettings
   static constexpr int finiteFringes = 1;           // FringeMode
   static constexpr int divergingLight = 1;          // LightSource
   static constexpr int scenePattern = 3;            // BackgroundPattern
+  static constexpr int lightOfRays = 0;             // LightModel
 
   int Cutoff = 0;
   double KnifeEdgeAngle = 0;
@@ -91,6 +92,9 @@ struct OpticsSettings
   int LightSource = 0;
   double SourceDistance = 0;
   int SourceShape = 0;
+  int LightModel = lightOfRays;
+  double Bandwidth = 0;
+  int CoherenceSamples = 32;
   int BackgroundPattern = 0;
   double BackgroundDistance = -1;
   double BackgroundPeriod = 0;
@@ -130,6 +134,9 @@ struct OpticsSettings
     use("LightSource", this->LightSource);
     use("SourceDistance", this->SourceDistance);
     use("SourceShape", this->SourceShape);
+    use("LightModel", this->LightModel);
+    use("Bandwidth", this->Bandwidth);
+    use("CoherenceSamples", this->CoherenceSamples);
     use("BackgroundPattern", this->BackgroundPattern);
     use("BackgroundDistance", this->BackgroundDistance);
     use("BackgroundPeriod", this->BackgroundPeriod);

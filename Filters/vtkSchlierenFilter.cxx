@@ -68,6 +68,9 @@ static_assert(sameValue(Self::KNIFE_EDGE, schlieren::Cutoff::KnifeEdge) &&
 static_assert(sameValue(Self::POINT, schlieren::SourceShape::Point) &&
   sameValue(Self::SLIT, schlieren::SourceShape::Slit) &&
   sameValue(Self::DISC, schlieren::SourceShape::Disc));
+static_assert(sameValue(Self::LIGHT_RAYS, schlieren::LightModel::Rays) &&
+  sameValue(Self::LIGHT_WAVES, schlieren::LightModel::Waves) &&
+  sameValue(Self::LIGHT_AUTO, schlieren::LightModel::Auto));
 static_assert(sameValue(Self::DOTS, schlieren::PatternKind::Dots) &&
   sameValue(Self::STRIPES, schlieren::PatternKind::Stripes) &&
   sameValue(Self::PICTURE, schlieren::PatternKind::Image));
@@ -85,7 +88,7 @@ static_assert(Self::LOCK_OFF == OpticsSettings::lockOff &&
   Self::LOCK_ALWAYS == OpticsSettings::lockAlways &&
   Self::FINITE_FRINGES == OpticsSettings::finiteFringes &&
   Self::DIVERGING == OpticsSettings::divergingLight &&
-  Self::SCENE == OpticsSettings::scenePattern &&
+  Self::SCENE == OpticsSettings::scenePattern && Self::LIGHT_RAYS == OpticsSettings::lightOfRays &&
   Self::DIFFERENCE == AccuracySettings::differencePath);
 
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.

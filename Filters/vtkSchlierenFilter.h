@@ -151,6 +151,13 @@ public:
     DISC = 2
   };
 
+  enum LightModels
+  {
+    LIGHT_RAYS = 0,
+    LIGHT_WAVES = 1,
+    LIGHT_AUTO = 2
+  };
+
   enum BackgroundPatterns
   {
     DOTS = 0,
@@ -615,6 +622,36 @@ public:
    */
   vtkSetClampMacro(SourceShape, int, POINT, DISC);
   vtkGetMacro(SourceShape, int);
+  ///@}
+
+  ///@{
+  /**
+   * How light continues behind the flow, one of LightModels: as rays (LIGHT_RAYS, the default), or
+   * as waves of Wavelength (LIGHT_WAVES), for SHADOWGRAPH and KNIFE_EDGE with collimated light;
+   * other settings are errors then. LIGHT_AUTO: of a shadowgraph waves where the width of a pixel and the source's image on the screen
+   * is less than four Fresnel widths, sqrt(wavelength distance), and waves can be made. Waves
+   * replace Intensity alone; all other arrays remain those of rays.
+   */
+  vtkSetClampMacro(LightModel, int, LIGHT_RAYS, LIGHT_AUTO);
+  vtkGetMacro(LightModel, int);
+  ///@}
+
+  ///@{
+  /**
+   * Full width of the even spectrum of waves around Wavelength, nanometres, 0 or more. Default: 0,
+   * one wavelength.
+   */
+  vtkSetClampMacro(Bandwidth, double, 0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Bandwidth, double);
+  ///@}
+
+  ///@{
+  /**
+   * Points across a knife edge's source, whose waves do not interfere: the image is the mean of
+   * theirs. 1 to 1024; 1 is a laser. Default: 32, whose error is below 0.01 of the light.
+   */
+  vtkSetClampMacro(CoherenceSamples, int, 1, 1024);
+  vtkGetMacro(CoherenceSamples, int);
   ///@}
 
   ///@{

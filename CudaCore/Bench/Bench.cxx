@@ -3,6 +3,7 @@
 #include "Bench/Stages.h"
 
 #include "Bench/Validation.h"
+#include "Bench/WaveStage.h"
 #include "Device/DeviceError.h"
 
 #include <algorithm>
@@ -184,7 +185,10 @@ Light Bench::Stages::prepareMedium(
   Light light = lightOf(scene, request.field.grid, image.frame, facesOf(inUse.medium(), scene));
   if (request.field.source)
   {
-    inUse.refine(columnOf(scene, light, image.frame), monitorOfVoxels(request, watch.monitor()));
+    const std::int64_t around =
+      pixelsOfFresnelMargin(request.field, scene, image.frame, light.faces);
+    inUse.refine(
+      columnOf(scene, light, image.frame, around), monitorOfVoxels(request, watch.monitor()));
     image.medium = inUse.medium().tree->statistics();
   }
   light.faces = facesOf(inUse.medium(), scene); // of all voxels
@@ -216,7 +220,8 @@ Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
     request.beginAnew();
   }
 
-  const RaysOfImage<Real> ofImage = prepareRays(inUse.onDevices(), light, request, image);
+  MediumOnDevices<Real>& medium = inUse.onDevices();
+  const RaysOfImage<Real> ofImage = prepareRays(medium, light, request, image);
   const bool hasAllPasses =
     PassLoop<Real>(ofImage, request, watch, rays, cutoffs, processes, work).run();
   if (watch.isAborted())
@@ -227,7 +232,11 @@ Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
   {
     image.processes = processes->ofRays().hasCuda.value_or(false) ? processes->others() + 1 : 1;
   }
-  return develop(hasAllPasses, request, watch, image) ? std::move(image) : abortedImage();
+  return develop(hasAllPasses, request, watch, image) &&
+      (!image.finished ||
+        WaveStage<Real>{ medium, light, request, watch, waveRays, work }.run(image))
+    ? std::move(image)
+    : abortedImage();
 }
 
 std::unique_ptr<UnfinishedImage> Bench::Stages::instead(

@@ -222,14 +222,14 @@ Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const Ex
                          : reversedLight(grid, frame, faces, aperture);
 }
 
-Column columnOf(const Scene& scene, const Light& light, const Frame& frame)
+Column columnOf(const Scene& scene, const Light& light, const Frame& frame, std::int64_t around)
 {
   Column column{};
   column.u = light.u;
   column.v = light.v;
   const double size[2] = { static_cast<double>(scene.view.width),
     static_cast<double>(scene.view.height) };
-  const auto margin = static_cast<double>(maxMargin(scene.view));
+  const auto margin = static_cast<double>(maxMargin(scene.view) + around);
   for (int i = 0; i < 2; ++i)
   {
     column.middle[i] =

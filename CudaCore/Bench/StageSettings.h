@@ -64,8 +64,8 @@ std::int64_t marginFor(
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces);
 
-/// Finds what a view sees of a source's medium, with the margin around the image.
-Column columnOf(const Scene& scene, const Light& light, const Frame& frame);
+/// Finds what a view sees of a source's medium, with the margin around the image and `around` more pixels.
+Column columnOf(const Scene& scene, const Light& light, const Frame& frame, std::int64_t around);
 
 /// Standard deviation of the spread that diffraction at the lens's aperture gives light, pixels. `lengthScale`: metres per
 /// data unit.

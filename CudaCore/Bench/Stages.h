@@ -73,6 +73,7 @@ struct Bench::Stages
   std::optional<Aim> aim;                      ///< likewise, before that
   MediumCache media{ work };
   RayCache rays;
+  RayCache waveRays; ///< those that waves are made of
   CutoffMaker cutoffs;
   TargetCache targets;
 
@@ -107,6 +108,7 @@ private:
   void clearRays()
   {
     rays.clear();
+    waveRays.clear();
     targets.clear();
   }
   /// Drops them where another medium is to be made.

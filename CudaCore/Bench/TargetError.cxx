@@ -18,11 +18,10 @@ constexpr double longestStepAtWalls = 1, shortestStep = 0.25; // voxels
 
 /// The error of a step by its difference to half of it: 4/3 of it for an order of 2. Beside walls the order is below 1.
 constexpr double errorByHalving = 1.5;
-/// The error of n rays by their difference to 4 n, and to 2 n: it falls as 1 / n, about.
+/// The error of n rays by their difference to 4 n, and to 2 n: it falls as 1 / n, about. That of the first half of n
+/// rays would not do: both halves of an extended source can err to the same side.
 constexpr double errorByFourfold = 1.33;
 constexpr double errorByTwofold = 2;
-/// The same by the difference of n / 2 to n, which it is where it falls as 1 / n and where it is random; and a margin.
-constexpr double errorByHalf = 1.33;
 /// By how much it falls from n to 4 n, at least.
 constexpr double leastGain = 3.5;
 /// For what the patches have not seen.
@@ -303,10 +302,8 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
         Patches::ToVerify, { steps.longest, fewer }, { steps.longest, more }, monitor);
     };
     const int samples = settings.samples;
-    const bool areMost = samples == raysPerPixel.back();
-    byRays = samples <= 4 ? errorByFourfold : areMost ? errorByHalf : errorByTwofold;
-    ofRays = areMost ? compare(samples / 2, samples)
-                     : compare(samples, samples <= 4 ? 4 * samples : 2 * samples);
+    byRays = samples <= 4 ? errorByFourfold : errorByTwofold;
+    ofRays = compare(samples, samples <= 4 ? 4 * samples : 2 * samples);
   }
   const auto sum = [&](const auto& statistic)
   {

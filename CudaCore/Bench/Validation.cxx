@@ -3,7 +3,7 @@
 #include "Bench/Validation.h"
 
 #include "Bench/StageSettings.h"
-
+#include "Bench/WaveStage.h"
 #include "Film/NoiseFilters.h"
 #include "Math/Units.h"
 #include "Medium/Medium.h"
@@ -353,8 +353,14 @@ void validate(const Field& field, const Scene& scene)
   validateLengthScale(field.lengthScale);
   validateScene(scene);
   validateColors(field, scene);
-  const Frame frame = frameOf(field.grid, scene.view); // throws where the view is bad
+  const Frame frame = frameOf(field.grid, scene.view); // which throws where the view is bad
   validateLight(scene, frame, field.lengthScale);
+  const std::string problem =
+    scene.lightModel == LightModel::Waves ? problemOfWaves(field, scene, frame) : "";
+  if (!problem.empty())
+  {
+    throw Error(problem);
+  }
 }
 
 } // namespace schlieren

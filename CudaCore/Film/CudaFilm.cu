@@ -93,8 +93,8 @@ private:
   }
 };
 
-template <int planes>
-using DeviceSheet = Sheet<planes, DeviceDeposit<planes>, 1>;
+template <int planes, bool isOfPhase>
+using DeviceSheet = Sheet<planes, DeviceDeposit<planes>, 1, isOfPhase>;
 
 __device__ std::int64_t sumOverWarp(std::int64_t number)
 {
@@ -153,15 +153,15 @@ struct ShadedRays
       : FilmRay<planes>{};
   }
   /// Calls use(the rays of a cell, the rays around it).
-  template <class Use>
+  template <bool isOfPhase, class Use>
   __device__ void useCell(std::int64_t column, std::int64_t row, const Use& use) const
   {
     const auto ray = [&](std::int64_t right, std::int64_t up)
     { return at(column + right, row + up); };
     const auto smooth = [&ray](std::int64_t right, std::int64_t up)
     {
-      return sheetRay(ray(right, up), ray(right - 1, up), ray(right + 1, up), ray(right, up - 1),
-        ray(right, up + 1));
+      return sheetRay<isOfPhase>(ray(right, up), ray(right - 1, up), ray(right + 1, up),
+        ray(right, up - 1), ray(right, up + 1));
     };
     use(smooth(0, 0), smooth(1, 0), smooth(0, 1), smooth(1, 1), ray);
   }
@@ -235,7 +235,7 @@ __device__ void addSums(const DeviceDeposit<planes>& deposit)
 
 /// Deposits the light of shaded rays on the film; of a sheet, that of plain cells. All threads of a block come to its
 /// end.
-template <FilmEstimator estimator, int planes>
+template <FilmEstimator estimator, int planes, bool isOfPhase>
 __global__ void depositKernel(const ShadedRays<planes> from, const Sums sums)
 {
   const RaysOnDevice& rays = from.rays;
@@ -250,11 +250,11 @@ __global__ void depositKernel(const ShadedRays<planes> from, const Sums sums)
     }
     else if (i + 1 < rays.columns && j + 1 < rays.rows)
     {
-      from.useCell(i, j,
+      from.template useCell<isOfPhase>(i, j,
         [&](const auto& lowerLeft, const auto& lowerRight, const auto& upperLeft,
           const auto& upperRight, const auto&)
         {
-          if (!DeviceSheet<planes>(sums.film, deposit)
+          if (!DeviceSheet<planes, isOfPhase>(sums.film, deposit)
                  .addPlain(lowerLeft, lowerRight, upperLeft, upperRight))
           {
             const unsigned n = atomicAdd(from.bent, 1u);
@@ -267,7 +267,7 @@ __global__ void depositKernel(const ShadedRays<planes> from, const Sums sums)
 }
 
 /// The light of other cells, a thread for each part of them. All threads of a block come to its end.
-template <int planes>
+template <int planes, bool isOfPhase>
 __global__ void bentKernel(const ShadedRays<planes> from, const Sums sums)
 {
   constexpr unsigned parts = 4;
@@ -277,11 +277,11 @@ __global__ void bentKernel(const ShadedRays<planes> from, const Sums sums)
        n += gridDim.x * blockDim.x)
   {
     const unsigned cell = from.bent[1 + n / parts];
-    from.useCell(cell % rays.columns, rays.firstRow + cell / rays.columns,
+    from.template useCell<isOfPhase>(cell % rays.columns, rays.firstRow + cell / rays.columns,
       [&](const auto& lowerLeft, const auto& lowerRight, const auto& upperLeft,
         const auto& upperRight, const auto& around)
       {
-        DeviceSheet<planes>(sums.film, deposit)
+        DeviceSheet<planes, isOfPhase>(sums.film, deposit)
           .addOther(
             static_cast<int>(n % parts), lowerLeft, lowerRight, upperLeft, upperRight, around);
       });
@@ -305,20 +305,20 @@ void fetch(void* to, const void* from, std::size_t bytes)
   checkCuda(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "Fetching the image");
 }
 
-template <int planes>
+template <bool isOfPhase, int planes>
 void deposit(const ShadedRays<planes>& shaded, FilmEstimator estimator, const Sums& sums)
 {
   const unsigned blocks = shaded.rays.blocks(shaded.rays.endRow - shaded.rays.firstRow);
   if (estimator == FilmEstimator::Photon)
   {
-    launchKernel(depositKernel<FilmEstimator::Photon, planes>, blocks, threadsPerBlock, 0, nullptr,
-      shaded, sums);
+    launchKernel(depositKernel<FilmEstimator::Photon, planes, false>, blocks, threadsPerBlock, 0,
+      nullptr, shaded, sums);
     return;
   }
-  launchKernel(
-    depositKernel<FilmEstimator::Sheet, planes>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
-  launchKernel(bentKernel<planes>, std::min(blocks, maxBlocksOfBent), threadsPerBlock, 0, nullptr,
-    shaded, sums);
+  launchKernel(depositKernel<FilmEstimator::Sheet, planes, isOfPhase>, blocks, threadsPerBlock, 0,
+    nullptr, shaded, sums);
+  launchKernel(bentKernel<planes, isOfPhase>, std::min(blocks, maxBlocksOfBent), threadsPerBlock, 0,
+    nullptr, shaded, sums);
 }
 
 } // namespace
@@ -425,23 +425,30 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
     // Cells look at the rays below them and at two rows above.
     const RaysOnDevice rays{ traced.exits(), pass, margin, columns, rows, row, end,
       isSheet ? std::max<std::int64_t>(row - 1, 0) : row, isSheet ? std::min(rows, end + 2) : end };
-    std::visit(
-      [&](auto kind)
+    const auto exposeBy = [&](auto kind)
+    {
+      constexpr int planes = decltype(kind)::channels;
+      if (Table* table = tableOf(kind))
       {
-        constexpr int planes = decltype(kind)::channels;
-        if (Table* table = tableOf(kind))
-        {
-          *table = memory_->copyOf(*table);
-        }
-        const std::int64_t shadedRows = rays.endShaded - rays.firstShaded;
-        const ShadedRays<planes> shaded{ rays,
-          memory_->raysAtFilm<planes>(columns * std::min(rows, rowsPerBand + 3)),
-          isSheet ? memory_->bentCells(columns * std::min(rows, rowsPerBand)) : nullptr };
-        launchKernel(shadeKernel<decltype(kind)>, rays.blocks(shadedRows), threadsPerBlock, 0,
-          nullptr, kind, projection, shaded, sums);
-        deposit(shaded, estimator, sums);
-      },
-      cutoff);
+        *table = memory_->copyOf(*table);
+      }
+      const std::int64_t shadedRows = rays.endShaded - rays.firstShaded;
+      const ShadedRays<planes> shaded{ rays,
+        memory_->raysAtFilm<planes>(columns * std::min(rows, rowsPerBand + 3)),
+        isSheet ? memory_->bentCells(columns * std::min(rows, rowsPerBand)) : nullptr };
+      launchKernel(shadeKernel<decltype(kind)>, rays.blocks(shadedRows), threadsPerBlock, 0,
+        nullptr, kind, projection, shaded, sums);
+      deposit<std::is_same_v<decltype(kind), FringePhase>>(shaded, estimator, sums);
+    };
+    const auto* fringes = std::get_if<Interferogram>(&cutoff);
+    if (fringes && isSheet)
+    {
+      exposeBy(FringePhase{ *fringes });
+    }
+    else
+    {
+      std::visit(exposeBy, cutoff);
+    }
     checkCuda(cudaGetLastError(), "Starting the film's kernel");
   }
   if (memory_->samples)

@@ -82,13 +82,13 @@ void addPhotons(std::int64_t begin, std::int64_t end, const std::vector<TracedRa
   }
 }
 
-template <int planes>
+template <bool isOfPhase, int planes>
 void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays>& passes,
   const RowShader<planes>& shader, const FilmSize& film, Bands<planes>& bands, RayCounts& counts)
 {
   using Ray = FilmRay<planes>;
   using Row = std::vector<Ray>;
-  Sheet<planes, Bands<planes>> sheet(film, bands);
+  Sheet<planes, Bands<planes>, coverageTileSize, isOfPhase> sheet(film, bands);
   const auto columns = static_cast<std::size_t>(shader.columns);
   // With a ray that does not arrive at either end, as in rows outside.
   const Row none(columns + 2, Ray{});
@@ -117,7 +117,7 @@ void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays
       const Ray* above = rows[slotOf(row + 1)].data() + 1;
       for (std::size_t i = 0; i < columns; ++i)
       {
-        to[i] = sheetRay(here[i], here[i - 1], here[i + 1], below[i], above[i]);
+        to[i] = sheetRay<isOfPhase>(here[i], here[i - 1], here[i + 1], below[i], above[i]);
       }
     };
     load(begin - 1);
@@ -152,13 +152,17 @@ RayCounts depositRows(std::int64_t begin, std::int64_t end, const std::vector<Tr
   const FilmSize film{ films.planes[0].width(), films.planes[0].height(), films.planes[0].one() };
   RayCounts counts;
   Bands<planes> bands(films);
-  if (estimator == FilmEstimator::Sheet)
+  if (estimator != FilmEstimator::Sheet)
   {
-    addSheet(begin, end, passes, shader, film, bands, counts);
+    addPhotons(begin, end, passes, shader, film, bands, counts);
+  }
+  else if (shader.isOfPhase)
+  {
+    addSheet<true>(begin, end, passes, shader, film, bands, counts);
   }
   else
   {
-    addPhotons(begin, end, passes, shader, film, bands, counts);
+    addSheet<false>(begin, end, passes, shader, film, bands, counts);
   }
   return counts;
 }

@@ -27,8 +27,8 @@ RayCounts exposeRows(std::int64_t begin, std::int64_t end, const std::vector<Tra
   const Cutoffs& cutoff, const Projection& projection, std::int64_t margin, FilmEstimator estimator,
   Films& films)
 {
-  return depositRows<planes>(
-    begin, end, passes, *rowShader<planes>(cutoff, projection, films, margin), estimator, films);
+  return depositRows<planes>(begin, end, passes,
+    *rowShader<planes>(cutoff, projection, films, margin, estimator), estimator, films);
 }
 
 } // namespace

@@ -86,6 +86,10 @@ struct Image
   Vector steepestPlace{};    ///< about where that is, data units
   MediumStatistics medium;   ///< of a Field's source
   Accuracy accuracy;
+  LightModel lightModel = LightModel::Rays; ///< the one used
+  WaveReport waves;                         ///< but of LightModel::Rays
+  std::string
+    lightNote;          ///< why LightModel::Auto chose rays, where that is not the blur; else empty
   bool aborted = false; ///< the monitor stopped it; all arrays are empty
 
   /// False where the monitor has paused it, and Bench::resume continues it. The arrays then hold the image of

@@ -19,7 +19,8 @@ class ShaderOf : public RowShader<planes>
 public:
   ShaderOf(
     const CutoffKind& cutoff, const Projection& projection, const Films& films, std::int64_t margin)
-    : RowShader<planes>(films.planes[0].width() + 2 * margin, films.planes[0].height() + 2 * margin)
+    : RowShader<planes>(films.planes[0].width() + 2 * margin, films.planes[0].height() + 2 * margin,
+        std::is_same_v<CutoffKind, FringePhase>)
     , cutoff_(cutoff)
     , projection_(projection)
     , tint_(isTinted ? &*films.tintOfRays : nullptr)
@@ -84,7 +85,7 @@ private:
     return colored;
   }
 
-  const CutoffKind& cutoff_;
+  CutoffKind cutoff_;
   const Projection& projection_;
   const Tint* tint_;
   std::int64_t margin_;
@@ -94,8 +95,8 @@ private:
 } // namespace
 
 template <int planes>
-std::unique_ptr<const RowShader<planes>> rowShader(
-  const Cutoffs& cutoff, const Projection& projection, const Films& films, std::int64_t margin)
+std::unique_ptr<const RowShader<planes>> rowShader(const Cutoffs& cutoff,
+  const Projection& projection, const Films& films, std::int64_t margin, FilmEstimator estimator)
 {
   return std::visit(
     [&](const auto& kind) -> std::unique_ptr<const RowShader<planes>>
@@ -109,6 +110,14 @@ std::unique_ptr<const RowShader<planes>> rowShader(
           return std::make_unique<ShaderOf<planes, true, Kind>>(kind, projection, films, margin);
         }
       }
+      if constexpr (planes == 1 && std::is_same_v<Kind, Interferogram>)
+      {
+        if (estimator == FilmEstimator::Sheet)
+        {
+          return std::make_unique<ShaderOf<planes, false, FringePhase>>(
+            FringePhase{ kind }, projection, films, margin);
+        }
+      }
       if constexpr (planes == Kind::channels)
       {
         return std::make_unique<ShaderOf<planes, false, Kind>>(kind, projection, films, margin);
@@ -119,10 +128,10 @@ std::unique_ptr<const RowShader<planes>> rowShader(
 }
 
 template std::unique_ptr<const RowShader<1>> rowShader<1>(
-  const Cutoffs&, const Projection&, const Films&, std::int64_t);
+  const Cutoffs&, const Projection&, const Films&, std::int64_t, FilmEstimator);
 template std::unique_ptr<const RowShader<3>> rowShader<3>(
-  const Cutoffs&, const Projection&, const Films&, std::int64_t);
+  const Cutoffs&, const Projection&, const Films&, std::int64_t, FilmEstimator);
 template std::unique_ptr<const RowShader<4>> rowShader<4>(
-  const Cutoffs&, const Projection&, const Films&, std::int64_t);
+  const Cutoffs&, const Projection&, const Films&, std::int64_t, FilmEstimator);
 
 } // namespace schlieren

@@ -31,9 +31,10 @@ template <int planes>
 class RowShader
 {
 public:
-  RowShader(std::int64_t columnCount, std::int64_t rowCount)
+  RowShader(std::int64_t columnCount, std::int64_t rowCount, bool givesPhase)
     : columns(columnCount)
     , rows(rowCount)
+    , isOfPhase(givesPhase)
   {
   }
   RowShader(const RowShader&) = delete;
@@ -41,6 +42,7 @@ public:
   virtual ~RowShader() = default;
 
   const std::int64_t columns, rows; ///< the margin among them
+  const bool isOfPhase;             ///< see FringePhase
 
   /// The rays of a pass that start in a row (from 0 on). Returns the rows of the film (from the first to the
   /// last pixel) that some of them land in.
@@ -48,9 +50,9 @@ public:
     const TracedRays& pass, std::int64_t row, FilmRay<planes>* rays, RayCounts& counts) const = 0;
 };
 
-/// `planes`: those of the films. The arguments stay with their owner.
+/// `planes`: those of the films. The projection and the films stay with their owner.
 template <int planes>
-std::unique_ptr<const RowShader<planes>> rowShader(
-  const Cutoffs& cutoff, const Projection& projection, const Films& films, std::int64_t margin);
+std::unique_ptr<const RowShader<planes>> rowShader(const Cutoffs& cutoff,
+  const Projection& projection, const Films& films, std::int64_t margin, FilmEstimator estimator);
 
 } // namespace schlieren

@@ -42,7 +42,7 @@ struct FilmRay
 {
   double x,
     y; ///< pixels from the film's lower left corner: pixel (i, j) is [i, i + 1] x [j, j + 1]
-  double light[planes]; ///< 0 ... 1
+  double light[planes]; ///< 0 ... 1; of FringePhase: turns
   bool arrives;
   bool crossed = true; ///< the medium
 };

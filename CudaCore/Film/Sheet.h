@@ -9,6 +9,7 @@
 #include "Film/Coverage.h"
 #include "Film/Photon.h"
 #include "Math/HostDevice.h"
+#include "Optics/Interferogram.h"
 
 #include <cmath>
 #include <cstdint>
@@ -32,8 +33,8 @@ SCHLIEREN_HD bool areTogether(const FilmRay<planes>& a, const FilmRay<planes>& b
   return a.arrives && b.arrives && a.crossed == b.crossed;
 }
 
-/// Neighbours that do not arrive, are none, or on the other side of the medium's edge count for nothing.
-template <int planes>
+/// Neighbours that do not arrive, are none, or on the other side of the medium's edge count for nothing. `isOfPhase`: see Sheet.
+template <bool isOfPhase = false, int planes>
 SCHLIEREN_HD SheetRay<planes> sheetRay(const FilmRay<planes>& here, const FilmRay<planes>& left,
   const FilmRay<planes>& right, const FilmRay<planes>& below, const FilmRay<planes>& above)
 {
@@ -62,15 +63,16 @@ SCHLIEREN_HD SheetRay<planes> sheetRay(const FilmRay<planes>& here, const FilmRa
     look(below, above);
     for (double& light : ray.light)
     {
-      light = light > 0 ? (light < 1 ? light : 1) : 0;
+      light = isOfPhase ? light : limited(light);
     }
   }
   return ray;
 }
 
 /// Spreads the light between rays over a film's pixels. Deposit: see addPhoton. `rowsAtOnce`: of pixels that a
-/// polygon covers; the fewer, the less memory.
-template <int planes, class Deposit, int rowsAtOnce = coverageTileSize>
+/// polygon covers; the fewer, the less memory. `isOfPhase`: rays have a phase instead of light, see FringePhase; light is made
+/// of it where it is spread.
+template <int planes, class Deposit, int rowsAtOnce = coverageTileSize, bool isOfPhase = false>
 class Sheet
 {
 public:
@@ -213,12 +215,13 @@ private:
       const double sideLeft = l0 + t0 * (l3 - l0), sideRight = l1 + t1 * (l2 - l1);
       const double lowerMiddle = l0 + s * (l1 - l0), upperMiddle = l3 + s * (l2 - l3);
       const double middle = lowerMiddle + t * (upperMiddle - lowerMiddle);
-      const double w0 = a0 * (l0 + lower + sideLeft + middle);
-      const double w1 = a1 * (l1 + lower + sideRight + middle);
-      const double w2 = a2 * (l2 + upper + sideRight + middle);
-      const double w3 = a3 * (l3 + upper + sideLeft + middle);
-      const std::int64_t whole = film_.fixed(0.25 * ((l0 + l2) + (l1 + l3)));
+      const double w0 = a0 * lightOfPart(l0, lower, sideLeft, middle);
+      const double w1 = a1 * lightOfPart(l1, lower, sideRight, middle);
+      const double w2 = a2 * lightOfPart(l2, upper, sideRight, middle);
+      const double w3 = a3 * lightOfPart(l3, upper, sideLeft, middle);
       const double sum = (w0 + w2) + (w1 + w3);
+      const std::int64_t whole = film_.fixed(
+        isOfPhase ? 0.25 * sum / ((a0 + a2) + (a1 + a3)) : 0.25 * ((l0 + l2) + (l1 + l3)));
       const double scale = sum > 0 ? static_cast<double>(whole) / sum : 0;
       const auto second = static_cast<std::int64_t>(w1 * scale);
       const auto third = static_cast<std::int64_t>(w2 * scale);
@@ -228,6 +231,19 @@ private:
         Contributions{ whole - second - third - fourth, second, fourth, third });
     }
     return true;
+  }
+
+  /// Four times the mean light of a part of a cell with a corner, one beside it, one above or below it, and one opposite.
+  SCHLIEREN_HD static double lightOfPart(double corner, double beside, double over, double opposite)
+  {
+    const double sum = corner + beside + over + opposite;
+    if constexpr (isOfPhase)
+    {
+      return 4 *
+        fringeLight(0.25 * sum, 0.5 * ((beside - corner) + (opposite - over)),
+          0.5 * ((over - corner) + (opposite - beside)));
+    }
+    return sum;
   }
 
   SCHLIEREN_HD static bool isBent(const SheetRay<planes>& lowerLeft,
@@ -358,7 +374,8 @@ private:
       larger(2 * lower.high - 1, 0) };
     for (int plane = 0; plane < planes; ++plane)
     {
-      const std::int64_t whole = film_.fixed(0.25 * ray.light[plane]);
+      const std::int64_t whole =
+        film_.fixed(0.25 * (isOfPhase ? fringeLight(ray.light[plane]) : ray.light[plane]));
       deposit_.emitted(plane, whole);
       if (isNear)
       {
@@ -391,8 +408,29 @@ private:
       cell.light[plane][1] = lowerRight.light[plane];
       cell.light[plane][2] = upperRight.light[plane];
       cell.light[plane][3] = upperLeft.light[plane];
+      if constexpr (isOfPhase)
+      {
+        makeLight(cell.light[plane]);
+      }
     }
     return cell;
+  }
+
+  /// Replaces the corners' phases by light whose mean is that of the cell.
+  SCHLIEREN_HD static void makeLight(double (&corners)[4])
+  {
+    const double mean = 0.25 * lightOfPart(corners[0], corners[1], corners[3], corners[2]);
+    double sum = 0;
+    for (double& corner : corners)
+    {
+      corner = fringeLight(corner);
+      sum += corner;
+    }
+    const double missing = mean - 0.25 * sum;
+    for (double& corner : corners)
+    {
+      corner = limited(corner + missing);
+    }
   }
 
   const FilmSize film_;

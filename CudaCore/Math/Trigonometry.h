@@ -13,8 +13,8 @@
 namespace schlieren
 {
 
-/// sin(pi x) for x in -1/2 ... 1/2; error 4e-14.
-SCHLIEREN_HD double sinPi(double x)
+/// sin(pi x) / x for x in -1/2 ... 1/2; error 1e-13.
+SCHLIEREN_HD double sinPiByX(double x)
 {
   const double s = x * x;
   double sum = 0.0004461717981030233;
@@ -23,8 +23,11 @@ SCHLIEREN_HD double sinPi(double x)
   sum = sum * s - 0.5992643836180047;
   sum = sum * s + 2.5501640322361787;
   sum = sum * s - 5.167712779873202;
-  return x * (sum * s + 3.1415926535886105);
+  return sum * s + 3.1415926535886105;
 }
+
+/// sin(pi x) for x in -1/2 ... 1/2; error 4e-14.
+SCHLIEREN_HD double sinPi(double x) { return x * sinPiByX(x); }
 
 /// sin(pi x) / x for x in -1/2 ... 1/2, in single precision; error 3e-7.
 SCHLIEREN_HD float sinPiByX(float x)
@@ -47,6 +50,19 @@ SCHLIEREN_HD double fromNearestWhole(double x)
 {
   const double fraction = x - ((x + wholes) - wholes);
   return fraction >= -0.5 && fraction <= 0.5 ? fraction : 0;
+}
+
+/// sin(pi x) / (pi x); error 1e-13.
+SCHLIEREN_HD double sincPi(double x)
+{
+  constexpr double perPi = 1 / pi;
+  if (fabs(x) <= 0.5)
+  {
+    return perPi * sinPiByX(x);
+  }
+  const double half = fromNearestWhole(0.5 * x); // the angle, by 2 pi
+  const double quarter = sinPi(0.5 * half);
+  return perPi * 2 * sinPi(half) * (1 - 2 * quarter * quarter) / x;
 }
 
 /// The direction of (x, y) in radians, counterclockwise from x; -pi ... pi, error 2e-13. Of (0, 0): 0.

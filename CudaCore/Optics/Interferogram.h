@@ -42,6 +42,15 @@ struct Carrier
   }
 };
 
+/// The light of two beams of one wavelength, (1 + cos(2 pi turns)) / 2, or its mean over a parallelogram in whose middle they
+/// differ by `turns`, and by so many more from one side to the other.
+SCHLIEREN_HD double fringeLight(double turns, double along = 0, double up = 0)
+{
+  const double sine = sinPi(fromNearestWhole(turns));
+  const double contrast = along == 0 && up == 0 ? 1 : sincPi(along) * sincPi(up);
+  return limited(0.5 + contrast * (0.5 - sine * sine));
+}
+
 /// Makes fringes in light of one wavelength.
 struct Interferogram
 {
@@ -54,9 +63,22 @@ struct Interferogram
   {
     // Apart: 1e7 wavelengths leave a double 1e-9 of a fringe.
     const double ofPath = fromNearestWhole(ray.path * perWavelength);
-    const double turns = fromNearestWhole(ofPath + carrier.turnsAt(ray.position));
-    const double sine = sinPi(turns);
-    light[0] = limited(1 - sine * sine); // (1 + cos(2 pi turns)) / 2
+    light[0] = fringeLight(ofPath + carrier.turnsAt(ray.position));
+  }
+  SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
+};
+
+/// Gives rays their phase in turns instead of their light, for whoever interpolates between rays: light has fringes, which
+/// interpolation flattens, and the phase has none.
+struct FringePhase
+{
+  static constexpr int channels = 1;
+
+  Interferogram fringes;
+
+  SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&turns)[channels]) const
+  {
+    turns[0] = ray.path * fringes.perWavelength + fringes.carrier.turnsAt(ray.position);
   }
   SCHLIEREN_HD bool saturates(const double (&)[2]) const { return false; }
 };

@@ -37,6 +37,8 @@ const std::vector<PresetSetting> defaults = {
   { "FocusOffset", 0, nullptr },
   { "LightSource", Filter::COLLIMATED, nullptr },
   { "SourceShape", Filter::POINT, nullptr },
+  { "LightModel", Filter::LIGHT_RAYS, nullptr },
+  { "Bandwidth", 0, nullptr },
 };
 
 BenchPreset preset(const char* name, const std::vector<PresetSetting>& changes)

@@ -24,7 +24,7 @@ TEXTS = {"IndexModel": {"Auto", "Gladstone-Dale", "Gladstone-Dale Mixture", "Cid
          "LockK": {"Off", "Over Time", "Always"},
          "ExitInto": {"Auto", "Surroundings", "Air", "Custom"},
          "FringeMode": {"Infinite", "Finite"}, "LightSource": {"Collimated", "Diverging"},
-         "SourceShape": {"Point", "Slit", "Disc"},
+         "SourceShape": {"Point", "Slit", "Disc"}, "LightModel": {"Rays", "Waves", "Auto"},
          "BackgroundPattern": {"Dots", "Stripes", "Picture", "Scene"}, "FilmEstimator": {"Sheet", "Photon"},
          "NoiseFilter": {"None", "Gaussian", "Mean", "Cone"},
          "Quality": {"Interactive", "Fine", "Publication", "Reference", "Automatic", "Custom"},

@@ -87,6 +87,27 @@ void addWithUnit(vtkImageData* output, const char* name, double value, const cha
   setUnit(output->GetFieldData()->GetArray(name), unit);
 }
 
+/// Adds what is known of waves, where LightModel is not Rays.
+void addWaves(vtkImageData* output, const schlieren::Image& image)
+{
+  const std::string words = wavesInWords(image);
+  if (words.empty())
+  {
+    return;
+  }
+  const schlieren::WaveReport& waves = image.waves;
+  addFieldValue<vtkStringArray>(output, "WavesMatter", words);
+  addWithUnit(output, "FresnelWidth", waves.fresnelWidth, "m");
+  if (image.lightModel == schlieren::LightModel::Waves)
+  {
+    addWithUnit(output, "WavePlane", waves.plane, "m");
+    addFieldValue<vtkDoubleArray>(output, "LeastTubeRatio", waves.leastTubeRatio);
+    addFieldValue<vtkTypeInt64Array>(output, "PointsPerPixel", waves.pointsPerPixel);
+    addFieldValues<vtkTypeInt64Array>(
+      output, "WavePoints", std::array<std::int64_t, 2>{ waves.columns, waves.rows });
+  }
+}
+
 /// Places an image in the plane z = 0. Resets the direction, which VTK copies since 9.3.
 void place(vtkImageData* output, double x, double y, double spacing)
 {
@@ -181,6 +202,7 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
     addWithUnit(output, "SkippingBound", image.skippingBound, "rad");
   }
   addFieldValue<vtkDoubleArray>(output, "MomentumDrift", image.momentumDrift);
+  addWaves(output, image);
   if (image.accuracy.target > 0)
   {
     addFieldValue<vtkDoubleArray>(output, "TargetError", image.accuracy.target);

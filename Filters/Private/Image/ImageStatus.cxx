@@ -111,6 +111,29 @@ std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::S
 }
 
 //------------------------------------------------------------------------------
+std::string wavesInWords(const schlieren::Image& image)
+{
+  const schlieren::WaveReport& waves = image.waves;
+  if (!image.lightNote.empty())
+  {
+    return "rays: " + image.lightNote;
+  }
+  if (!(waves.fresnelWidth > 0))
+  {
+    return "";
+  }
+  constexpr double millimetre = 1e-3;
+  constexpr double hidesLittle = 0.5 * schlieren::blurThatHidesWaves;
+  const double ratio = waves.blur / waves.fresnelWidth;
+  const std::string widths = "the Fresnel width is " + textOf(waves.fresnelWidth / millimetre, 3) +
+    " mm, a pixel with the source's image " + textOf(waves.blur / millimetre, 3) + " mm";
+  return image.lightModel == schlieren::LightModel::Rays ? "rays, which suffice: " + widths
+    : ratio < hidesLittle                                ? "waves, which matter: " + widths
+    : ratio < schlieren::blurThatHidesWaves ? "waves, which matter at edges and caustics: " + widths
+                                            : "waves, but rays would suffice: " + widths;
+}
+
+//------------------------------------------------------------------------------
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond)
 {
@@ -119,7 +142,9 @@ std::string statusInWords(
   {
     words += speedInWords(raysPerSecond) + " on ";
   }
+  const std::string waves = wavesInWords(image);
   return words + deviceInWords(image) + ", " + accuracyInWords(image, scene) +
+    (waves.empty() ? "" : ", " + waves) +
     (image.accuracy.target > 0 ? ", " + errorInWords(image.accuracy, scene) + ", limited by " +
           limitInWords(image.accuracy)
         : scene.targetError > 0 ? ", error not known yet"

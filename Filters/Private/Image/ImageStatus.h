@@ -20,6 +20,9 @@ std::string limitInWords(const schlieren::Accuracy& accuracy);
 /// Returns a text such as "error 0.0031 of full scale (target 0.0039)", of an image with a target.
 std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::Scene& scene);
 
+/// Says whether waves matter to an image whose LightModel is not Rays; empty for others.
+std::string wavesInWords(const schlieren::Image& image);
+
 /// Describes an image in one line: samples, the time that missing ones take, speed, device
 /// and accuracy of its rays, and the error that a target has led to.
 /// `raysPerSecond`: 0 if unknown.

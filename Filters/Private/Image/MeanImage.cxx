@@ -112,6 +112,9 @@ void MeanImage::Add(schlieren::Image&& image)
   const double error = std::max(mean.medium.estimatedError, image.medium.estimatedError);
   mean.medium = image.medium;
   mean.medium.estimatedError = error;
+  mean.waves = image.waves;
+  mean.lightNote = image.lightNote.empty() ? mean.lightNote : image.lightNote;
+  mean.lightModel = std::min(mean.lightModel, image.lightModel);
   if (mean.deviceNote.empty())
   {
     mean.deviceNote = image.deviceNote;

@@ -55,6 +55,7 @@ void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int red
   scene.background.pixelsPerPeriod =
     std::max(scene.background.pixelsPerPeriod, fewestPerPeriod * reduction) / larger;
   scene.targetError = 0;
+  scene.lightModel = schlieren::LightModel::Rays; // waves take as many points for fewer pixels
   scene.samplesPerPixel = std::min(scene.samplesPerPixel, 1); // keeps invalid values
   scene.stepSize = std::max(scene.stepSize, interactiveStepSize());
   scene.noiseFilterRadius /= reduction;

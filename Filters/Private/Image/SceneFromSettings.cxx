@@ -67,6 +67,22 @@ schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbI
   return pattern;
 }
 
+schlieren::LightModel lightModelFrom(const SchlierenSettings& settings)
+{
+  const auto model = static_cast<schlieren::LightModel>(settings.LightModel);
+  if (settings.PathModel != AccuracySettings::differencePath)
+  {
+    return model;
+  }
+  if (model == schlieren::LightModel::Waves)
+  {
+    throw std::runtime_error("LightModel is Waves, but PathModel is Difference, which compares "
+                             "rays. Set PathModel to Auto or "
+                             "Refracted, or LightModel to Rays.");
+  }
+  return schlieren::LightModel::Rays;
+}
+
 /// Returns the view of the full image.
 schlieren::View viewFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
 {
@@ -164,8 +180,15 @@ schlieren::Scene sceneFrom(
   {
     scene.colorFilter = images.read("ColorFilterImage", settings.ColorFilterImage);
   }
-  scene.wavelength = metresPerNanometre * settings.Wavelength;
-  if (schlieren::techniqueOf(scene.cutoff).hasFringes)
+  scene.lightModel = lightModelFrom(settings);
+  const bool hasFringes = schlieren::techniqueOf(scene.cutoff).hasFringes;
+  if (hasFringes || scene.lightModel != schlieren::LightModel::Rays || scene.lens.diffracts)
+  {
+    scene.wavelength = metresPerNanometre * settings.Wavelength;
+  }
+  scene.bandwidth = metresPerNanometre * settings.Bandwidth;
+  scene.coherenceSamples = settings.CoherenceSamples;
+  if (hasFringes)
   {
     scene.fringes = fringesFrom(settings, frame);
   }

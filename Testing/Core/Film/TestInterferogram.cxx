@@ -3,6 +3,7 @@
 // Fringes against their formulas, of one wavelength and of white light.
 #include "Bench/CutoffMaker.h"
 #include "Fields.h"
+#include "Film/Exposure.h"
 
 #include <algorithm>
 #include <array>
@@ -176,6 +177,65 @@ TEST(FiniteFringes, AlongAnAxisAreExactlyStraight)
     };
     EXPECT_EQ(at(12, 0), at(12, 511));
     EXPECT_NE(at(12, 0), at(13, 0));
+  }
+}
+
+/// One ray per pixel makes pixels as bright as the fringes in them are on average, wherever in a pixel rays start.
+void expectMeansOfPixels(double spacing, double bend, double tolerance)
+{
+  constexpr int width = 40, height = 30, margin = 2, columns = width + 2 * margin;
+  constexpr int finer = 64;
+  Scene scene = interferogram();
+  scene.view.width = width;
+  scene.view.height = height;
+  scene.fringes.finite = true;
+  scene.fringes.spacing = spacing;
+  scene.fringes.angle = 25;
+  const Interferogram fringes = cutoffOf(scene, 1);
+  const auto waves = [=](double x, double y)
+  { return bend * (std::sin(0.12 * x) + std::cos(0.17 * y - 0.05 * x)); };
+  for (const PixelOffset& offset : { PixelOffset{ 0, 0 }, PixelOffset{ 0.4, -0.23 } })
+  {
+    const Pass pass{ -margin, -margin, columns, height + 2 * margin, offset };
+    RayExits exits;
+    for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
+    {
+      RayExit exit{};
+      exit.opticalPathDifference = heliumNeon * waves(pass.columnOf(ray), pass.rowOf(ray));
+      exits.push_back(exit);
+    }
+    Films films(1, {}, width, height, pass.columns * pass.rows);
+    expose({ { pass, exits.data(), nullptr } }, fringes, { 0, 1, 0 }, margin, FilmEstimator::Sheet,
+      1, films);
+    const PixelArray<float> image = films.developIntensity(1, 1);
+    double worst = 0;
+    for (int row = 0; row < height; ++row)
+    {
+      for (int column = 0; column < width; ++column)
+      {
+        double mean = 0;
+        for (int n = 0; n < finer * finer; ++n)
+        {
+          const double x = column - 0.5 + (n % finer + 0.5) / finer;
+          const double y = row - 0.5 + (static_cast<double>(n / finer) + 0.5) / finer;
+          mean += lightOf(fringes, { { 0, 0 }, heliumNeon * waves(x, y), { x, y } });
+        }
+        worst = std::max(worst,
+          std::abs(mean / (finer * finer) -
+            static_cast<double>(image[static_cast<std::size_t>(row * width + column)])));
+      }
+    }
+    EXPECT_LT(worst, tolerance);
+  }
+}
+
+TEST(FiniteFringes, OfAPixelEachAreRightWithARayEach)
+{
+  for (const double spacing : { 8., 3., 2., 1.3 })
+  {
+    SCOPED_TRACE(spacing);
+    expectMeansOfPixels(spacing, 0, 2e-4); // what the sums above leave out
+    expectMeansOfPixels(spacing, 1, 2e-3);
   }
 }
 

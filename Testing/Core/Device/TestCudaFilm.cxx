@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The same rays make the same image on host and device.
 #include "Bench/CutoffMaker.h"
+#include "Bench/StageSettings.h"
 #include "Fields.h"
 #include "Film/CentreValues.h"
 #include "Film/CudaFilm.h"
+#include "Film/Development.h"
 #include "Optics/AutomaticK.h"
 
 #include <algorithm>
@@ -200,6 +202,28 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
     check();
   }
   EXPECT_EQ(kinds.size(), std::variant_size_v<Cutoffs>);
+}
+
+TEST_F(HostAndDeviceFilm, ShowsTheSameWithoutTheFlow)
+{
+  Scene scene;
+  scene.view.width = width;
+  scene.view.height = height;
+  scene.cutoff = Cutoff::Background;
+  CutoffMaker maker;
+  constexpr std::int64_t passes = 2,
+                         maxRays = passes * (width + 2 * margin) * (height + 2 * margin);
+  const Exposure exposure{ maker.cutoffOf(scene, 0, { 0.013 }), projection, margin, maxRays };
+  const FilmSettings settings = filmSettingsOf(scene);
+  UndisturbedImage onHost(settings, exposure), onDevice(settings, exposure);
+  while (onHost.passes() < passes)
+  {
+    onHost.addPass(Device::Cpu, {});
+    onDevice.addPass(Device::Cuda, {});
+  }
+  const PixelArray<float> light = onHost.develop();
+  EXPECT_EQ(light, onDevice.develop());
+  EXPECT_GT(*std::max_element(light.begin(), light.end()), 0.5f);
 }
 
 TEST_F(HostAndDeviceFilm, FindsTheSameStrongDeflection)

@@ -1,0 +1,389 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bench/WaveStage.h"
+
+#include "Bench/StageSettings.h"
+#include "Rays/Cpu/CpuTracer.h"
+#include "Rays/March/MakeTask.h"
+#include "Waves/EdgeWaves.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// Bodies are edges, which take points by the Fresnel width, each with a ray of its own; at least and at most so many along the
+/// side of a pixel.
+constexpr double raysPerFresnelWidth = 8;
+constexpr int leastRaysPerPixel = 2;
+constexpr int mostRaysPerPixel = 4;
+
+constexpr int mostCoherenceSamples = 1024;
+
+constexpr const char* orRays = " or LightModel to Rays.";
+
+/// How many wavelengths a band is made of: with 8 a band of a fiftieth is right to 2e-4, with 16 one of a fifth to 3e-3.
+int wavelengthsFor(const Scene& scene)
+{
+  constexpr double narrow = 0.03;
+  return scene.bandwidth == 0 ? 1 : scene.bandwidth < narrow * scene.wavelength ? 8 : 16;
+}
+
+/// Rays by which an image's light is traced for waves: those of its centre, on a grid of its own.
+Scene sceneOfRays(const Scene& scene, int raysPerPixel)
+{
+  Scene ofRays = scene;
+  ofRays.view.width *= raysPerPixel;
+  ofRays.view.height *= raysPerPixel;
+  ofRays.source = LightSource{};
+  ofRays.pathModel = PathModel::Refracted;
+  return ofRays;
+}
+
+double largestDeflectionOf(const Image& image)
+{
+  double largest = 0;
+  for (std::size_t i = 0; i + 1 < image.deflection.size(); i += 2)
+  {
+    largest = std::max(largest,
+      std::hypot(
+        static_cast<double>(image.deflection[i]), static_cast<double>(image.deflection[i + 1])));
+  }
+  return largest;
+}
+
+void addExits(const TracedPass& traced, double lengthScale, LightAtExit& light)
+{
+  for (std::size_t ray = 0; ray < light.size(); ++ray)
+  {
+    const RayExit& exit = traced.exits[ray];
+    if (!exit.reachesFilm())
+    {
+      light.isBlocked[ray] = 1;
+      continue;
+    }
+    light.path[ray] = exit.opticalPathDifference;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      light.deflection[axis][ray] = exit.deflection[axis];
+      light.displacement[axis][ray] = lengthScale * static_cast<double>(exit.displacement[axis]);
+    }
+  }
+}
+
+void addBlocked(const TracedPass& traced, float perPass, LightAtExit& light)
+{
+  for (std::size_t ray = 0; ray < light.size(); ++ray)
+  {
+    light.passing[ray] -= traced.exits[ray].reachesFilm() ? 0 : perPass;
+  }
+}
+
+} // namespace
+
+std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& frame)
+{
+  if (scene.cutoff != Cutoff::Shadowgraph && scene.cutoff != Cutoff::KnifeEdge)
+  {
+    return std::string("LightModel is Waves, but Cutoff is ") + techniqueOf(scene.cutoff).name +
+      ", and waves are made of a Shadowgraph or a Knife Edge alone. Set Cutoff to one of these," +
+      orRays;
+  }
+  if (frame.pupil > 0 || scene.source.distance)
+  {
+    return std::string(
+             "LightModel is Waves, but light diverges, and waves take parallel light. Set ") +
+      (frame.pupil > 0 ? "ViewAngle to 0," : "LightSource to Collimated,") + orRays;
+  }
+  if (!(scene.wavelength > 0 && std::isfinite(scene.wavelength) &&
+        std::isfinite(1 / scene.wavelength)))
+  {
+    return "Wavelength is " + std::to_string(scene.wavelength) +
+      " metres. Set it to a positive number.";
+  }
+  if (!(scene.bandwidth >= 0 && scene.bandwidth < scene.wavelength))
+  {
+    return "Bandwidth is " + std::to_string(scene.bandwidth / scene.wavelength) +
+      " times Wavelength. Set it to 0 or more, but to less than Wavelength.";
+  }
+  if (scene.coherenceSamples < 1 || scene.coherenceSamples > mostCoherenceSamples)
+  {
+    return "CoherenceSamples is " + std::to_string(scene.coherenceSamples) +
+      ". Set it between 1 and " + std::to_string(mostCoherenceSamples) + ".";
+  }
+  if (scene.pathModel == PathModel::Straight)
+  {
+    return std::string("LightModel is Waves, but PathModel is Straight, and straight rays lack the "
+                       "length of bent "
+                       "paths. Set PathModel to Auto or Refracted,") +
+      orRays;
+  }
+  if (field.gradients.count > 0)
+  {
+    return std::string("LightModel is Waves, but the image is tinted by fields, which colour rays. "
+                       "Set ColorByField to off,") +
+      orRays;
+  }
+  return "";
+}
+
+std::int64_t pixelsOfFresnelMargin(
+  const Field& field, const Scene& scene, const Frame& frame, const ExitFaces& faces)
+{
+  if (scene.lightModel == LightModel::Rays || !problemOfWaves(field, scene, frame).empty())
+  {
+    return 0;
+  }
+  const double depth = frame.exit - frame.entry;
+  const double farthest = field.lengthScale * (std::abs(filmDistance(scene, frame, faces)) + depth);
+  Screen screen;
+  screen.source = scene.cutoff == Cutoff::Shadowgraph ? scene.source : LightSource{};
+  const double pixels =
+    marginOnScreen(screen, scene.wavelength, farthest, 0) / (field.lengthScale * frame.pixelSize);
+  constexpr double most = 1 << 20; // more than can be traced
+  return static_cast<std::int64_t>(std::ceil(std::min(pixels, most)));
+}
+
+template <class Real>
+bool WaveStage<Real>::areWanted(Image& image) const
+{
+  const Scene& scene = request_.scene;
+  if (scene.lightModel == LightModel::Rays)
+  {
+    return false;
+  }
+  const std::string problem = problemOfWaves(request_.field, scene, image.frame);
+  const bool isOfScreen = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen;
+  if (!problem.empty() || (scene.lightModel == LightModel::Auto && !isOfScreen))
+  {
+    image.lightNote =
+      !problem.empty() ? problem : "LightModel Auto takes waves of a Shadowgraph alone.";
+    return false;
+  }
+  const Screen screen = screenOf(image);
+  const double distance = screen.distance + screen.planeOtherwise;
+  image.waves.fresnelWidth =
+    fresnelWidth(scene.wavelength / (1 + image.exitRefractivity), distance);
+  image.waves.blur =
+    blurOnScreen(scene.source, request_.field.lengthScale * image.frame.pixelSize, distance);
+  return scene.lightModel == LightModel::Waves ||
+    image.waves.blur < blurThatHidesWaves * image.waves.fresnelWidth;
+}
+
+template <class Real>
+Screen WaveStage<Real>::screenOf(const Image& image) const
+{
+  const Scene& scene = request_.scene;
+  const double scale = request_.field.lengthScale;
+  const double depth = scale * (image.frame.exit - image.frame.entry) / faces_.ratio;
+  Screen screen;
+  screen.wavelength = scene.wavelength;
+  screen.distance = scale * filmDistance(scene, image.frame, faces_);
+  screen.width = image.width;
+  screen.height = image.height;
+  screen.source = scene.cutoff == Cutoff::Shadowgraph ? scene.source : LightSource{};
+  screen.sourceAngle = scene.knifeEdgeAngle;
+  screen.planeOtherwise = 0.5 * depth;
+  screen.largestPlane = depth;
+  screen.memoryBudget = scene.memoryBudget;
+  screen.threads = scene.threads;
+  if (image.raysBlocked > 0)
+  {
+    const double pixel = scale * image.frame.pixelSize;
+    const double wanted = std::ceil(raysPerFresnelWidth * pixel /
+      fresnelWidth(scene.wavelength, screen.distance + screen.planeOtherwise));
+    screen.raysPerPixel =
+      static_cast<int>(std::clamp(wanted, double{ leastRaysPerPixel }, double{ mostRaysPerPixel }));
+  }
+  return screen;
+}
+
+template <class Real>
+std::int64_t WaveStage<Real>::borderOf(const Image& image, const Screen& screen) const
+{
+  const Scene& scene = request_.scene;
+  const double pixel = request_.field.lengthScale * image.frame.pixelSize;
+  const double bent = (screen.distance + screen.largestPlane) * largestDeflectionOf(image) / pixel;
+  constexpr std::int64_t least = 4; // splines have four points
+  const auto most = static_cast<double>(maxMargin(scene.view));
+  return least + pixelsOfFresnelMargin(request_.field, scene, image.frame, faces_) +
+    static_cast<std::int64_t>(std::ceil(std::min(bent, most)));
+}
+
+template <class Real>
+const TracedPass* WaveStage<Real>::tracePass(
+  std::int64_t number, const Pass& pass, const RayTask<Real>& task, Image& image)
+{
+  Monitor monitor;
+  monitor.aborted = watch_.monitor().aborted;
+  const auto trace = [&](TracedPass& traced, bool)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    const bool isTraced = traceOnCpu(task, pass, traced, request_.scene.threads, monitor);
+    image.traceSeconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    work_.raysTraced += traced.crossed;
+    return isTraced;
+  };
+  constexpr std::size_t partOfBudget = 4; // the rest is for the image's own rays
+  return rays_.raysOf(
+    number, pass, Device::Cpu, 0, request_.scene.memoryBudget / partOfBudget, trace);
+}
+
+/// Before they are traced.
+void requireMemory(const Pass& pass, const Screen& screen)
+{
+  constexpr double bytesPerRay = sizeof(RayExit) + 5 * sizeof(double) + sizeof(float) + 1;
+  constexpr double mebibyte = 1 << 20;
+  const double bytes =
+    static_cast<double>(pass.columns) * static_cast<double>(pass.rows) * bytesPerRay;
+  const auto budget = static_cast<double>(screen.memoryBudget);
+  if (bytes > budget)
+  {
+    std::ostringstream text;
+    text << "A wave image needs " << pass.columns << " x " << pass.rows << " rays, "
+         << std::ceil(bytes / mebibyte) << " MiB, but MemoryBudget is " << budget / mebibyte
+         << " MiB: light from eight times sqrt(wavelength distance) around the image reaches it. "
+            "Set MemoryBudget to more, "
+            "ScreenDistance or ImageSize to less,"
+         << orRays;
+    throw Error(text.str());
+  }
+}
+
+template <class Real>
+bool WaveStage<Real>::trace(Image& image, const Screen& screen, LightAtExit& light)
+{
+  const Field& field = request_.field;
+  const Scene scene = sceneOfRays(request_.scene, screen.raysPerPixel);
+  const Frame frame = frameOf(field.grid, scene.view);
+  const Light ofRays = lightOf(scene, field.grid, frame, faces_);
+  DisplacementBound unknown{};
+  const RaySettings settings =
+    settingsOf(scene, field.lengthScale, unknown, frame, medium_.steepest().perVoxel);
+  const RayTask<Real> task =
+    makeTask<Real>(medium_.medium, nullptr, medium_.medium.gradientsOf(field), ofRays, settings);
+  const std::int64_t border = borderOf(image, screen) * screen.raysPerPixel;
+  const RaysKey key{ frame, scene.view.width, scene.view.height, settings, 0, scene.seed,
+    Device::Cpu, {}, LightKey::of(scene, frame, 0, faces_) };
+  work_.raySets += rays_.prepare(key, border) ? 1 : 0;
+  // Rays of a wider margin will do.
+  const std::int64_t around = rays_.margin() - rays_.margin() % screen.raysPerPixel;
+  Pass pass{ -around, -around, scene.view.width + 2 * around, scene.view.height + 2 * around,
+    { 0, 0 } };
+  requireMemory(pass, screen);
+  light.spacing = field.lengthScale * frame.pixelSize;
+  light.refractiveIndex = 1 + image.exitRefractivity;
+  light.resize(pass.columns, pass.rows);
+  const int perRay = screen.raysPerPixel * screen.raysPerPixel;
+  const int passes = image.raysBlocked > 0 ? (scene.samplesPerPixel + perRay - 1) / perRay : 1;
+  for (int number = 0; number < passes; ++number)
+  {
+    pass.offset = pixelOffset(number, scene.seed);
+    const TracedPass* traced = tracePass(number, pass, task, image);
+    if (traced == nullptr || watch_.isAborted())
+    {
+      return false;
+    }
+    if (number == 0)
+    {
+      addExits(*traced, field.lengthScale, light);
+    }
+    addBlocked(*traced, 1 / static_cast<float>(passes), light);
+  }
+  return true;
+}
+
+template <class Real>
+std::vector<float> WaveStage<Real>::makeLight(
+  const LightAtExit& light, const Screen& screen, const Monitor& monitor, Image& image) const
+{
+  const Scene& scene = request_.scene;
+  if (scene.cutoff == Cutoff::Shadowgraph)
+  {
+    return lightOnScreen(light, screen, monitor, image.waves);
+  }
+  if (!(image.kScale > 0))
+  {
+    throw Error("k is 0, so the source of the knife edge has no width to make waves of. Set KScale "
+                "to more than 0, or "
+                "LightModel to Rays.");
+  }
+  const Edge edge{ scene.knifeEdgeAngle, scene.cutoffOffset / image.kScale, 1 / image.kScale,
+    scene.coherenceSamples, scene.invertCutoff };
+  return lightBehindEdge(light, screen, edge, monitor, image.waves);
+}
+
+template <class Real>
+bool WaveStage<Real>::addWavelengths(
+  const LightAtExit& light, Screen screen, const Monitor& monitor, Image& image) const
+{
+  const Scene& scene = request_.scene;
+  const int count = wavelengthsFor(scene);
+  std::vector<double> sum(image.intensity.size());
+  // The middle one comes last: the report is of it.
+  for (int i = 0; i < count; ++i)
+  {
+    const int number = (i + count / 2 + 1) % count;
+    screen.wavelength = scene.wavelength + scene.bandwidth * ((number + 0.5) / count - 0.5);
+    const std::vector<float> values = makeLight(light, screen, monitor, image);
+    if (values.empty())
+    {
+      return false;
+    }
+    std::transform(values.begin(), values.end(), sum.begin(), sum.begin(),
+      [](float value, double all) { return all + static_cast<double>(value); });
+  }
+  std::transform(sum.begin(), sum.end(), image.intensity.begin(),
+    [count](double all) { return static_cast<float>(all / count); });
+  return true;
+}
+
+template <class Real>
+bool WaveStage<Real>::run(Image& image)
+{
+  if (!areWanted(image))
+  {
+    rays_.clear();
+    return true;
+  }
+  const Screen screen = screenOf(image);
+  Monitor monitor;
+  monitor.aborted = watch_.monitor().aborted;
+  try
+  {
+    LightAtExit light;
+    if (!trace(image, screen, light))
+    {
+      return false;
+    }
+    rays_.finish();
+    continueBehindBodies(light);
+    if (!addWavelengths(light, screen, monitor, image))
+    {
+      return false;
+    }
+    image.lightModel = LightModel::Waves;
+  }
+  catch (const Error& problem)
+  {
+    if (request_.scene.lightModel != LightModel::Auto)
+    {
+      throw;
+    }
+    image.lightNote = problem.what();
+  }
+  return true;
+}
+
+template class WaveStage<float>;
+template class WaveStage<double>;
+
+} // namespace schlieren

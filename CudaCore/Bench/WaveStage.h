@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Replaces the light of a finished image by that of waves, where its scene wants these. Waves take one ray for each pixel, of
+// the middle of the light source, and rays around the image; so they have passes of their own.
+#pragma once
+
+#include "Bench/MediumCache.h"
+#include "Bench/RayCache.h"
+#include "Bench/UnfinishedImage.h"
+#include "Bench/Watch.h"
+#include "Schlieren.h"
+#include "Waves/LightAtExit.h"
+#include "Waves/ScreenWaves.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace schlieren
+{
+
+/// Why no waves can be made of a scene, and what to do; empty where they can.
+std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& frame);
+
+/// Pixels around an image from which waves may carry light into it besides what is bent; 0 of LightModel::Rays.
+std::int64_t pixelsOfFresnelMargin(
+  const Field& field, const Scene& scene, const Frame& frame, const ExitFaces& faces);
+
+template <class Real>
+class WaveStage
+{
+public:
+  /// All stay with their owner.
+  WaveStage(MediumOnDevices<Real>& medium, const Light& light, const UnfinishedImage& request,
+    const Watch& watch, RayCache& rays, Work& work)
+    : medium_(medium)
+    , faces_(light.faces)
+    , request_(request)
+    , watch_(watch)
+    , rays_(rays)
+    , work_(work)
+  {
+  }
+
+  /// Does nothing to an image of rays. False if aborted. Throws Error.
+  bool run(Image& image);
+
+private:
+  /// Whether waves are to be made; else notes why in the image.
+  bool areWanted(Image& image) const;
+  Screen screenOf(const Image& image) const;
+  /// Pixels to trace around an image.
+  std::int64_t borderOf(const Image& image, const Screen& screen) const;
+  /// Traces the rays. False if aborted.
+  bool trace(Image& image, const Screen& screen, LightAtExit& light);
+  const TracedPass* tracePass(
+    std::int64_t number, const Pass& pass, const RayTask<Real>& task, Image& image);
+
+  /// The light of one wavelength. Empty if aborted.
+  std::vector<float> makeLight(
+    const LightAtExit& light, const Screen& screen, const Monitor& monitor, Image& image) const;
+  /// Makes the image of all wavelengths. False if aborted.
+  bool addWavelengths(
+    const LightAtExit& light, Screen screen, const Monitor& monitor, Image& image) const;
+
+  MediumOnDevices<Real>& medium_;
+  const ExitFaces faces_;
+  const UnfinishedImage& request_;
+  const Watch& watch_;
+  RayCache& rays_;
+  Work& work_;
+};
+
+} // namespace schlieren
