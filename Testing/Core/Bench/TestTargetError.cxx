@@ -89,8 +89,8 @@ protected:
       {
         EXPECT_LE(error, scene.targetError);
       }
-      // A ray through the middle of a pixel can do much better than several, where what counts is between rays.
-      EXPECT_LE(error, 1.05 * before + 0.15 * scene.targetError + 1e-6);
+      // At the rim of the data a ray through the middle of each pixel can do better than some beside it.
+      EXPECT_LE(error, 1.05 * before + 0.25 * scene.targetError + 1e-6);
       // Below a tenth of the target it need not be known.
       EXPECT_GT(image.accuracy.reached, 0.5 * error - 0.1 * scene.targetError);
       EXPECT_LT(image.accuracy.reached, 3 * error + 0.5 * scene.targetError);
