@@ -113,6 +113,9 @@ struct Lens
   /// From the pupil to the plane in focus, data units, with a perspective; unset: Cutoff::Background the pattern, others
   /// what Scene::focusOffset says.
   std::optional<double> focusDistance;
+  /// Whether its aperture spreads light by diffraction, at Scene::wavelength: a Gaussian for the Airy disc, where its standard
+  /// deviation is half a pixel or more.
+  bool diffracts = false;
 };
 
 /// Everything about the bench that is not the medium.

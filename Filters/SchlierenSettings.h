@@ -104,6 +104,7 @@ struct OpticsSettings
   double LensFocalLength = 50;
   double FocusDistance = 0;
   double SensorWidth = 0;
+  bool LensDiffraction = false;
   bool ColorByField = false;
   std::vector<double> FieldColors;
 
@@ -145,6 +146,7 @@ struct OpticsSettings
     use("LensFocalLength", this->LensFocalLength);
     use("FocusDistance", this->FocusDistance);
     use("SensorWidth", this->SensorWidth);
+    use("LensDiffraction", this->LensDiffraction);
     use("ColorByField", this->ColorByField);
     use("FieldColors", this->FieldColors);
   }

@@ -706,6 +706,16 @@ public:
   vtkGetMacro(SensorWidth, double);
   ///@}
 
+  ///@{
+  /**
+   * Whether the lens also blurs by diffraction at Wavelength, by a Gaussian like its Airy disc, if
+   * its standard deviation is at least half a pixel. Default: off.
+   */
+  vtkSetMacro(LensDiffraction, bool);
+  vtkGetMacro(LensDiffraction, bool);
+  vtkBooleanMacro(LensDiffraction, bool);
+  ///@}
+
   /**
    * Sets the pupil of a view's camera instead of FNumber and FocusDistance: its diameter and the
    * distance of what is in focus, data units. `diameter` 0 (the default): there is none.

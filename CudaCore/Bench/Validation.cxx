@@ -195,7 +195,7 @@ void validateScene(const Scene& scene)
 }
 
 /// The lens of a camera, where there is one. `frame`: of the image.
-void validateLens(const Scene& scene, const Frame& frame)
+void validateLens(const Scene& scene, const Frame& frame, double lengthScale)
 {
   const auto require = [](bool isGood, const auto&... message)
   {
@@ -226,10 +226,18 @@ void validateLens(const Scene& scene, const Frame& frame)
     " times as wide as its distance from what is in focus. Increase FNumber, so that light is "
     "inclined by no more than 45 "
     "degrees.");
+  require(!lens.diffracts || (scene.wavelength > 0 && std::isfinite(scene.wavelength)),
+    "Wavelength is ", scene.wavelength,
+    " m. Set it to that of the light, or LensDiffraction to off.");
+  const double spread = lensSpreadOf(scene, frame, noFaces, lengthScale);
+  require(2 * spread <= largestFilterRadius, "Diffraction at the lens spreads light over ",
+    4 * spread,
+    " pixels, more than an image is blurred by. Decrease FNumber, make pixels larger, or set "
+    "LensDiffraction to off.");
 }
 
 /// How light travels: from where, and to what film. `frame`: of the image.
-void validateLight(const Scene& scene, const Frame& frame)
+void validateLight(const Scene& scene, const Frame& frame, double lengthScale)
 {
   const auto require = [](bool isGood, const auto&... message)
   {
@@ -243,7 +251,7 @@ void validateLight(const Scene& scene, const Frame& frame)
   const double depth = frame.exit - frame.entry;
   require(std::isfinite(scene.focusOffset), "FocusOffset is ", scene.focusOffset,
     ". Set it to a finite number of data units, 0 for the middle of the data.");
-  validateLens(scene, frame);
+  validateLens(scene, frame, lengthScale);
   if (isOfCamera(scene.cutoff))
   {
     const double distance = scene.background.distance.value_or(depth);
@@ -346,7 +354,7 @@ void validate(const Field& field, const Scene& scene)
   validateScene(scene);
   validateColors(field, scene);
   const Frame frame = frameOf(field.grid, scene.view); // which throws where the view is bad
-  validateLight(scene, frame);
+  validateLight(scene, frame, field.lengthScale);
   const std::string problem =
     scene.lightModel == LightModel::Waves ? problemOfWaves(field, scene, frame) : "";
   if (!problem.empty())

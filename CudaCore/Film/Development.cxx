@@ -49,6 +49,16 @@ void filterNoise(const PixelArray<float>& samples, const FilmSettings& settings,
   }
 }
 
+void spreadByLens(double deviation, const FilmSettings& settings, Image& image)
+{
+  const double radius = 2 * deviation; // as the filter has it
+  for (PixelArray<float>* pixels : { &image.intensity, &image.color })
+  {
+    *pixels = filtered(std::move(*pixels), settings.width, settings.height, NoiseFilter::Gaussian,
+      radius, {}, settings.threads);
+  }
+}
+
 bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
 {
   const std::int64_t margin = exposure_.margin;
@@ -97,6 +107,7 @@ PixelArray<float> UndisturbedImage::develop()
   }
   Image image;
   filterNoise(schlieren::develop(*films_, passes_, settings_.threads, image), settings_, image);
+  spreadByLens(exposure_.lensSpread, settings_, image);
   return std::move(image.intensity);
 }
 

@@ -42,6 +42,9 @@ PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, 
 /// Takes the noise out of intensity and colour.
 void filterNoise(const PixelArray<float>& samples, const FilmSettings& settings, Image& image);
 
+/// Spreads intensity and colour as the diffraction of a lens does: by a Gaussian of so many pixels, from half a pixel on.
+void spreadByLens(double deviation, const FilmSettings& settings, Image& image);
+
 /// How rays come onto films; the same for all passes of an image.
 struct Exposure
 {
@@ -49,6 +52,7 @@ struct Exposure
   Projection projection{};
   std::int64_t margin = 0;
   std::int64_t maxRays = 0; ///< see Film
+  double lensSpread = 0;    ///< see spreadByLens
 };
 
 /// What a camera sees without the flow: passes of rays that nothing bends, on films like those of the

@@ -120,6 +120,7 @@ void ProgressiveImage::develop(Image& image)
 {
   developCounts(image);
   filterNoise(schlieren::develop(*films_, passes_, settings_.threads, image), settings_, image);
+  spreadByLens(exposure_.lensSpread, settings_, image);
   developCentres(image);
   developUndisturbed(image);
 }
@@ -130,6 +131,7 @@ bool ProgressiveImage::finish(Image& image, const Monitor& monitor)
   const PixelArray<float> samples = schlieren::develop(*films_, passes_, settings_.threads, image);
   films_.reset(); // all that follows wants memory, too
   filterNoise(samples, settings_, image);
+  spreadByLens(exposure_.lensSpread, settings_, image);
   developCentres(image);
   filmOnDevice_.reset();
   if (!completeUndisturbed(monitor))

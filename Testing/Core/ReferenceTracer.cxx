@@ -428,6 +428,13 @@ std::pair<Pair, Pair> startsOf(const Scene& scene, int pass)
   const auto centred = [](Real x) { return x - std::floor(x + 0.5L); };
   const PixelOffset inPixel = pixelOffset(pass, scene.seed);
   const Pair offset{ inPixel.column, inPixel.row };
+  if (scene.lens.aperture > 0) // of a view with a perspective
+  {
+    const auto place = pupilPoint(pass, scene.samplesPerPixel);
+    const Real pupil =
+      Real(scene.view.parallelScale) / std::tan(Real(scene.view.viewAngle) / 360 * pi);
+    return { Real(scene.lens.aperture) / (2 * pupil) * Pair{ place[0], place[1] }, offset };
+  }
   if (source.shape == SourceShape::Point || scene.cutoff == Cutoff::Background)
   {
     return { 0, offset };

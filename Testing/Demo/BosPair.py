@@ -9,6 +9,6 @@ names = runpy.run_path(os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Example
 assert abs(names["slope"] - 1) < 0.003, names["slope"]
 assert names["error"] < 0.005, names["error"]
 if names["result"] is not None:  # OpenPIV, after three passes
-    assert abs(names["open_slope"] - 1) < 0.01, names["open_slope"]
+    assert abs(names["open_slope"] - 1) < 0.015, names["open_slope"]
 for file in ("bos_without_flow.png", "bos_with_flow.png"):
     assert os.path.getsize(file) > 10000, file

@@ -28,8 +28,8 @@ constexpr double fringesInImage = 10;
 [[noreturn]] void refuse(
   const char* property, double value, const std::string& unit, const std::string& advice)
 {
-  throw std::runtime_error(
-    std::string(property) + " is " + textOf(value, 4) + " " + unit + ", " + advice);
+  throw std::runtime_error(std::string(property) + " is " + textOf(value, 4) +
+    (unit.empty() ? "" : " ") + unit + ", " + advice);
 }
 
 void requirePositive(
@@ -177,6 +177,7 @@ schlieren::Lens lensFrom(const SchlierenSettings& settings)
       metresPerMillimetre * settings.LensFocalLength / (number * settings.LengthScale);
     lens.apertureRatio = 1 / number;
   }
+  lens.diffracts = settings.LensDiffraction;
   if (settings.FocusDistance != 0)
   {
     lens.focusDistance = settings.FocusDistance;
@@ -188,7 +189,7 @@ schlieren::Lens lensFrom(const SchlierenSettings& settings)
 double viewAngleFrom(
   const SchlierenSettings& settings, const schlieren::View& view, const schlieren::Grid& grid)
 {
-  if (settings.SensorWidth == 0)
+  if (settings.SensorWidth == 0 || !(settings.LengthScale > 0)) // the tracer reports the latter
   {
     return view.viewAngle;
   }

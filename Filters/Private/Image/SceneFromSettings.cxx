@@ -182,7 +182,7 @@ schlieren::Scene sceneFrom(
   }
   scene.lightModel = lightModelFrom(settings);
   const bool hasFringes = schlieren::techniqueOf(scene.cutoff).hasFringes;
-  if (hasFringes || scene.lightModel != schlieren::LightModel::Rays)
+  if (hasFringes || scene.lightModel != schlieren::LightModel::Rays || scene.lens.diffracts)
   {
     scene.wavelength = metresPerNanometre * settings.Wavelength;
   }

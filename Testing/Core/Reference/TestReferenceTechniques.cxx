@@ -201,6 +201,27 @@ TEST(ReferenceTechniques, OfExtendedSources)
   }
 }
 
+/// All light of a pass is of one point of the camera's aperture.
+TEST(ReferenceTechniques, OfApertures)
+{
+  const Medium medium = polynomial(0.02);
+  for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Interferogram, Cutoff::Background })
+  {
+    SCOPED_TRACE(static_cast<int>(cutoff));
+    Scene scene = nearScene(oblique);
+    scene.filmEstimator = FilmEstimator::Photon;
+    scene.samplesPerPixel = 3;
+    scene.cutoff = cutoff;
+    scene.focusOffset = 0.4;
+    scene.wavelength = 1e-3;
+    scene.background.kind = PatternKind::Stripes;
+    scene.background.period = 2;
+    scene.view.viewAngle = 3;
+    scene.lens.aperture = 0.1;
+    EXPECT_LT(differenceOf(medium, scene), 1e-6);
+  }
+}
+
 /// To first order, a path through a flow in focus is as long on the film as that straight through the flow.
 TEST(ReferenceTechniques, OfStraightInterferograms)
 {

@@ -429,10 +429,11 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
       "FocusOffset", "LightSource", "SourceDistance", "SourceShape", "LightModel", "Bandwidth",
       "CoherenceSamples", "BackgroundPattern", "BackgroundDistance", "BackgroundPeriod",
       "BackgroundAngle", "BackgroundImage", "FNumber", "LensFocalLength", "FocusDistance",
-      "SensorWidth", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth", "FilmEstimator",
-      "NoiseFilter", "NoiseFilterRadius", "HistogramSize", "MemoryBudget", "Quality", "PathModel",
-      "Integrator", "StepSize", "HomogeneityTolerance", "Interpolation", "SamplesPerPixel",
-      "Precision", "AdaptiveTolerance", "PathTolerance", "Seed", "Device", "NumberOfThreads" })
+      "SensorWidth", "LensDiffraction", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth",
+      "FilmEstimator", "NoiseFilter", "NoiseFilterRadius", "HistogramSize", "MemoryBudget",
+      "Quality", "PathModel", "Integrator", "StepSize", "HomogeneityTolerance", "Interpolation",
+      "SamplesPerPixel", "Precision", "AdaptiveTolerance", "PathTolerance", "Seed", "Device",
+      "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

@@ -8,8 +8,10 @@
 #include "Image/SceneFromSettings.h"
 #include "Sources/MediumMaker.h"
 
+#include "vtkMath.h"
 #include "vtkPiecewiseFunction.h"
 
+#include <cmath>
 #include <limits>
 
 using namespace filters;
@@ -218,6 +220,73 @@ TEST_F(Scene, LightIsAsLargeAsItIsSeenFromTheData)
   EXPECT_NE(this->error().find("SourceWidth is -1 mm"), std::string::npos);
   this->filter->SetSourceWidth(0);
   EXPECT_EQ(this->error(), "none");
+}
+
+TEST_F(Scene, LensHasTheApertureOfItsFNumber)
+{
+  EXPECT_EQ(this->scene().lens.aperture, 0);
+  this->filter->SetLengthScale(0.01);
+  this->filter->SetFNumber(4);
+  schlieren::Lens lens = this->scene().lens;
+  EXPECT_DOUBLE_EQ(lens.aperture, 1.25); // 12.5 mm
+  EXPECT_DOUBLE_EQ(lens.apertureRatio, 0.25);
+  EXPECT_FALSE(lens.focusDistance.has_value());
+  this->filter->SetFocusDistance(30);
+  EXPECT_EQ(this->scene().lens.focusDistance, 30);
+
+  // Half of a sensor 24 mm high, of twice as many columns as rows, where a thin lens has the image of what is 30 cm away.
+  this->filter->SetSensorWidth(48);
+  const double behind = 1 / (1 / 0.05 - 1 / 0.3);
+  EXPECT_NEAR(
+    this->scene().view.viewAngle, 2 * vtkMath::DegreesFromRadians(std::atan(0.012 / behind)), 1e-9);
+  this->filter->SetFocusDistance(5); // what is that near has no image
+  EXPECT_NE(this->error().find("FocusDistance is 5 data units"), std::string::npos);
+  this->filter->SetFocusDistance(0);
+  const schlieren::View view = this->scene().view;
+  const double away = 0.01 * schlieren::frameOf(this->grid, view).pupil; // metres
+  EXPECT_NEAR(
+    std::tan(vtkMath::RadiansFromDegrees(view.viewAngle) / 2), 0.012 * (1 / 0.05 - 1 / away), 1e-9);
+}
+
+TEST_F(Scene, CamerasThatCannotBeAreRefused)
+{
+  for (const double wrong : { -1., notANumber, HUGE_VAL })
+  {
+    this->filter->SetFNumber(wrong);
+    EXPECT_NE(this->error().find("FNumber is "), std::string::npos) << wrong;
+    this->filter->SetFNumber(4);
+    this->filter->SetLensFocalLength(wrong);
+    EXPECT_NE(this->error().find("LensFocalLength is "), std::string::npos) << wrong;
+    this->filter->SetLensFocalLength(50);
+    this->filter->SetSensorWidth(wrong);
+    EXPECT_NE(this->error().find("SensorWidth is "), std::string::npos) << wrong;
+    this->filter->SetSensorWidth(0);
+  }
+  EXPECT_EQ(this->error(), "none");
+  const auto errorOfSensor = [&]() -> std::string
+  {
+    try
+    {
+      sensorFrom(this->filter->GetSettings());
+    }
+    catch (const std::runtime_error& problem)
+    {
+      return problem.what();
+    }
+    return "none";
+  };
+  this->filter->SetFullWell(1000);
+  EXPECT_EQ(errorOfSensor(), "none");
+  this->filter->SetGamma(0);
+  EXPECT_EQ(errorOfSensor().find("Gamma is 0, "), 0u);
+  this->filter->SetGamma(1);
+  this->filter->SetExposure(notANumber);
+  EXPECT_EQ(errorOfSensor().find("Exposure is "), 0u);
+  this->filter->SetExposure(1);
+  this->filter->SetReadNoise(-1);
+  EXPECT_EQ(errorOfSensor().find("ReadNoise is -1 electrons"), 0u);
+  this->filter->SetFullWell(-1);
+  EXPECT_EQ(errorOfSensor().find("FullWell is -1 electrons"), 0u);
 }
 
 TEST_F(Scene, DivergingLightComesFromTenDepthsUnlessItIsSaid)
