@@ -267,11 +267,18 @@ std::int64_t WaveStage<Real>::borderOf(const Image& image, const Screen& screen)
 }
 
 template <class Real>
-const TracedPass* WaveStage<Real>::tracePass(
-  std::int64_t number, const Pass& pass, const RayTask<Real>& task, Image& image)
+Monitor WaveStage<Real>::withoutPauses() const
 {
   Monitor monitor;
   monitor.aborted = watch_.monitor().aborted;
+  return monitor;
+}
+
+template <class Real>
+const TracedPass* WaveStage<Real>::tracePass(
+  std::int64_t number, const Pass& pass, const RayTask<Real>& task, Image& image)
+{
+  const Monitor monitor = withoutPauses();
   const auto trace = [&](TracedPass& traced, bool)
   {
     const auto start = std::chrono::steady_clock::now();
@@ -418,8 +425,7 @@ bool WaveStage<Real>::run(Image& image)
     return true;
   }
   Screen screen = screenOf(image);
-  Monitor monitor;
-  monitor.aborted = watch_.monitor().aborted;
+  const Monitor monitor = withoutPauses();
   try
   {
     LightAtExit light;

@@ -50,6 +50,8 @@ private:
   /// Whether waves are to be made; else notes why in the image.
   bool areWanted(Image& image) const;
   Screen screenOf(const Image& image) const;
+  /// What can abort waves, which cannot pause.
+  Monitor withoutPauses() const;
   /// Pixels to trace around an image.
   std::int64_t borderOf(const Image& image, const Screen& screen) const;
   /// Traces the rays, and finds the slopes of a point source. False if aborted.

@@ -40,23 +40,31 @@ PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, 
   return films.samples ? films.samples->developIntensity(1, threads) : PixelArray<float>();
 }
 
-void filterNoise(const PixelArray<float>& samples, const FilmSettings& settings, Image& image)
+namespace
+{
+
+/// Filters intensity and colour. `radius`, `samples`: see filtered().
+void filterLight(NoiseFilter filter, double radius, const PixelArray<float>& samples,
+  const FilmSettings& settings, Image& image)
 {
   for (PixelArray<float>* pixels : { &image.intensity, &image.color })
   {
-    *pixels = filtered(std::move(*pixels), settings.width, settings.height, settings.noiseFilter,
-      settings.noiseFilterRadius, samples, settings.threads);
+    *pixels = filtered(std::move(*pixels), settings.width, settings.height, filter, radius, samples,
+      settings.threads);
   }
+}
+
+} // namespace
+
+void filterNoise(const PixelArray<float>& samples, const FilmSettings& settings, Image& image)
+{
+  filterLight(settings.noiseFilter, settings.noiseFilterRadius, samples, settings, image);
 }
 
 void spreadByLens(double deviation, const FilmSettings& settings, Image& image)
 {
   const double radius = 2 * deviation; // as the filter has it
-  for (PixelArray<float>* pixels : { &image.intensity, &image.color })
-  {
-    *pixels = filtered(std::move(*pixels), settings.width, settings.height, NoiseFilter::Gaussian,
-      radius, {}, settings.threads);
-  }
+  filterLight(NoiseFilter::Gaussian, radius, {}, settings, image);
 }
 
 bool UndisturbedImage::addPass(Device device, const Monitor& monitor)

@@ -187,7 +187,7 @@ TEST_P(Camera, BlursWhatIsNotInFocus)
     scene.background.period = period;
     const Image image = bench.render(gas.field, scene);
     EXPECT_EQ(image.intensity, image.background);
-    // By the cosine that stands in the world, twice as far away as the focal point.
+    // Compared with the stripes in world coordinates, on a pattern twice as far away as the focal point.
     double sum = 0, squares = 0;
     for (int column = 0; column < image.width; ++column)
     {
