@@ -173,7 +173,8 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
   {
     throw ArraysMissing("The input has no arrays with one component, so there is nothing to "
                         "take " +
-      property + " from. Choose an input that has the field.");
+      property +
+      " from. Choose an input that has the field, or switch its arrays on in the reader.");
   }
   if (selection.name.empty() && selection.attribute < 0)
   {

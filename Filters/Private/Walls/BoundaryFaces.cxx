@@ -3,6 +3,7 @@
 #include "Walls/BoundaryFaces.h"
 
 #include "Input/CoincidentPoints.h"
+#include "Walls/NarrowGaps.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -30,6 +31,7 @@ namespace
 {
 
 constexpr double lookingPart = 0.05;   // depth of tests behind a face, in cell heights or edges
+constexpr double gapPart = 0.3;        // the same beside narrow gaps, in cell heights
 constexpr double cellTolerance = 4e-3; // maximum distance of points in a cell, in cell heights
 
 /// Removes the sides of a layer across z, whose corners all have the same z.
@@ -53,15 +55,6 @@ Faces withoutSidesAcrossZ(const Faces& all)
   }
   return faces;
 }
-
-/// A face seen from its cell.
-struct Sides
-{
-  Point middle;
-  Point outward; // unit length, or 0
-  double height; // approximate height of the cell above the face
-  double width;  // smallest edge
-};
 
 Sides sidesOf(const Faces& faces, std::size_t face, double rounding)
 {
@@ -137,17 +130,8 @@ std::vector<std::int32_t> distinctCorners(const Faces& faces, std::size_t face)
   return corners.size() < 3 || isFolded ? std::vector<std::int32_t>{} : corners;
 }
 
-/// A face with visible cells on one side only.
-struct Kept
-{
-  std::vector<std::int32_t> corners; // seen from the gas, counter-clockwise
-  Sides sides;
-  bool hidesBehind;
-  bool isPart; // whether it belongs to a larger face, so that one test point suffices
-};
-
 /// Describes a face, seen from its cell.
-Kept keptOf(const Faces& faces, std::size_t face, double rounding, bool hidesBehind)
+OpenFace openFaceOf(const Faces& faces, std::size_t face, double rounding, bool hidesBehind)
 {
   const Sides sides = sidesOf(faces, face, rounding);
   std::vector<std::int32_t> corners = distinctCorners(faces, face);
@@ -169,7 +153,7 @@ Kept keptOf(const Faces& faces, std::size_t face, double rounding, bool hidesBeh
 using Pair = std::array<std::size_t, 2>;
 
 /// Removes faces between two visible cells.
-std::vector<Kept> withoutPairs(const Faces& faces, double rounding, std::vector<Pair>& pairs)
+std::vector<OpenFace> withoutPairs(const Faces& faces, double rounding, std::vector<Pair>& pairs)
 {
   struct Key
   {
@@ -194,7 +178,7 @@ std::vector<Kept> withoutPairs(const Faces& faces, double rounding, std::vector<
     [](const Key& a, const Key& b)
     { return std::tie(a.lowest, a.face) < std::tie(b.lowest, b.face); });
 
-  std::vector<Kept> kept;
+  std::vector<OpenFace> kept;
   for (auto first = keys.begin(); first != keys.end();)
   {
     const auto end =
@@ -219,7 +203,7 @@ std::vector<Kept> withoutPairs(const Faces& faces, double rounding, std::vector<
     if (isVisible[0] != isVisible[1])
     {
       const int side = isVisible[0] ? 0 : 1;
-      kept.push_back(keptOf(faces, owner[side], rounding, isHidden[1 - side]));
+      kept.push_back(openFaceOf(faces, owner[side], rounding, isHidden[1 - side]));
     }
     else if (isVisible[0])
     {
@@ -303,12 +287,38 @@ CutFaces cutsOf(
   return cuts;
 }
 
+/// Removes faces beside narrow gaps between cells.
+void removeAtGaps(const Faces& faces, const CellsTest& areInCells, std::vector<OpenFace>& kept)
+{
+  const std::vector<unsigned char> areBeside = areBesideNarrowGaps(faces.points, kept);
+  std::vector<Point> places;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    if (areBeside[i])
+    {
+      const Sides& sides = kept[i].sides;
+      places.push_back(sides.middle + (gapPart * sides.height) * sides.outward);
+    }
+  }
+  const std::vector<unsigned char> areCovered = areInCells(places);
+  auto next = areCovered.begin();
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    if (!areBeside[i] || *next++ == 0)
+    {
+      std::swap(kept[left++], kept[i]);
+    }
+  }
+  kept.resize(left);
+}
+
 /// Removes faces with cells on both sides.
-void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<Kept>& kept)
+void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<OpenFace>& kept)
 {
   std::vector<Point> middles;
   middles.reserve(kept.size());
-  for (const Kept& face : kept)
+  for (const OpenFace& face : kept)
   {
     const double step = std::max(lookingPart * std::min(face.sides.height, face.sides.width),
       cellTolerance * face.sides.height);
@@ -363,7 +373,7 @@ CellsTest testInParallel(const CellTest& isInCell, const WorkProgress& progress)
   };
 }
 
-BoundaryFaces triangulate(const Faces& faces, const std::vector<Kept>& kept)
+BoundaryFaces triangulate(const Faces& faces, const std::vector<OpenFace>& kept)
 {
   BoundaryFaces result;
   std::vector<std::int32_t> numbers(faces.points.size(), -1);
@@ -372,7 +382,7 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<Kept>& kept)
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkUnsignedCharArray> hides;
   hides->SetName("hides");
-  for (const Kept& face : kept)
+  for (const OpenFace& face : kept)
   {
     polygons->InsertNextCell(static_cast<int>(face.corners.size()));
     for (const std::int32_t corner : face.corners)
@@ -429,10 +439,11 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesO
   const double rounding = relativeRounding(faces.points);
   const std::vector<std::int32_t> before = mergePoints(faces, rounding);
   std::vector<Pair> pairs;
-  std::vector<Kept> kept = withoutPairs(faces, rounding, pairs);
+  std::vector<OpenFace> kept = withoutPairs(faces, rounding, pairs);
   progress.reach(0.8);
   if (areInCells)
   {
+    removeAtGaps(faces, areInCells, kept);
     removeCovered(faces, areInCells, kept);
   }
   progress.reach(0.9);
@@ -446,7 +457,7 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesO
     {
       for (std::size_t side = 0; side < 2 && areSheets[i]; ++side)
       {
-        kept.push_back(keptOf(faces, pairs[i][side], rounding, false));
+        kept.push_back(openFaceOf(faces, pairs[i][side], rounding, false));
       }
     }
   }

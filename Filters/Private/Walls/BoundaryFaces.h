@@ -60,7 +60,7 @@ struct BoundaryFaces
 /// beside them, or within rounding. Omits faces without area, at a pole or an axis, and, with
 /// `isInCell`, faces with cells on both sides whose points differ: overlapping blocks, hanging
 /// nodes, curved sides of blocks with a gap of up to 0.05 of the cell's height or the face's
-/// smallest edge.
+/// smallest edge, or of 0.3 of the height where it closes at once (areBesideNarrowGaps()).
 ///
 /// Sheets without thickness within a dataset, whose cells meet with points of their own on both
 /// sides, are found by their values (see findSheets()), and are included once from each side.
