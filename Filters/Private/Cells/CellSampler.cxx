@@ -176,6 +176,64 @@ void LatticeInCells::findSlabs(
   }
 }
 
+namespace
+{
+
+template <CellShape shape>
+bool isAffine(const Polynomial (&place)[3], double length)
+{
+  if constexpr (shape == CellShape::Hexahedron)
+  {
+    for (const Polynomial& along : place)
+    {
+      for (std::size_t i = 4; i < 8; ++i)
+      {
+        if (!(std::abs(along[i]) <= bendOfParallelepipeds * length))
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+  return shape == CellShape::Tetrahedron || shape == CellShape::Voxel;
+}
+
+/// Averages the corners' linear polynomials with half of their gradients, weighted as by the cell, which is exact for
+/// quadratic fields. The differences from their common terms are the slopes. Changes the corners' values.
+template <CellShape shape>
+void addTrends(const PointTrend* trends, const vtkIdType* points, const Polynomial (&place)[3],
+  const Vector (&columns)[3], double (&corners)[4][8], NormalCell& normal)
+{
+  double slopes[3][8], limits[2][8];
+  for (int i = 0; i < cornersOf(shape); ++i)
+  {
+    const PointTrend& trend = trends[points[i]];
+    limits[0][i] = corners[3][i] + trend.lowest;
+    limits[1][i] = corners[3][i] + trend.highest;
+    const Vector half = { 0.5 * trend.gradient[0], 0.5 * trend.gradient[1],
+      0.5 * trend.gradient[2] };
+    corners[3][i] -= half[0] * (corners[0][i] - place[0][0]) +
+      half[1] * (corners[1][i] - place[1][0]) + half[2] * (corners[2][i] - place[2][0]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      slopes[axis][i] = dot(half, columns[axis]);
+    }
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    const Polynomial slope = polynomialOf<shape>(slopes[i]);
+    std::copy(slope.begin(), slope.end(), normal.slope[i]);
+  }
+  for (int i = 0; i < 2; ++i)
+  {
+    const Polynomial limit = polynomialOf<shape>(limits[i]);
+    std::copy(limit.begin(), limit.end(), normal.limit[i]);
+  }
+}
+
+} // namespace
+
 /// Returns whether the cell has a volume at its middle.
 template <CellShape shape>
 bool LatticeInCells::addNormal(const CellTree::Cell& cell)
@@ -209,21 +267,7 @@ bool LatticeInCells::addNormal(const CellTree::Cell& cell)
   }
   NormalCell normal;
   normal.shape = shape;
-  normal.isAffine = true;
-  if constexpr (shape == CellShape::Hexahedron)
-  {
-    for (const Polynomial& along : place)
-    {
-      for (std::size_t i = 4; i < 8; ++i)
-      {
-        normal.isAffine = normal.isAffine && std::abs(along[i]) <= bendOfParallelepipeds * length;
-      }
-    }
-  }
-  else
-  {
-    normal.isAffine = shape == CellShape::Tetrahedron || shape == CellShape::Voxel;
-  }
+  normal.isAffine = isAffine<shape>(place, length);
   this->Tolerance = normal.isAffine ? toleranceOfPlaneFaces : toleranceOfCurvedFaces;
   // Enlarges the tolerance for coordinates far from the origin, which are rounded more.
   for (const Vector& row : rows)
@@ -248,34 +292,7 @@ bool LatticeInCells::addNormal(const CellTree::Cell& cell)
   normal.isSmooth = cell.block->trends() != nullptr;
   if (normal.isSmooth)
   {
-    // Averages the corners' linear polynomials with half of their gradients, weighted as by the
-    // cell, which is exact for quadratic fields. The differences from their common terms are the
-    // slopes.
-    double slopes[3][8], limits[2][8];
-    for (int i = 0; i < count; ++i)
-    {
-      const PointTrend& trend = cell.block->trends()[points[i]];
-      limits[0][i] = corners[3][i] + trend.lowest;
-      limits[1][i] = corners[3][i] + trend.highest;
-      const Vector half = { 0.5 * trend.gradient[0], 0.5 * trend.gradient[1],
-        0.5 * trend.gradient[2] };
-      corners[3][i] -= half[0] * (corners[0][i] - place[0][0]) +
-        half[1] * (corners[1][i] - place[1][0]) + half[2] * (corners[2][i] - place[2][0]);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        slopes[axis][i] = dot(half, columns[axis]);
-      }
-    }
-    for (int i = 0; i < 3; ++i)
-    {
-      const Polynomial slope = polynomialOf<shape>(slopes[i]);
-      std::copy(slope.begin(), slope.end(), normal.slope[i]);
-    }
-    for (int i = 0; i < 2; ++i)
-    {
-      const Polynomial limit = polynomialOf<shape>(limits[i]);
-      std::copy(limit.begin(), limit.end(), normal.limit[i]);
-    }
+    addTrends<shape>(cell.block->trends(), points, place, columns, corners, normal);
   }
   const Polynomial value = polynomialOf<shape>(corners[3]);
   std::copy(value.begin(), value.end(), normal.value);
@@ -283,109 +300,6 @@ bool LatticeInCells::addNormal(const CellTree::Cell& cell)
     origin[2] + place[2][0] };
   this->scan(normal, middle, rows);
   return true;
-}
-
-/// Collects the points that may be in the cell, row by row.
-void LatticeInCells::scan(const NormalCell& cell, const Vector& middle, const Vector rows[3])
-{
-  constexpr double parallel = 1e300; // 1 / 0, but without NaN
-  const bool isSimplex = cell.shape == CellShape::Tetrahedron || cell.shape == CellShape::Wedge;
-  const int slabs = isSimplex ? 4 : 3;
-  const schlieren::Lattice& lattice = this->Lattice;
-  double start[3];
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    start[axis] = lattice.first[axis] - middle[axis];
-  }
-  double along[4], perAlong[4]; // changes from one point to the next
-  for (int i = 0; i < 3; ++i)
-  {
-    along[i] = rows[i][0] * lattice.spacing[0];
-  }
-  along[3] = along[0] + along[1] + (cell.shape == CellShape::Tetrahedron ? along[2] : 0);
-  for (int i = 0; i < slabs; ++i)
-  {
-    perAlong[i] = std::abs(along[i]) > 1 / parallel ? 1 / along[i] : parallel;
-  }
-  const auto rowLength = static_cast<std::size_t>(lattice.points[0]);
-  const auto rowCount = static_cast<std::size_t>(lattice.points[1]);
-  const auto beginRow = [&](int j, int k, double at[4])
-  {
-    const double y = start[1] + j * lattice.spacing[1];
-    const double z = start[2] + k * lattice.spacing[2];
-    for (int i = 0; i < 3; ++i)
-    {
-      at[i] = rows[i][0] * start[0] + rows[i][1] * y + rows[i][2] * z;
-    }
-  };
-  const auto collect = [&](const double at[4], int i, std::size_t point)
-  {
-    if (this->Count == CellPoints::most)
-    {
-      this->flush(cell);
-    }
-    for (int n = 0; n < 3; ++n)
-    {
-      this->Points.normal[n][this->Count] = at[n] + i * along[n];
-    }
-    this->Places[this->Count++] = point;
-  };
-  if (this->GivenBegin)
-  {
-    for (const std::uint16_t* given = this->GivenBegin; given != this->GivenEnd; ++given)
-    {
-      const std::size_t row = *given / rowLength;
-      double at[4];
-      beginRow(static_cast<int>(row % rowCount), static_cast<int>(row / rowCount), at);
-      const auto i = static_cast<int>(*given % rowLength);
-      bool isWithin = !this->Part || !this->isSettled(*given);
-      for (int axis = 0; axis < 3 && this->Part; ++axis)
-      {
-        const double place = at[axis] + i * along[axis];
-        isWithin = isWithin && place >= this->Low[axis] && place <= this->High[axis];
-      }
-      if (isWithin)
-      {
-        collect(at, i, *given);
-      }
-    }
-    this->flush(cell);
-    return;
-  }
-  for (int k = this->First[2]; k <= this->Last[2]; ++k)
-  {
-    for (int j = this->First[1]; j <= this->Last[1]; ++j)
-    {
-      double at[4];
-      beginRow(j, k, at);
-      at[3] = at[0] + at[1] + (cell.shape == CellShape::Tetrahedron ? at[2] : 0);
-      double low = this->First[0], high = this->Last[0];
-      for (int i = 0; i < slabs; ++i)
-      {
-        const double a = (this->Low[i] - at[i]) * perAlong[i];
-        const double b = (this->High[i] - at[i]) * perAlong[i];
-        low = std::max(low, std::min(a, b));
-        high = std::min(high, std::max(a, b));
-      }
-      if (!(low <= high))
-      {
-        continue;
-      }
-      int i = static_cast<int>(low);
-      i += i < low ? 1 : 0;
-      const std::size_t row =
-        (static_cast<std::size_t>(k) * rowCount + static_cast<std::size_t>(j)) * rowLength;
-      for (const int last = static_cast<int>(high); i <= last; ++i)
-      {
-        const std::size_t point = row + static_cast<std::size_t>(i);
-        if (!this->isSettled(point))
-        {
-          collect(at, i, point);
-        }
-      }
-    }
-  }
-  this->flush(cell);
 }
 
 void LatticeInCells::flush(const NormalCell& cell)

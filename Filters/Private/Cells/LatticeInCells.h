@@ -42,7 +42,13 @@ private:
   void addOther(const CellTree::Cell& cell);
   void setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3]);
   void locateInOther();
+  /// Coordinates in a cell along the lattice's rows.
+  struct Rows;
   void scan(const NormalCell& cell, const Vector& middle, const Vector rows[3]);
+  void scanGiven(const NormalCell& cell, const Rows& rows);
+  void scanBox(const NormalCell& cell, const Rows& rows);
+  void collect(
+    const NormalCell& cell, const Rows& rows, const double at[3], int i, std::size_t point);
   void flush(const NormalCell& cell);
   bool isSettled(std::size_t point) const
   {

@@ -9,114 +9,76 @@ SCHLIEREN_INLINE void maximum(const Real& a, const Real& b, Real& result)
   result = a > b ? a : b;
 }
 
-inline void locate(const NormalCell& cell, int count, CellPoints& points)
+/// A pack of places in a cell, in coordinates in which it is affine, to find in its own coordinates from its middle.
+class PackOfPlaces
 {
-  const auto& b = cell.bend;
-  const bool isTetrahedron = cell.shape == CellShape::Tetrahedron;
-  const bool isSimplex = isTetrahedron || cell.shape == CellShape::Wedge;
-  const double third = 1. / 3;
-  const double middle[3] = { isTetrahedron ? 0.25 : (isSimplex ? third : 0.5),
-    isTetrahedron ? 0.25 : (isSimplex ? third : 0.5),
-    isTetrahedron || cell.shape == CellShape::Pyramid ? 0.25 : 0.5 };
-  const Real zero = {};
-  bool isNearlyAffine = true;
-  for (int axis = 0; axis < 3; ++axis)
+public:
+  SCHLIEREN_INLINE PackOfPlaces(
+    const NormalCell& cell, const double (&middle)[3], const Real (&target)[3])
+    : Cell{ cell }
+    , Middle{ middle }
+    , Target{ target }
   {
-    double sum = 0;
-    for (int i = 0; i < 4; ++i)
+    for (int axis = 0; axis < 3; ++axis)
     {
-      sum += b[axis][i] < 0 ? -b[axis][i] : b[axis][i];
+      this->At[axis] = target[axis];
     }
-    isNearlyAffine = isNearlyAffine && sum < nearlyAffine;
   }
-  for (int first = 0; first < count; first += lanes)
+
+  /// Iterates Newton's method.
+  SCHLIEREN_INLINE void find(bool isNearlyAffine)
   {
-    Real x, y, z;
-    load(points.normal[0] + first, x);
-    load(points.normal[1] + first, y);
-    load(points.normal[2] + first, z);
-    Real u = x, v = y, w = z;
-    Mask isFound = zero == zero;
-    if (!cell.isAffine)
+    const auto& b = this->Cell.bend;
+    if (isNearlyAffine)
     {
-      const auto within = [&](Real& place, int axis)
+      // Saves half of Newton's steps: corrects the bends of a step without them.
+      Real products[4];
+      this->multiply(products);
+      for (int axis = 0; axis < 3; ++axis)
       {
-        const Real low = zero - (farthest + middle[axis]);
-        const Real high = zero + (1 + farthest - middle[axis]);
-        place = place > low ? place : low;
-        place = place < high ? place : high;
-      };
-      if (isNearlyAffine)
-      {
-        // Saves half of Newton's steps: corrects the bends of a step without them.
-        const Real uv = u * v, vw = v * w, uw = u * w, uvw = uv * w;
-        u = x - b[0][0] * uv - b[0][1] * vw - b[0][2] * uw - b[0][3] * uvw;
-        v = y - b[1][0] * uv - b[1][1] * vw - b[1][2] * uw - b[1][3] * uvw;
-        w = z - b[2][0] * uv - b[2][1] * vw - b[2][2] * uw - b[2][3] * uvw;
-      }
-      within(u, 0);
-      within(v, 1);
-      within(w, 2);
-      Mask isDone = zero != zero;
-      isFound = isDone;
-      for (int i = 0; i < maxSteps; ++i)
-      {
-        const Real uv = u * v, vw = v * w, uw = u * w, uvw = uv * w;
-        const Real restX = x - u - b[0][0] * uv - b[0][1] * vw - b[0][2] * uw - b[0][3] * uvw;
-        const Real restY = y - v - b[1][0] * uv - b[1][1] * vw - b[1][2] * uw - b[1][3] * uvw;
-        const Real restZ = z - w - b[2][0] * uv - b[2][1] * vw - b[2][2] * uw - b[2][3] * uvw;
-        const Real xu = b[0][0] * v + b[0][2] * w + b[0][3] * vw + 1;
-        const Real yu = b[1][0] * v + b[1][2] * w + b[1][3] * vw;
-        const Real zu = b[2][0] * v + b[2][2] * w + b[2][3] * vw;
-        const Real xv = b[0][0] * u + b[0][1] * w + b[0][3] * uw;
-        const Real yv = b[1][0] * u + b[1][1] * w + b[1][3] * uw + 1;
-        const Real zv = b[2][0] * u + b[2][1] * w + b[2][3] * uw;
-        const Real xw = b[0][1] * v + b[0][2] * u + b[0][3] * uv;
-        const Real yw = b[1][1] * v + b[1][2] * u + b[1][3] * uv;
-        const Real zw = b[2][1] * v + b[2][2] * u + b[2][3] * uv + 1;
-        const Real minorX = yv * zw - zv * yw, minorY = zv * xw - xv * zw,
-                   minorZ = xv * yw - yv * xw;
-        const Real perVolume = 1 / (xu * minorX + yu * minorY + zu * minorZ);
-        const Real crossX = restY * zw - restZ * yw, crossY = restZ * xw - restX * zw,
-                   crossZ = restX * yw - restY * xw;
-        const Real stepU = (restX * minorX + restY * minorY + restZ * minorZ) * perVolume;
-        const Real stepV = (xu * crossX + yu * crossY + zu * crossZ) * perVolume;
-        const Real outerX = yv * restZ - zv * restY, outerY = zv * restX - xv * restZ,
-                   outerZ = xv * restY - yv * restX;
-        const Real stepW = (xu * outerX + yu * outerY + zu * outerZ) * perVolume;
-
-        const auto sizeOf = [&](const Real& a, const Real& c, const Real& d, Real& size)
-
-        {
-          const Real absA = a < 0 ? -a : a, absC = c < 0 ? -c : c, absD = d < 0 ? -d : d;
-          maximum(absA, absC, size);
-          maximum(size, absD, size);
-        };
-        Real rest, step;
-        sizeOf(restX, restY, restZ, rest);
-        sizeOf(stepU, stepV, stepW, step);
-        const Mask isThere = rest <= nothing;
-        const Mask isFinite = (stepU + stepV + stepW) * 0 == 0;
-        const Mask isMoving = ~isDone & ~isThere & isFinite;
-        Real nextU = u + stepU, nextV = v + stepV, nextW = w + stepW;
-        within(nextU, 0);
-        within(nextV, 1);
-        within(nextW, 2);
-        const Mask hasMoved = (nextU != u) | (nextV != v) | (nextW != w);
-        choose(isMoving, nextU, u, u);
-        choose(isMoving, nextV, v, v);
-        choose(isMoving, nextW, w, w);
-        isFound |= ~isDone & (isThere | (isFinite & (step <= lastStep)));
-        isDone |= isFound | ~isFinite | ~hasMoved;
-        if (all(isDone))
-        {
-          break;
-        }
+        this->At[axis] = this->Target[axis] - b[axis][0] * products[0] - b[axis][1] * products[1] -
+          b[axis][2] * products[2] - b[axis][3] * products[3];
       }
     }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->keepWithin(this->At[axis], axis);
+    }
+    Mask isDone = this->Zero != this->Zero;
+    this->IsFound = isDone;
+    for (int i = 0; i < maxSteps; ++i)
+    {
+      Real rest[3], step[3], left, size;
+      this->newtonStep(rest, step);
+      largest(rest, left);
+      largest(step, size);
+      const Mask isThere = left <= nothing;
+      const Mask isFinite = (step[0] + step[1] + step[2]) * 0 == 0;
+      const Mask isMoving = ~isDone & ~isThere & isFinite;
+      Mask hasMoved = this->Zero != this->Zero;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        Real next = this->At[axis] + step[axis];
+        this->keepWithin(next, axis);
+        hasMoved |= next != this->At[axis];
+        choose(isMoving, next, this->At[axis], this->At[axis]);
+      }
+      this->IsFound |= ~isDone & (isThere | (isFinite & (size <= lastStep)));
+      isDone |= this->IsFound | ~isFinite | ~hasMoved;
+      if (all(isDone))
+      {
+        break;
+      }
+    }
+  }
 
-    const Real r = u + middle[0], s = v + middle[1], t = w + middle[2];
-    Real miss = zero;
+  /// Computes how far the worst of the coordinates is outside of the cell, infinite for places that were not found.
+  SCHLIEREN_INLINE void miss(Real& result) const
+  {
+    const bool isTetrahedron = this->Cell.shape == CellShape::Tetrahedron;
+    const Real r = this->At[0] + this->Middle[0], s = this->At[1] + this->Middle[1],
+               t = this->At[2] + this->Middle[2];
+    Real miss = this->Zero;
     maximum(-r, miss, miss);
     maximum(-s, miss, miss);
     maximum(-t, miss, miss);
@@ -126,7 +88,7 @@ inline void locate(const NormalCell& cell, int count, CellPoints& points)
     }
     else
     {
-      if (isSimplex)
+      if (this->Cell.shape == CellShape::Wedge)
       {
         maximum(r + s - 1, miss, miss);
       }
@@ -137,32 +99,136 @@ inline void locate(const NormalCell& cell, int count, CellPoints& points)
       }
       maximum(t - 1, miss, miss);
     }
-    const Real infinite = zero + std::numeric_limits<double>::infinity();
-    choose(isFound, miss, infinite, miss);
-    store(miss, points.miss + first);
-    const Real uv = u * v, vw = v * w, uw = u * w, uvw = uv * w;
-    const auto polynomial = [&](const double* n, Real& result)
+    const Real infinite = this->Zero + std::numeric_limits<double>::infinity();
+    choose(this->IsFound, miss, infinite, result);
+  }
+
+  SCHLIEREN_INLINE void value(Real& result) const
+  {
+    Real products[4];
+    this->multiply(products);
+    const auto polynomial = [&](const double* n, Real& sum)
     {
-      result =
-        n[0] + n[1] * u + n[2] * v + n[3] * w + n[4] * uv + n[5] * vw + n[6] * uw + n[7] * uvw;
+      sum = n[0] + n[1] * this->At[0] + n[2] * this->At[1] + n[3] * this->At[2] +
+        n[4] * products[0] + n[5] * products[1] + n[6] * products[2] + n[7] * products[3];
     };
-    Real value;
-    polynomial(cell.value, value);
-    if (cell.isSmooth)
+    polynomial(this->Cell.value, result);
+    if (this->Cell.isSmooth)
     {
-      Real slope;
-      polynomial(cell.slope[0], slope);
-      value += x * slope;
-      polynomial(cell.slope[1], slope);
-      value += y * slope;
-      polynomial(cell.slope[2], slope);
-      value += z * slope;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        Real slope;
+        polynomial(this->Cell.slope[axis], slope);
+        result += this->Target[axis] * slope;
+      }
       Real limit;
-      polynomial(cell.limit[0], limit);
-      value = value > limit ? value : limit;
-      polynomial(cell.limit[1], limit);
-      value = value < limit ? value : limit;
+      polynomial(this->Cell.limit[0], limit);
+      result = result > limit ? result : limit;
+      polynomial(this->Cell.limit[1], limit);
+      result = result < limit ? result : limit;
     }
+  }
+
+private:
+  static SCHLIEREN_INLINE void largest(const Real (&of)[3], Real& size)
+  {
+    const Real a = of[0] < 0 ? -of[0] : of[0], b = of[1] < 0 ? -of[1] : of[1],
+               c = of[2] < 0 ? -of[2] : of[2];
+    maximum(a, b, size);
+    maximum(size, c, size);
+  }
+
+  SCHLIEREN_INLINE void multiply(Real (&products)[4]) const
+  {
+    products[0] = this->At[0] * this->At[1];
+    products[1] = this->At[1] * this->At[2];
+    products[2] = this->At[0] * this->At[2];
+    products[3] = products[0] * this->At[2];
+  }
+
+  SCHLIEREN_INLINE void keepWithin(Real& place, int axis) const
+  {
+    const Real low = this->Zero - (farthest + this->Middle[axis]);
+    const Real high = this->Zero + (1 + farthest - this->Middle[axis]);
+    place = place > low ? place : low;
+    place = place < high ? place : high;
+  }
+
+  /// Computes the distance that is left, and by Cramer's rule the step that removes its linear part.
+  SCHLIEREN_INLINE void newtonStep(Real (&rest)[3], Real (&step)[3]) const
+  {
+    const auto& b = this->Cell.bend;
+    const Real &u = this->At[0], &v = this->At[1], &w = this->At[2];
+    Real products[4], by[3][3]; // by[i][k]: change of coordinate k by the cell's coordinate i
+    this->multiply(products);
+    for (int k = 0; k < 3; ++k)
+    {
+      rest[k] = this->Target[k] - this->At[k] - b[k][0] * products[0] - b[k][1] * products[1] -
+        b[k][2] * products[2] - b[k][3] * products[3];
+      by[0][k] = b[k][0] * v + b[k][2] * w + b[k][3] * products[1];
+      by[1][k] = b[k][0] * u + b[k][1] * w + b[k][3] * products[2];
+      by[2][k] = b[k][1] * v + b[k][2] * u + b[k][3] * products[0];
+      by[k][k] = by[k][k] + 1;
+    }
+    Real minor[3], crossed[3], outer[3];
+    cross(by[1], by[2], minor);
+    cross(rest, by[2], crossed);
+    cross(by[1], rest, outer);
+    const Real perVolume = 1 / (by[0][0] * minor[0] + by[0][1] * minor[1] + by[0][2] * minor[2]);
+    step[0] = (rest[0] * minor[0] + rest[1] * minor[1] + rest[2] * minor[2]) * perVolume;
+    step[1] = (by[0][0] * crossed[0] + by[0][1] * crossed[1] + by[0][2] * crossed[2]) * perVolume;
+    step[2] = (by[0][0] * outer[0] + by[0][1] * outer[1] + by[0][2] * outer[2]) * perVolume;
+  }
+
+  static SCHLIEREN_INLINE void cross(const Real (&a)[3], const Real (&b)[3], Real (&result)[3])
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+      result[axis] = a[next] * b[last] - a[last] * b[next];
+    }
+  }
+
+  const NormalCell& Cell;
+  const double (&Middle)[3];
+  const Real (&Target)[3];
+  const Real Zero = {};
+  Real At[3];
+  Mask IsFound = this->Zero == this->Zero;
+};
+
+inline void locate(const NormalCell& cell, int count, CellPoints& points)
+{
+  const bool isTetrahedron = cell.shape == CellShape::Tetrahedron;
+  const double third = 1. / 3;
+  const double side = isTetrahedron ? 0.25 : (cell.shape == CellShape::Wedge ? third : 0.5);
+  const double middle[3] = { side, side,
+    isTetrahedron || cell.shape == CellShape::Pyramid ? 0.25 : 0.5 };
+  bool isNearlyAffine = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double sum = 0;
+    for (int i = 0; i < 4; ++i)
+    {
+      sum += cell.bend[axis][i] < 0 ? -cell.bend[axis][i] : cell.bend[axis][i];
+    }
+    isNearlyAffine = isNearlyAffine && sum < nearlyAffine;
+  }
+  for (int first = 0; first < count; first += lanes)
+  {
+    Real target[3], miss, value;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      load(points.normal[axis] + first, target[axis]);
+    }
+    PackOfPlaces places(cell, middle, target);
+    if (!cell.isAffine)
+    {
+      places.find(isNearlyAffine);
+    }
+    places.miss(miss);
+    store(miss, points.miss + first);
+    places.value(value);
     store(value, points.value + first);
   }
 }

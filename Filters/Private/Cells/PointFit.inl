@@ -91,217 +91,271 @@ struct Units
   }
 };
 
+/// The fit of a quadratic polynomial for a pack of points: to values of their neighbours, or to means over them.
 template <bool ofMeans>
-inline void fitPack(PointFit& fit, int firstPoint)
+class PackFit
 {
-  constexpr std::ptrdiff_t perNeighbour = ofMeans ? 10 : 4;
-  constexpr int points = PointFit::points;
-  const Real zero = {};
-  Real perCount = zero;
-  Mask isGood = zero == zero;
-  for (int lane = 0; lane < lanes; ++lane)
+public:
+  SCHLIEREN_INLINE PackFit(PointFit& fit, int firstPoint)
+    : Of{ fit }
+    , FirstPoint{ firstPoint }
+    , First{ fit.numbers.data() + firstPoint }
+    , Last{ this->First + perNeighbour * static_cast<std::ptrdiff_t>(fit.neighbours) }
+    , IsGood(this->Zero == this->Zero)
   {
-    const std::size_t count = fit.counts[firstPoint + lane];
-    perCount[lane] = 1 / static_cast<double>(count > 0 ? count : 1);
-    isGood[lane] = count >= fewest ? -1 : 0;
   }
 
-  // L with L * transposed(L) = the mean of x * transposed(x): places in units of it are as far along every axis.
-  Units units;
-  Real(&spread)[3][3] = units.spread;
-  Real sums[3][3] = {}, low = zero, high = zero;
-  const double* const first = fit.numbers.data() + firstPoint;
-  const double* const last =
-    first + perNeighbour * points * static_cast<std::ptrdiff_t>(fit.neighbours);
-  for (const double* from = first; from != last; from += perNeighbour * points)
+  SCHLIEREN_INLINE void run()
   {
-    Real x[3], value;
-    for (int i = 0; i < 3; ++i)
+    this->findUnits();
+    this->assemble();
+    this->factorize();
+    this->solve();
+    if constexpr (ofMeans)
     {
-      load(from + i * points, x[i]);
+      this->storeCorrection();
     }
-    load(from + 3 * points, value);
-    low = value < low ? value : low;
-    high = value > high ? value : high;
+    this->storeGradient();
+    const Real unfit = this->Left / (this->All > 0 ? this->All : this->Zero + 1);
+    store(unfit, this->Of.unfit + this->FirstPoint);
+  }
+
+private:
+  static constexpr int points = PointFit::points;
+  static constexpr std::ptrdiff_t perNeighbour = (ofMeans ? 10 : 4) * points;
+
+  /// Finds L with L * transposed(L) = the mean of x * transposed(x): places in units of it are as far along every axis.
+  SCHLIEREN_INLINE void findUnits()
+  {
+    Real perCount = this->Zero;
+    for (int lane = 0; lane < lanes; ++lane)
+    {
+      const std::size_t count = this->Of.counts[this->FirstPoint + lane];
+      perCount[lane] = 1 / static_cast<double>(count > 0 ? count : 1);
+      this->IsGood[lane] = count >= fewest ? -1 : 0;
+    }
+    Real sums[3][3] = {};
+    this->sumPlaces(sums);
+    const Real least = leastFirst * (sums[0][0] + sums[1][1] + sums[2][2]);
+    for (int i = 0; i < unknowns && ofMeans; ++i)
+    {
+      load(this->Of.own[i] + this->FirstPoint, this->Own[i]);
+    }
+    Real(&spread)[3][3] = this->Scale.spread;
     for (int i = 0; i < 3; ++i)
     {
       for (int k = 0; k <= i; ++k)
       {
-        sums[i][k] += x[i] * x[k];
+        Real sum = sums[i][k] * perCount;
+        if constexpr (ofMeans)
+        {
+          // With the size of what the mean is over: where all have the same place along an axis, that is its unit.
+          sum += this->Own[i == k ? 3 + i
+                     : i == 1     ? 6
+                     : k == 1     ? 7
+                                  : 8] -
+            this->Own[i] * this->Own[k];
+        }
+        for (int j = 0; j < k; ++j)
+        {
+          sum -= spread[i][j] * spread[k][j];
+        }
+        if (k < i)
+        {
+          spread[i][k] = sum * this->Scale.perSpread[k];
+          continue;
+        }
+        sum += least;
+        this->IsGood &= sum > 0;
+        for (int lane = 0; lane < lanes; ++lane)
+        {
+          spread[i][i][lane] = std::sqrt(sum[lane] > 0 ? sum[lane] : 1);
+        }
+        this->Scale.perSpread[i] = 1 / spread[i][i];
       }
     }
-  }
-  store(low, fit.lowest + firstPoint);
-  store(high, fit.highest + firstPoint);
-  const Real least = leastFirst * (sums[0][0] + sums[1][1] + sums[2][2]);
-  Real own[unknowns];
-  for (int i = 0; i < unknowns && ofMeans; ++i)
-  {
-    load(fit.own[i] + firstPoint, own[i]);
-  }
-  Real(&perSpread)[3] = units.perSpread;
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int k = 0; k <= i; ++k)
+    if constexpr (ofMeans)
     {
-      Real sum = sums[i][k] * perCount;
+      const Real places[6] = { sums[0][0] * perCount, sums[1][1] * perCount, sums[2][2] * perCount,
+        sums[1][0] * perCount, sums[2][1] * perCount, sums[2][0] * perCount };
+      Real scaled[6];
+      this->Scale.template scaleSecond<false>(places, scaled);
+      this->Scale.shrinkWhereFlat(scaled);
+    }
+  }
+
+  /// Sums x * transposed(x), and stores the range of the values.
+  SCHLIEREN_INLINE void sumPlaces(Real sums[3][3])
+  {
+    Real low = this->Zero, high = this->Zero;
+    for (const double* from = this->First; from != this->Last; from += perNeighbour)
+    {
+      Real x[3], value;
+      for (int i = 0; i < 3; ++i)
+      {
+        load(from + i * points, x[i]);
+      }
+      load(from + 3 * points, value);
+      low = value < low ? value : low;
+      high = value > high ? value : high;
+      for (int i = 0; i < 3; ++i)
+      {
+        for (int k = 0; k <= i; ++k)
+        {
+          sums[i][k] += x[i] * x[k];
+        }
+      }
+    }
+    store(low, this->Of.lowest + this->FirstPoint);
+    store(high, this->Of.highest + this->FirstPoint);
+  }
+
+  /// Sums the lower half of the fit's matrix, its right side and the values' squares, and adds what keeps it regular.
+  SCHLIEREN_INLINE void assemble()
+  {
+    for (const double* from = this->First; from != this->Last; from += perNeighbour)
+    {
+      Real x[3], y[3], value;
+      for (int i = 0; i < 3; ++i)
+      {
+        load(from + i * points, x[i]);
+      }
+      this->Scale.scale(x, y);
       if constexpr (ofMeans)
       {
-        // With the size of what the mean is over: where all have the same place along an axis, that is its unit.
-        sum += own[i == k ? 3 + i : i == 1 ? 6 : k == 1 ? 7 : 8] - own[i] * own[k];
+        this->Scale.shrink(y);
       }
-      for (int j = 0; j < k; ++j)
+      load(from + 3 * points, value);
+      const Real weight = 1 / (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + leastSquare);
+      Real terms[unknowns] = { y[0], y[1], y[2], y[0] * y[0], y[1] * y[1], y[2] * y[2], y[0] * y[1],
+        y[1] * y[2], y[2] * y[0] };
+      if constexpr (ofMeans)
       {
-        sum -= spread[i][j] * spread[k][j];
+        Real second[6];
+        for (int i = 0; i < 6; ++i)
+        {
+          load(from + (4 + i) * points, second[i]);
+        }
+        this->Scale.template scaleSecond<true>(second, terms + 3);
       }
-      if (k < i)
+      for (int i = 0; i < unknowns; ++i)
       {
-        spread[i][k] = sum * perSpread[k];
-        continue;
+        const Real weighted = weight * terms[i];
+        for (int k = 0; k <= i; ++k)
+        {
+          this->Matrix[i][k] += weighted * terms[k];
+        }
+        this->Right[i] += weighted * value;
       }
-      sum += least;
-      isGood &= sum > 0;
-      for (int lane = 0; lane < lanes; ++lane)
-      {
-        spread[i][i][lane] = std::sqrt(sum[lane] > 0 ? sum[lane] : 1);
-      }
-      perSpread[i] = 1 / spread[i][i];
+      this->All += weight * value * value;
     }
-  }
-
-  if constexpr (ofMeans)
-  {
-    const Real places[6] = { sums[0][0] * perCount, sums[1][1] * perCount, sums[2][2] * perCount,
-      sums[1][0] * perCount, sums[2][1] * perCount, sums[2][0] * perCount };
-    Real scaled[6];
-    units.scaleSecond<false>(places, scaled);
-    units.shrinkWhereFlat(scaled);
-  }
-
-  // The fit's matrix, the lower half of it; its right side, and the sum of the values' squares.
-  Real matrix[unknowns][unknowns] = {}, right[unknowns] = {}, all = zero;
-  for (const double* from = first; from != last; from += perNeighbour * points)
-  {
-    Real x[3], y[3], value;
-    for (int i = 0; i < 3; ++i)
+    Real trace[2] = { this->Zero, this->Zero };
+    for (int i = 0; i < unknowns; ++i)
     {
-      load(from + i * points, x[i]);
-    }
-    units.scale(x, y);
-    if constexpr (ofMeans)
-    {
-      units.shrink(y);
-    }
-    load(from + 3 * points, value);
-    const Real weight = 1 / (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + leastSquare);
-    Real terms[unknowns] = { y[0], y[1], y[2], y[0] * y[0], y[1] * y[1], y[2] * y[2], y[0] * y[1],
-      y[1] * y[2], y[2] * y[0] };
-    if constexpr (ofMeans)
-    {
-      Real second[6];
-      for (int i = 0; i < 6; ++i)
-      {
-        load(from + (4 + i) * points, second[i]);
-      }
-      units.scaleSecond<true>(second, terms + 3);
+      trace[i / 3 > 0] += this->Matrix[i][i];
     }
     for (int i = 0; i < unknowns; ++i)
     {
-      const Real weighted = weight * terms[i];
-      for (int k = 0; k <= i; ++k)
-      {
-        matrix[i][k] += weighted * terms[k];
-      }
-      right[i] += weighted * value;
+      this->Matrix[i][i] += i < 3 ? (ofMeans ? leastFirstOfMeans : leastFirst) * trace[0]
+                                  : (ofMeans ? leastSecondOfMeans : leastSecond) / 6 * trace[1];
     }
-    all += weight * value * value;
-  }
-  Real trace[2] = { zero, zero };
-  for (int i = 0; i < unknowns; ++i)
-  {
-    trace[i / 3 > 0] += matrix[i][i];
-  }
-  for (int i = 0; i < unknowns; ++i)
-  {
-    matrix[i][i] += i < 3 ? (ofMeans ? leastFirstOfMeans : leastFirst) * trace[0]
-                          : (ofMeans ? leastSecondOfMeans : leastSecond) / 6 * trace[1];
   }
 
-  // matrix = U * D * transposed(U), by columns; U has 1 in its diagonal, where 1 / D is put.
-  for (int k = 0; k < unknowns; ++k)
+  /// Makes Matrix = U * D * transposed(U), by columns; U has 1 in its diagonal, where 1 / D is put.
+  SCHLIEREN_INLINE void factorize()
   {
-    isGood &= matrix[k][k] > 0;
-    const Real perDiagonal = 1 / (matrix[k][k] > 0 ? matrix[k][k] : zero + 1);
-    Real column[unknowns];
-    for (int i = k + 1; i < unknowns; ++i)
+    for (int k = 0; k < unknowns; ++k)
     {
-      column[i] = matrix[i][k];
-      matrix[i][k] *= perDiagonal;
-    }
-    for (int i = k + 1; i < unknowns; ++i)
-    {
-      for (int j = k + 1; j <= i; ++j)
+      this->IsGood &= this->Matrix[k][k] > 0;
+      const Real perDiagonal = 1 / (this->Matrix[k][k] > 0 ? this->Matrix[k][k] : this->Zero + 1);
+      Real column[unknowns];
+      for (int i = k + 1; i < unknowns; ++i)
       {
-        matrix[i][j] -= matrix[i][k] * column[j];
+        column[i] = this->Matrix[i][k];
+        this->Matrix[i][k] *= perDiagonal;
+      }
+      for (int i = k + 1; i < unknowns; ++i)
+      {
+        for (int j = k + 1; j <= i; ++j)
+        {
+          this->Matrix[i][j] -= this->Matrix[i][k] * column[j];
+        }
+      }
+      this->Matrix[k][k] = perDiagonal;
+    }
+  }
+
+  /// Finds the polynomial, and what is left of the squares: for the best fit, all that the right side does not take away.
+  SCHLIEREN_INLINE void solve()
+  {
+    for (int i = 0; i < unknowns; ++i)
+    {
+      this->Found[i] = this->Right[i];
+      for (int j = 0; j < i; ++j)
+      {
+        this->Found[i] -= this->Matrix[i][j] * this->Found[j];
       }
     }
-    matrix[k][k] = perDiagonal;
-  }
-  Real x[unknowns];
-  for (int i = 0; i < unknowns; ++i)
-  {
-    x[i] = right[i];
-    for (int j = 0; j < i; ++j)
+    this->Left = this->All;
+    for (int i = unknowns - 1; i >= 0; --i)
     {
-      x[i] -= matrix[i][j] * x[j];
+      this->Found[i] *= this->Matrix[i][i];
+      for (int j = i + 1; j < unknowns; ++j)
+      {
+        this->Found[i] -= this->Matrix[j][i] * this->Found[j];
+      }
+      this->Left -= this->Found[i] * this->Right[i];
     }
   }
-  // What is left of the squares: for the best fit, all that the right side does not take away.
-  Real left = all;
-  for (int i = unknowns - 1; i >= 0; --i)
-  {
-    x[i] *= matrix[i][i];
-    for (int j = i + 1; j < unknowns; ++j)
-    {
-      x[i] -= matrix[j][i] * x[j];
-    }
-    left -= x[i] * right[i];
-  }
-  if constexpr (ofMeans)
+
+  /// Stores by how much the value at the point differs from the mean over its own moments.
+  SCHLIEREN_INLINE void storeCorrection()
   {
     Real scaled[unknowns];
-    units.scale(own, scaled);
-    units.shrink(scaled);
-    units.scaleSecond<true>(own + 3, scaled + 3);
-    Real correction = zero;
+    this->Scale.scale(this->Own, scaled);
+    this->Scale.shrink(scaled);
+    this->Scale.template scaleSecond<true>(this->Own + 3, scaled + 3);
+    Real correction = this->Zero;
     for (int i = 0; i < unknowns; ++i)
     {
-      correction -= x[i] * scaled[i];
+      correction -= this->Found[i] * scaled[i];
     }
-    isGood &= correction * 0 == 0;
-    correction = isGood ? correction : zero;
-    store(correction, fit.correction + firstPoint);
-    units.shrink(x);
+    this->IsGood &= correction * 0 == 0;
+    correction = this->IsGood ? correction : this->Zero;
+    store(correction, this->Of.correction + this->FirstPoint);
+    this->Scale.shrink(this->Found);
   }
-  Real gradient[3];
-  for (int i = 2; i >= 0; --i)
+
+  SCHLIEREN_INLINE void storeGradient()
   {
-    gradient[i] = x[i];
-    for (int k = i + 1; k < 3; ++k)
+    Real gradient[3];
+    for (int i = 2; i >= 0; --i)
     {
-      gradient[i] -= spread[k][i] * gradient[k];
+      gradient[i] = this->Found[i];
+      for (int k = i + 1; k < 3; ++k)
+      {
+        gradient[i] -= this->Scale.spread[k][i] * gradient[k];
+      }
+      gradient[i] *= this->Scale.perSpread[i];
     }
-    gradient[i] *= perSpread[i];
+    this->IsGood &= (gradient[0] + gradient[1] + gradient[2]) * 0 == 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      gradient[i] = this->IsGood ? gradient[i] : this->Zero;
+      store(gradient[i], this->Of.gradient[i] + this->FirstPoint);
+    }
   }
-  isGood &= (gradient[0] + gradient[1] + gradient[2]) * 0 == 0;
-  for (int i = 0; i < 3; ++i)
-  {
-    gradient[i] = isGood ? gradient[i] : zero;
-    store(gradient[i], fit.gradient[i] + firstPoint);
-  }
-  const Real unfit = left / (all > 0 ? all : zero + 1);
-  store(unfit, fit.unfit + firstPoint);
-}
+
+  PointFit& Of;
+  const int FirstPoint;
+  const double *const First, *const Last; // the neighbours' numbers
+  const Real Zero = {};
+  Mask IsGood;
+  Units Scale;
+  Real Own[unknowns]; // moments of what the mean at the point is over
+  Real Matrix[unknowns][unknowns] = {}, Right[unknowns] = {}, All = {};
+  Real Found[unknowns], Left;
+};
 
 inline void fit(PointFit& of)
 {
@@ -309,11 +363,11 @@ inline void fit(PointFit& of)
   {
     if (of.values == PointFit::Values::Means)
     {
-      fitPack<true>(of, point);
+      PackFit<true>(of, point).run();
     }
     else
     {
-      fitPack<false>(of, point);
+      PackFit<false>(of, point).run();
     }
   }
 }

@@ -209,18 +209,20 @@ bool isOpen(const MediumSettings& settings)
     lacksArrays(settings) || !settings.Arrays[S::MaskArray].isChosen();
 }
 
-//------------------------------------------------------------------------------
-MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>& known)
+namespace
 {
-  MediumChoice choice;
-  choice.settings = given;
+
+/// Finds the index model, if open, and arrays for the selections that the user has left open. Returns what is known of
+/// the arrays, and sets the note of what is missing.
+FlowDefaults chooseArrays(
+  const MediumSettings& given, const std::vector<FlowArray>& known, MediumChoice& choice)
+{
   MediumSettings& settings = choice.settings;
-  ArraySelection& density = settings.Arrays[S::DensityArray];
   const bool isAuto = given.IndexModel == S::Auto;
   const std::vector<FlowArray> arrays =
     given.UniformPressure > 0 ? withUniformPressure(known, given.UniformPressure) : known;
   FlowDefaults defaults;
-  if (isAuto && !density.isChosen() && given.MixtureArrays.empty())
+  if (isAuto && !settings.Arrays[S::DensityArray].isChosen() && given.MixtureArrays.empty())
   {
     defaults = flowDefaults(arrays);
     settings.IndexModel = defaults.indexModel;
@@ -235,7 +237,6 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
       defaults = flowDefaults(arrays, static_cast<MediumSettings::Models>(settings.IndexModel));
     }
   }
-  // Finds arrays for the selections that the user has left open.
   for (const std::size_t index : arraysOfModel(settings))
   {
     ArraySelection& selection = settings.Arrays[index];
@@ -251,6 +252,14 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
       choice.note = defaults.note;
     }
   }
+  return defaults;
+}
+
+/// Takes mass or volume fractions as a mixture, unless the user has chosen one gas.
+void chooseMixture(
+  const MediumSettings& given, const std::vector<FlowArray>& known, MediumSettings& settings)
+{
+  const bool isAuto = given.IndexModel == S::Auto;
   // A gas of the user's own excludes mixtures.
   const bool isOneGas =
     !isCustom(given.Gas) || given.GladstoneDaleConstant != MediumSettings::defaultConstant;
@@ -262,8 +271,8 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
   }
   else if (mayBeMixture && given.MixtureArrays.empty())
   {
-    const FlowDefaults species =
-      flowSpecies(known, density.cellsFirst ? FlowArray::Cells : FlowArray::Points);
+    const FlowDefaults species = flowSpecies(
+      known, settings.Arrays[S::DensityArray].cellsFirst ? FlowArray::Cells : FlowArray::Points);
     if (!species.fractions.empty())
     {
       settings.IndexModel = S::Mixture;
@@ -272,14 +281,19 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
       settings.FractionType = species.ofVolume ? 1 : 0;
     }
   }
-  // Sets the factors to SI units.
+}
+
+/// Sets the factors to SI units.
+void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, MediumChoice& choice)
+{
+  MediumSettings& settings = choice.settings;
   const auto scaleOf = [&](std::size_t index, double scale)
   {
     const std::string property = S::arrayProperties[index];
     const std::string& name = settings.Arrays[index].name;
     const double byUnit = scaleByUnit(property, name);
     // A unit that is concluded from values, such as hPa, belongs to the default arrays only.
-    const bool isOfDefaults = isAuto && name == defaults.arrayOf(property);
+    const bool isOfDefaults = given.IndexModel == S::Auto && name == defaults.arrayOf(property);
     const double byValues = isOfDefaults ? scaleIn(defaults, property + "Scale") : 0;
     const bool isKnown = scale != 0 || byUnit != 0 || byValues != 0;
     choice.isScaleKnown = choice.isScaleKnown || isKnown;
@@ -295,6 +309,19 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
   {
     settings.DensityScale = scaleOf(S::DensityArray, given.DensityScale);
   }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>& known)
+{
+  MediumChoice choice;
+  choice.settings = given;
+  MediumSettings& settings = choice.settings;
+  const FlowDefaults defaults = chooseArrays(given, known, choice);
+  chooseMixture(given, known, settings);
+  chooseScales(given, defaults, choice);
   ArraySelection& mask = settings.Arrays[S::MaskArray];
   if (!mask.isChosen())
   {

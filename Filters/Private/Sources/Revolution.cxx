@@ -319,15 +319,13 @@ double areaOf(
   return area;
 }
 
-/// Makes a mesh of both sides of the axis, with points on it once.
-void addBothSides(const Leaf& leaf, const Revolution& revolution, double tolerance, Remade& made)
+/// Adds the points and their images across the axis. Returns those of each point: itself on the axis.
+std::vector<vtkIdType> addPointsOfBothSides(
+  vtkDataSet* data, const Revolution& revolution, double tolerance, vtkPoints* places, Remade& made)
 {
-  vtkDataSet* data = leaf.data;
   const auto radial = static_cast<std::size_t>(revolution.radial);
   const double from = revolution.origin[radial];
   const vtkIdType count = data->GetNumberOfPoints();
-  vtkNew<vtkPoints> places;
-  places->SetDataTypeToDouble();
   std::vector<vtkIdType> others(static_cast<std::size_t>(count));
   std::vector<std::array<double, 3>> across;
   for (vtkIdType point = 0; point < count; ++point)
@@ -355,11 +353,42 @@ void addBothSides(const Leaf& leaf, const Revolution& revolution, double toleran
       made.points->InsertNextId(point);
     }
   }
+  return others;
+}
+
+/// Finds the corners of a plane cell, or of the triangles that it is divided into. Returns the type of these.
+int cornersOfPlane(vtkDataSet* data, vtkIdType cell, vtkIdList* ids)
+{
+  const int type = data->GetCellType(cell);
+  data->GetCellPoints(cell, ids);
+  if (type == VTK_PIXEL)
+  {
+    const vtkIdType last = ids->GetId(3);
+    ids->SetId(3, ids->GetId(2));
+    ids->SetId(2, last);
+    return VTK_QUAD;
+  }
+  if (type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_POLYGON)
+  {
+    return type;
+  }
+  vtkNew<vtkPoints> notUsed;
+  data->GetCell(cell)->Triangulate(0, ids, notUsed);
+  return VTK_TRIANGLE;
+}
+
+/// Makes a mesh of both sides of the axis, with points on it once.
+void addBothSides(const Leaf& leaf, const Revolution& revolution, double tolerance, Remade& made)
+{
+  vtkDataSet* data = leaf.data;
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  const std::vector<vtkIdType> others =
+    addPointsOfBothSides(data, revolution, tolerance, places, made);
   auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
   mesh->SetPoints(places);
   mesh->Allocate(2 * data->GetNumberOfCells());
-  vtkNew<vtkIdList> ids, notUsed;
-  vtkNew<vtkPoints> notUsedPlaces;
+  vtkNew<vtkIdList> ids;
   double area = 0; // of the first cell
   for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
   {
@@ -367,34 +396,20 @@ void addBothSides(const Leaf& leaf, const Revolution& revolution, double toleran
     {
       continue;
     }
-    int type = data->GetCellType(cell);
-    data->GetCellPoints(cell, ids);
-    if (type == VTK_PIXEL)
-    {
-      const vtkIdType last = ids->GetId(3);
-      ids->SetId(3, ids->GetId(2));
-      ids->SetId(2, last);
-      type = VTK_QUAD;
-    }
-    const bool isPlain = type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_POLYGON;
-    if (!isPlain)
-    {
-      data->GetCell(cell)->Triangulate(0, ids, notUsedPlaces);
-    }
-    const vtkIdType size = isPlain ? ids->GetNumberOfIds() : 3;
+    const int type = cornersOfPlane(data, cell, ids);
+    const vtkIdType size = type == VTK_TRIANGLE ? 3 : ids->GetNumberOfIds();
     for (vtkIdType begin = 0; begin + size <= ids->GetNumberOfIds(); begin += size)
     {
-      const int ofPart = isPlain ? type : VTK_TRIANGLE;
       const std::vector<vtkIdType> corners(ids->GetPointer(begin), ids->GetPointer(begin) + size);
       area = area != 0 ? area : areaOf(places, corners, revolution);
-      mesh->InsertNextCell(ofPart, size, corners.data());
+      mesh->InsertNextCell(type, size, corners.data());
       made.cells->InsertNextId(cell);
       std::vector<vtkIdType> turned(corners.rbegin(), corners.rend());
       for (vtkIdType& corner : turned)
       {
         corner = others[static_cast<std::size_t>(corner)];
       }
-      mesh->InsertNextCell(ofPart, size, turned.data());
+      mesh->InsertNextCell(type, size, turned.data());
       made.cells->InsertNextId(cell);
     }
   }
