@@ -103,6 +103,14 @@ void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
 }
 
 //------------------------------------------------------------------------------
+schlieren::PhasePlate phasePlateFrom(const OpticsSettings& optics)
+{
+  requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
+  return { metresPerMillimetre * optics.PhasePlateDiameter / optics.FocalLength,
+    optics.PhasePlateDelay, optics.PhasePlateTransmission };
+}
+
+//------------------------------------------------------------------------------
 std::string kInWords(double k, bool isKept)
 {
   return (isKept ? "k locked at " : "k = ") + textOf(k, 4);

@@ -54,18 +54,27 @@ Field columnInVacuum()
   return field;
 }
 
-/// exp(i phase exp(-x^2 / s^2)) is a sum of Gaussians, each of which stays one.
-double lightBehindColumn(double x, double distance, double wavelength = green)
+double lightBehindColumn(double x, double distance)
 {
-  const std::complex<double> grows(0, distance * wavelength / pi); // 2 i D / k
-  std::complex<double> sum = 1, factor = 1;
-  for (int n = 1; n < 40; ++n)
+  return std::norm(fieldBehindColumn(x, radius, phase, distance));
+}
+
+/// The mean of a function of x over a pixel.
+template <class Function>
+double meanOfPixel(const Image& image, int column, const Function& f)
+{
+  const double middle = centreOf(image, column, 0).u, half = 0.5 * image.frame.pixelSize;
+  return integral(f, middle - half, middle + half, 8) / image.frame.pixelSize;
+}
+
+Numbers rowOf(const Image& image, int row)
+{
+  Numbers light;
+  for (int i = 0; i < image.width; ++i)
   {
-    factor *= std::complex<double>(0, phase * green / wavelength) / static_cast<double>(n);
-    const double square = radius * radius / n;
-    sum += factor * std::sqrt(square / (square + grows)) * std::exp(-x * x / (square + grows));
+    light.push_back(static_cast<double>(image.intensity[pixelOf(image, i, row)]));
   }
-  return std::norm(sum);
+  return light;
 }
 
 std::string messageOf(const Field& field, const Scene& scene)
@@ -226,6 +235,114 @@ TEST(WaveStage, KnifeEdgeOfAWideSlitIsAsThatOfRays)
   EXPECT_NE(messageOf(field, scene).find("KScale"), std::string::npos);
 }
 
+TEST(WaveStage, KnifeEdgeOfADiscIsAsThatOfRays)
+{
+  Field field = strongColumn().field;
+  field.ambient = 0;
+  Scene scene = laserShadowgraph();
+  scene.cutoff = Cutoff::KnifeEdge;
+  scene.kScale = radius / (3 * strongPath);
+  scene.source = { {}, SourceShape::Disc, 1 / *scene.kScale, 0 };
+  const Image waves = Bench().render(field, scene);
+  scene.lightModel = LightModel::Rays;
+  const Image disc = Bench().render(field, scene);
+  scene.source.shape = SourceShape::Slit;
+  const Image slit = Bench().render(field, scene);
+  EXPECT_LT(rms(rowOf(waves, 48), rowOf(disc, 48)), 0.01);
+  EXPECT_GT(rms(rowOf(slit, 48), rowOf(disc, 48)), 0.02);
+}
+
+TEST(WaveStage, GradedFilterOfALaserIsAsThatOfRays)
+{
+  Field field = strongColumn().field;
+  field.ambient = 0;
+  Scene scene = laserShadowgraph();
+  scene.kScale = radius / (5 * strongPath);
+  scene.cutoff = Cutoff::GradedFilter;
+  scene.gradedFilter = { 0.2, 0.6, 0.9 };
+  for (const bool inverted : { false, true })
+  {
+    scene.invertCutoff = inverted;
+    scene.lightModel = LightModel::Waves;
+    const Image waves = Bench().render(field, scene);
+    scene.lightModel = LightModel::Rays;
+    const Image rays = Bench().render(field, scene);
+    EXPECT_LT(rms(rowOf(waves, 48), rowOf(rays, 48)), 6e-3);
+    EXPECT_GT(rms(rowOf(rays, 48), Numbers(96, 0.6)), 0.05);
+    EXPECT_NEAR(waves.undisturbedLevel, rays.undisturbedLevel, 1e-6);
+  }
+}
+
+TEST(WaveStage, PhaseContrastIsOfItsPlate)
+{
+  Scene scene = laserShadowgraph();
+  scene.cutoff = Cutoff::PhaseContrast;
+  for (const auto& [plate, inverted] :
+    { std::pair(PhasePlate{ 0, 0.25, 1 }, false), std::pair(PhasePlate{ 0, -0.25, 0.04 }, false),
+      std::pair(PhasePlate{ 0, 0, 0 }, false), std::pair(PhasePlate{ 0, 0.25, 0.5 }, true) })
+  {
+    scene.phasePlate = plate;
+    scene.invertCutoff = inverted;
+    scene.lightModel = inverted ? LightModel::Auto : LightModel::Waves;
+    const Image image = Bench().render(columnInVacuum(), scene);
+    ASSERT_EQ(image.lightModel, LightModel::Waves);
+    const Complex factor = std::polar(std::sqrt(plate.transmission), 2 * pi * plate.delay);
+    const Complex disc = inverted ? 1 : factor, around = inverted ? factor : 1;
+    Numbers exact;
+    for (int i = 0; i < image.width; ++i)
+    {
+      exact.push_back(meanOfPixel(image, i,
+        [&](double x)
+        {
+          const double turned = phase * std::exp(-x * x / (radius * radius));
+          return std::norm(disc + around * (std::polar(1., turned) - 1.));
+        }));
+    }
+    EXPECT_LT(rms(rowOf(image, 48), exact), 2e-3) << plate.transmission;
+    EXPECT_NEAR(image.undisturbedLevel, inverted ? 1 : plate.transmission, 1e-12);
+  }
+}
+
+TEST(WaveStage, InterferogramIsThatOfRaysInFocus)
+{
+  for (const double spacing : { 0., 8e-4 })
+  {
+    Scene scene = laserShadowgraph();
+    scene.cutoff = Cutoff::Interferogram;
+    scene.fringes.finite = spacing > 0;
+    scene.fringes.spacing = spacing;
+    scene.fringes.angle = 30;
+    const Image waves = Bench().render(columnInVacuum(), scene);
+    EXPECT_EQ(waves.lightModel, LightModel::Waves);
+    scene.lightModel = LightModel::Rays;
+    scene.samplesPerPixel = 16;
+    const Image rays = Bench().render(columnInVacuum(), scene);
+    for (const int row : { 10, 48, 80 })
+    {
+      EXPECT_LT(rms(rowOf(waves, row), rowOf(rays, row)), 2e-3) << spacing;
+    }
+    EXPECT_NE(rowOf(waves, 10), rowOf(waves, 11));
+    EXPECT_EQ(waves.undisturbedLevel, rays.undisturbedLevel);
+  }
+}
+
+TEST(WaveStage, InterferogramAwayFromFocusIsAsItsClosedForm)
+{
+  Scene scene = laserShadowgraph();
+  scene.cutoff = Cutoff::Interferogram;
+  scene.focusOffset = 0.2;
+  const Image image = Bench().render(columnInVacuum(), scene);
+  Numbers exact;
+  for (int i = 0; i < image.width; ++i)
+  {
+    exact.push_back(meanOfPixel(image, i,
+      [](double x) { return 0.25 * std::norm(1. + fieldBehindColumn(x, radius, phase, 0.2)); }));
+  }
+  EXPECT_LT(rms(rowOf(image, 48), exact), 1e-3);
+  scene.lightModel = LightModel::Rays;
+  EXPECT_GT(rms(rowOf(Bench().render(columnInVacuum(), scene), 48), exact), 5e-3);
+}
+
 TEST(WaveStage, AllButTheLightIsOfRays)
 {
   Scene scene = laserShadowgraph();
@@ -300,7 +417,13 @@ TEST(WaveStage, WhatCannotBeMadeIsAnError)
     const char* words;
   };
   for (const Case& each :
-    { Case{ [](Scene& scene) { scene.cutoff = Cutoff::Interferogram; }, "Cutoff is Interferogram" },
+    { Case{ [](Scene& scene) { scene.cutoff = Cutoff::ColorFilter; }, "Cutoff is Color Filter" },
+      Case{ [](Scene& scene)
+        {
+          scene.cutoff = Cutoff::Interferogram;
+          scene.fringes.whiteLight = true;
+        },
+        "WhiteLight" },
       Case{ [](Scene& scene) { scene.view.viewAngle = 40; }, "ViewAngle to less" },
       Case{ [](Scene& scene) { scene.source.distance = 1e-2; }, "Collimated" },
       Case{ [](Scene& scene)
