@@ -85,15 +85,12 @@ Mask maskOf(const Scene& scene, double k)
 }
 
 /// The carrier of the reference beam, whose tilt is of paths.
-Carrier carrierOf(const Scene& scene, double wavelength, double pixelSize)
+EvenPhase carrierOf(const Scene& scene, double wavelength, double pixelSize)
 {
   CutoffMaker maker;
-  Carrier carrier = std::get<Interferogram>(maker.cutoffOf(scene, 0, { pixelSize })).carrier;
-  for (double* turns : { &carrier.perColumn, &carrier.perRow, &carrier.atOrigin })
-  {
-    *turns *= scene.wavelength / wavelength;
-  }
-  return carrier;
+  const Carrier carrier = std::get<Interferogram>(maker.cutoffOf(scene, 0, { pixelSize })).carrier;
+  const double part = scene.wavelength / wavelength;
+  return { part * carrier.perColumn, part * carrier.perRow, part * carrier.atOrigin };
 }
 
 } // namespace

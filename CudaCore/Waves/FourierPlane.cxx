@@ -4,8 +4,6 @@
 
 #include "Math/Trigonometry.h"
 #include "Math/Units.h"
-#include "Optics/KnifeEdge.h"
-#include "Waves/WavePixels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +58,7 @@ public:
 
   /// Multiplies the spectrum of light by what the mask and space make of it. The point's image is away from that of the middle
   /// by the distance times its angle. `fringes`: of points; of the means over their cells of light that has these.
-  SpectrumFilter filter(const Carrier* fringes) const
+  SpectrumFilter filter(const EvenPhase* fringes) const
   {
     const double perPoint[2] = { fringes ? fringes->perColumn : 0, fringes ? fringes->perRow : 0 };
     std::array<std::vector<Value>, 2> factors;
@@ -101,7 +99,7 @@ private:
 
 /// The phase by which a field's light is ahead of a reference beam in the plane in focus: of points, from the first ray's first
 /// one. `image`: of the image's pixels.
-Carrier fringesOf(const FieldBeforeScreen& before, const Screen& screen, const Carrier& image,
+EvenPhase fringesOf(const FieldBeforeScreen& before, const Screen& screen, const EvenPhase& image,
   const Angles& ofPoint, const WavePixels& pixels)
 {
   const WaveGrid& grid = before.grid;
@@ -114,7 +112,7 @@ Carrier fringesOf(const FieldBeforeScreen& before, const Screen& screen, const C
   const double ofImage[2] = { image.perColumn, image.perRow };
   double perPoint[2];
   double first = before.path / screen.wavelength +
-    SpaceFilter(space, before.field).turnsOfCarrier() + image.atOrigin;
+    SpaceFilter(space, before.field).turnsOfCarrier() + image.atFirst;
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
     perPoint[axis] = space.carrier[axis] * grid.spacing + ofImage[axis] / perPixel;
@@ -128,11 +126,12 @@ Carrier fringesOf(const FieldBeforeScreen& before, const Screen& screen, const C
 
 Mask edgeMask(double degrees, double place, bool isOther)
 {
-  const CutoffAxis axis = CutoffAxis::at(degrees, 1, place);
+  const double normal[2] = { std::cos(degrees * radiansPerDegree),
+    std::sin(degrees * radiansPerDegree) };
   return [=](const Angles& at, const Angles& cell) -> Value
   {
-    const double passing = fractionBehind(at[0] * axis.normal[0] + at[1] * axis.normal[1] - place,
-      cell[0] * std::abs(axis.normal[0]) + cell[1] * std::abs(axis.normal[1]));
+    const double passing = fractionBehind(at[0] * normal[0] + at[1] * normal[1] - place,
+      cell[0] * std::abs(normal[0]) + cell[1] * std::abs(normal[1]));
     return isOther ? 1 - passing : passing;
   };
 }
@@ -201,7 +200,7 @@ std::vector<float> lightInFocus(const LightAtExit& light, const Screen& screen,
   for (const SourcePoint& point : imaging.points)
   {
     const PointSpectrum spectrum(before, imaging.mask, point.place);
-    const auto make = [&](const Carrier* fringes) {
+    const auto make = [&](const EvenPhase* fringes) {
       return makeField(
         before.field, spectrum.filter(fringes), field, rows, screen.threads, monitor);
     };
@@ -215,7 +214,7 @@ std::vector<float> lightInFocus(const LightAtExit& light, const Screen& screen,
     pixels.add(field, before.grid, undisturbed, part, screen.threads);
     if (imaging.reference)
     {
-      const Carrier fringes = fringesOf(before, screen, *imaging.reference, point.place, pixels);
+      const EvenPhase fringes = fringesOf(before, screen, *imaging.reference, point.place, pixels);
       if (!make(&fringes))
       {
         return {};

@@ -6,8 +6,8 @@
 // interfere: their images are added (Abbe).
 #pragma once
 
-#include "Optics/Interferogram.h"
 #include "Waves/ScreenWaves.h"
+#include "Waves/WavePixels.h"
 
 #include <array>
 #include <complex>
@@ -45,8 +45,8 @@ struct Imaging
   Mask mask{}; ///< none: all light passes
   std::vector<SourcePoint> points{ {} };
   /// The phase, in turns, by which undisturbed light is ahead of a reference beam of as much light: the image is then that of
-  /// both, less by a factor of 4. Pixels as those of Carrier.
-  std::optional<Carrier> reference{};
+  /// both, less by a factor of 4. Columns and rows are the image's pixels.
+  std::optional<EvenPhase> reference{};
 };
 
 /// The light of pixels that nothing disturbs, without a reference beam and a tilt of all light.

@@ -57,7 +57,7 @@ void WavePixels::add(const ComplexField& field, const WaveGrid& grid,
 }
 
 void WavePixels::addFringes(const ComplexField& field, const WaveGrid& grid,
-  std::complex<double> undisturbed, const Carrier& turns, double weight, int threads)
+  std::complex<double> undisturbed, const EvenPhase& turns, double weight, int threads)
 {
   const auto wavesAlong = [](std::int64_t points, double perPoint, double atFirst)
   {
@@ -68,7 +68,7 @@ void WavePixels::addFringes(const ComplexField& field, const WaveGrid& grid,
     }
     return waves;
   };
-  const auto alongX = wavesAlong(grid.columns, turns.perColumn, turns.atOrigin);
+  const auto alongX = wavesAlong(grid.columns, turns.perColumn, turns.atFirst);
   const auto alongY = wavesAlong(grid.rows, turns.perRow, 0);
   addMeans(field, grid, weight, threads,
     [&](std::int64_t column, std::int64_t row, const ComplexField::Value& value)

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Optics/Interferogram.h"
 #include "Waves/WaveField.h"
 
 #include <complex>
@@ -11,6 +10,13 @@
 
 namespace schlieren
 {
+
+/// A phase that grows evenly over columns and rows, in turns.
+struct EvenPhase
+{
+  double perColumn = 0, perRow = 0;
+  double atFirst = 0; ///< at the centre of column 0, row 0
+};
 
 /// The light of pixels that rays have been traced for, row by row: of an image, and some of those around it.
 struct WavePixels
@@ -25,7 +31,7 @@ struct WavePixels
   /// Adds `weight` times the mean of 1/2 + Re((undisturbed + field) exp(2 pi i turns)). `turns`: of points, from the first ray's
   /// first one.
   void addFringes(const ComplexField& field, const WaveGrid& grid, std::complex<double> undisturbed,
-    const Carrier& turns, double weight, int threads);
+    const EvenPhase& turns, double weight, int threads);
 
   /// The rows of a field that the pixels take.
   RowRange rowsOf(const WaveGrid& grid) const;

@@ -321,7 +321,7 @@ TEST(WaveStage, InterferogramIsThatOfRaysInFocus)
     {
       EXPECT_LT(rms(rowOf(waves, row), rowOf(rays, row)), 2e-3) << spacing;
     }
-    EXPECT_NE(rowOf(waves, 10), rowOf(waves, 11));
+    EXPECT_GT(rms(rowOf(rays, 48), Numbers(96, 0.5)), 0.2);
     EXPECT_EQ(waves.undisturbedLevel, rays.undisturbedLevel);
   }
 }
