@@ -379,7 +379,7 @@ TEST(FourierPlane, WholeImagesKeepTheLight)
 namespace
 {
 
-/// Means over pixels of the light of two beams of which one is `ahead` of the other by some turns and has an amplitude.
+/// Means over pixels of the light of a beam and of one that is 1.
 Numbers lightOfBeams(const Bench1d& bench, const std::function<Complex(double x)>& beam)
 {
   Numbers light;
@@ -392,12 +392,14 @@ Numbers lightOfBeams(const Bench1d& bench, const std::function<Complex(double x)
   return light;
 }
 
-/// A column's light that interferes with a beam whose fringes are so many pixels apart, in columns or, where less than 0,
-/// none.
+/// A reference beam whose fringes are `spacing` pixels apart, or none where that is less than 0.
 Bench1d interferometer(double pixel, std::int64_t width, double spacing)
 {
-  const Carrier carrier =
-    spacing > 0 ? Carrier::of(spacing, 0, { 0.5 * static_cast<double>(width - 1), 0 }) : Carrier{};
+  EvenPhase carrier;
+  if (spacing > 0)
+  {
+    carrier = { 1 / spacing, 0, -0.5 * static_cast<double>(width - 1) / spacing };
+  }
   return benchOf(pixel, width, { {}, { {} }, carrier });
 }
 
