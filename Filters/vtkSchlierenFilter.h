@@ -405,8 +405,8 @@ public:
   ///@{
   /**
    * Return whether a cutoff has a sensitivity k; a straight edge with an angle, an offset and an
-   * inverse; fringes; a screen behind the flow (full light is 2 there, else 1), or a pattern; and,
-   * with these settings, colours of its own. False for invalid numbers.
+   * inverse; fringes; a screen behind the flow, or a pattern; and, with these settings, colours of
+   * its own. False for invalid numbers.
    */
   static bool CutoffHasK(int cutoff);
   static bool CutoffHasEdge(int cutoff);
@@ -416,6 +416,12 @@ public:
   static bool CutoffHasColor(int cutoff, bool whiteLight, int backgroundPattern);
   bool HasOwnColor() const;
   ///@}
+
+  /**
+   * Return the light that is shown as white: 2 for a cutoff whose undisturbed light is 1 and becomes
+   * more and less than that, as a shadowgraph's, else 1.
+   */
+  static double CutoffWhite(int cutoff);
 
   ///@{
   /**

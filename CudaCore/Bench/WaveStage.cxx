@@ -291,7 +291,9 @@ std::int64_t WaveStage<Real>::borderOf(const Image& image, const Screen& screen)
 {
   const Scene& scene = request_.scene;
   const double pixel = request_.field.lengthScale * image.frame.pixelSize;
-  const double bent = (screen.distance + screen.largestPlane) * largestDeflectionOf(image) / pixel;
+  const double farthest =
+    std::max(std::abs(screen.distance), std::abs(screen.distance + screen.largestPlane));
+  const double bent = farthest * largestDeflectionOf(image) / pixel;
   constexpr std::int64_t least = 4; // splines have four points
   const auto most = static_cast<double>(maxMargin(scene.view));
   return least + pixelsOfFresnelMargin(request_.field, scene, image.frame, faces_) +

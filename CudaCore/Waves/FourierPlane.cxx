@@ -159,7 +159,12 @@ Mask filterMask(std::function<double(const Angles& place)> transmission)
 {
   return [transmission = std::move(transmission)](const Angles& at, const Angles& cell) -> Value
   {
-    constexpr double quarter = 0.25;
+    constexpr double quarter = 0.25, cellsOfTip = 2;
+    // Filters that are even around the axis have a tip there.
+    if (std::abs(at[0]) >= cellsOfTip * cell[0] || std::abs(at[1]) >= cellsOfTip * cell[1])
+    {
+      return std::sqrt(transmission(at));
+    }
     double sum = 0;
     for (const double u : { -quarter, quarter })
     {
