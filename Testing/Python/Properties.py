@@ -99,7 +99,9 @@ for item in properties.values():
 for shown, names in (
         (WITH_K, "AutoKScale LockK KScale KFromOptics FocalLength SourceWidth"),
         (WITH_K | WITH_FRINGES, "Sensitivity"),
-        (WITH_EDGE, "KnifeEdgeAngle CutoffOffset InvertCutoff CutoffPosition"),
+        (WITH_EDGE, "KnifeEdgeAngle CutoffOffset CutoffPosition"),
+        (WITH_EDGE | {vtkSchlierenFilter.PHASE_CONTRAST}, "InvertCutoff"),
+        ({vtkSchlierenFilter.PHASE_CONTRAST}, "PhasePlateDiameter PhasePlateDelay PhasePlateTransmission"),
         (WITH_FRINGES, "Wavelength FringeMode FringeSpacing FringeAngle BeamAngle WhiteLight"),
         (WITH_SCREEN, "ScreenDistance"), (set(CUTOFFS.values()) - WITH_SCREEN, "FocusOffset"),
         (WITH_BACKGROUND, "BackgroundPattern BackgroundDistance BackgroundPeriod BackgroundAngle BackgroundImage"),

@@ -105,9 +105,15 @@ void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
 //------------------------------------------------------------------------------
 schlieren::PhasePlate phasePlateFrom(const OpticsSettings& optics)
 {
-  requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
-  return { metresPerMillimetre * optics.PhasePlateDiameter / optics.FocalLength,
-    optics.PhasePlateDelay, optics.PhasePlateTransmission };
+  schlieren::PhasePlate plate;
+  if (optics.PhasePlateDiameter > 0)
+  {
+    requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
+    plate.diameter = metresPerMillimetre * optics.PhasePlateDiameter / optics.FocalLength;
+  }
+  plate.delay = optics.PhasePlateDelay;
+  plate.transmission = optics.PhasePlateTransmission;
+  return plate;
 }
 
 //------------------------------------------------------------------------------

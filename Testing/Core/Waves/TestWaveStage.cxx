@@ -6,6 +6,7 @@
 #include "SameImage.h"
 #include "WaveForms.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <string>
@@ -345,6 +346,36 @@ TEST(WaveStage, InterferogramAwayFromFocusIsAsItsClosedForm)
     scene.lightModel = LightModel::Rays;
     EXPECT_GT(rms(rowOf(Bench().render(columnInVacuum(), scene), 48), exact), 5e-3) << offset;
   }
+}
+
+TEST(WaveStage, BandOfWavelengthsTakesFringesTheirContrast)
+{
+  // Beside the column. The tilt is one of paths, so that each wavelength has fringes of its own.
+  Scene scene = laserShadowgraph();
+  scene.cutoff = Cutoff::Interferogram;
+  scene.fringes.finite = true;
+  scene.fringes.spacing = 6e-4;
+  scene.fringes.angle = 90;
+  scene.bandwidth = 5e-8;
+  const Image image = Bench().render(columnInVacuum(), scene);
+  Numbers seen, exact;
+  for (int row = 0; row < image.height; ++row)
+  {
+    seen.push_back(static_cast<double>(image.intensity[pixelOf(image, 1, row)]));
+    const double paths = centreOf(image, 1, row).v / scene.fringes.spacing;
+    const auto light = [&](double wavelength)
+    {
+      const double turns = paths * green / wavelength;
+      const double inPixel = image.frame.pixelSize / scene.fringes.spacing * green / wavelength;
+      return 0.5 * (1 + std::cos(2 * pi * turns) * std::sin(pi * inPixel) / (pi * inPixel));
+    };
+    exact.push_back(
+      integral(light, green - 0.5 * scene.bandwidth, green + 0.5 * scene.bandwidth, 100) /
+      scene.bandwidth);
+  }
+  EXPECT_LT(rms(seen, exact), 2e-3);
+  EXPECT_LT(*std::max_element(seen.begin(), seen.begin() + 12), 0.9);
+  EXPECT_GT(*std::max_element(seen.begin() + 42, seen.begin() + 54), 0.95);
 }
 
 TEST(WaveStage, AllButTheLightIsOfRays)
