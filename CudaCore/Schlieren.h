@@ -79,6 +79,17 @@ struct Fringes
   std::function<double(double wavelength)> dispersion;
 };
 
+/// A disc in the plane where undisturbed light is a point, which delays and weakens what meets it (Zernike 1942); or all that
+/// is around it does, where Scene::invertCutoff.
+struct PhasePlate
+{
+  double diameter =
+    0; ///< by the focal length, radians; 0: the undisturbed light of each point of the source alone
+  double delay =
+    0.25; ///< waves: of 1/4 the light is 1 + 2 phi of a small phase phi, of -1/4 it is 1 - 2 phi
+  double transmission = 1; ///< of light, 0 ... 1; 0: an opaque stop, or the opening of one
+};
+
 enum class PatternKind
 {
   Dots,
@@ -126,13 +137,14 @@ struct Scene
   Cutoff cutoff = Cutoff::KnifeEdge;
   double knifeEdgeAngle = 0;    ///< degrees; 0 measures the deflection along u, 90 along v
   double cutoffOffset = 0;      ///< how far the edge is in, as a fraction of the source's image
-  bool invertCutoff = false;    ///< I becomes 1 - I (knife edge and graded filter)
+  bool invertCutoff = false;    ///< I becomes 1 - I (knife edge and graded filter); see PhasePlate
   std::optional<double> kScale; ///< k = f/a; unset: 99th percentile of |eps| is full scale, about
   /// Transmission at evenly spaced places from 0 to 1, linear in between; at least 2.
   std::vector<double> gradedFilter{ 0, 1 };
   std::shared_ptr<const RgbImage> colorFilter; ///< from k eps = (-1, -1) to (1, 1); null: the wheel
   double wavelength = 632.8e-9;                ///< of an interferogram and of waves, metres
   Fringes fringes;
+  PhasePlate phasePlate; ///< of Cutoff::PhaseContrast
   BackgroundPattern background;
   /// Distance from where light leaves the data to the screen, data units, in what light leaves them into; unset: one
   /// data depth.
@@ -149,13 +161,14 @@ struct Scene
   /// Red, green and blue, 0 ... 1, of each of Field::gradients.
   std::vector<std::array<float, 3>> fieldColors;
 
-  /// Waves are for Cutoff::Shadowgraph, and of collimated light for KnifeEdge: the light of each pixel is then that of a wave, for
-  /// which there is one ray in each pixel. All else of the image remains that of rays.
+  /// Waves are for Cutoff::Shadowgraph, and of collimated light for KnifeEdge, Circular, CircularComplement, GradedFilter,
+  /// PhaseContrast and Interferogram without white light: the light of each pixel is then that of a wave, for which there is one
+  /// ray in each pixel. All else of the image remains that of rays.
   LightModel lightModel = LightModel::Rays;
   double bandwidth =
     0; ///< full width of the spectrum around wavelength of waves, metres; less than wavelength
   int coherenceSamples =
-    32; ///< points across a knife edge's source, whose waves do not interfere; 1 ... 1024
+    32; ///< points of an extended source that is not on a screen, whose waves do not interfere; 1 ... 1024
   FilmEstimator filmEstimator = FilmEstimator::Sheet;
   NoiseFilter noiseFilter = NoiseFilter::None;
   double noiseFilterRadius = 2; ///< pixels

@@ -421,7 +421,10 @@ bool vtkSchlierenFilter::Show(
   }
   const bool isKept = choosesK(*this) && this->GetLockedK() > 0;
   dropIdleBounds(image);
-  this->Status = (isWhole ? "" : "Preview: ") + inside.Images.GetStatus(image) +
+  // Waves are made of a finished image.
+  const bool isStillOfRays = this->LightModel == LIGHT_WAVES && (!isWhole || !image.finished);
+  this->Status = std::string(isWhole ? "" : "Preview: ") + (isStillOfRays ? "rays as yet, " : "") +
+    inside.Images.GetStatus(image) +
     (inside.Exposure.IsNone() ? "" : ", " + inside.Exposure.GetWords()) +
     (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
@@ -430,7 +433,7 @@ bool vtkSchlierenFilter::Show(
   output->Initialize();
   histogram->Initialize();
   const ColorScale colors = this->HasOwnColor() ? ColorScale::Srgb
-    : CutoffHasScreen(this->Cutoff)             ? ColorScale::LinearToTwice
+    : CutoffWhite(this->Cutoff) > 1             ? ColorScale::LinearToTwice
                                                 : ColorScale::Linear;
   addLegend(output, *this, scene, image, isKept, this->PathModel == DIFFERENCE, colors);
   setOutput(output, image, this->PathModel == DIFFERENCE);

@@ -169,6 +169,12 @@ bool vtkSchlierenFilter::CutoffHasScreen(int cutoff)
 }
 
 //------------------------------------------------------------------------------
+double vtkSchlierenFilter::CutoffWhite(int cutoff)
+{
+  return CutoffHasScreen(cutoff) || cutoff == PHASE_CONTRAST ? 2 : 1;
+}
+
+//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::CutoffHasBackground(int cutoff)
 {
   return techniqueOf(cutoff).plane == schlieren::RecordedPlane::Background;

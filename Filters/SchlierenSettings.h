@@ -95,6 +95,9 @@ struct OpticsSettings
   int LightModel = lightOfRays;
   double Bandwidth = 0;
   int CoherenceSamples = 32;
+  double PhasePlateDiameter = 0;
+  double PhasePlateDelay = 0.25;
+  double PhasePlateTransmission = 1;
   int BackgroundPattern = 0;
   double BackgroundDistance = -1;
   double BackgroundPeriod = 0;
@@ -137,6 +140,9 @@ struct OpticsSettings
     use("LightModel", this->LightModel);
     use("Bandwidth", this->Bandwidth);
     use("CoherenceSamples", this->CoherenceSamples);
+    use("PhasePlateDiameter", this->PhasePlateDiameter);
+    use("PhasePlateDelay", this->PhasePlateDelay);
+    use("PhasePlateTransmission", this->PhasePlateTransmission);
     use("BackgroundPattern", this->BackgroundPattern);
     use("BackgroundDistance", this->BackgroundDistance);
     use("BackgroundPeriod", this->BackgroundPeriod);

@@ -64,7 +64,8 @@ static_assert(sameValue(Self::KNIFE_EDGE, schlieren::Cutoff::KnifeEdge) &&
   sameValue(Self::COLOR_FILTER, schlieren::Cutoff::ColorFilter) &&
   sameValue(Self::INTERFEROGRAM, schlieren::Cutoff::Interferogram) &&
   sameValue(Self::BACKGROUND_ORIENTED, schlieren::Cutoff::Background) &&
-  sameValue(Self::NUMERICAL_SCHLIEREN, schlieren::Cutoff::NumericalSchlieren));
+  sameValue(Self::NUMERICAL_SCHLIEREN, schlieren::Cutoff::NumericalSchlieren) &&
+  sameValue(Self::PHASE_CONTRAST, schlieren::Cutoff::PhaseContrast));
 static_assert(sameValue(Self::POINT, schlieren::SourceShape::Point) &&
   sameValue(Self::SLIT, schlieren::SourceShape::Slit) &&
   sameValue(Self::DISC, schlieren::SourceShape::Disc));

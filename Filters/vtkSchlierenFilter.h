@@ -114,7 +114,8 @@ public:
     COLOR_FILTER = 5,
     INTERFEROGRAM = 6,
     BACKGROUND_ORIENTED = 7,
-    NUMERICAL_SCHLIEREN = 8
+    NUMERICAL_SCHLIEREN = 8,
+    PHASE_CONTRAST = 9
   };
 
   enum LockModes
@@ -393,7 +394,9 @@ public:
    * - COLOR_FILTER: the colour at k eps in ColorFilterImage, or in a colour wheel;
    * - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
    * - BACKGROUND_ORIENTED: a camera's image of a pattern behind the flow;
-   * - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), common for computed flows, but no stop of a bench.
+   * - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), common for computed flows, but no stop of a bench;
+   * - PHASE_CONTRAST: 1 + 2 phi of a small phase phi, by a plate (PhasePlateDelay) that the
+   *   undisturbed light passes; of waves alone, see LightModel.
    */
   virtual void SetCutoff(int cutoff);
   vtkGetMacro(Cutoff, int);
@@ -402,8 +405,8 @@ public:
   ///@{
   /**
    * Return whether a cutoff has a sensitivity k; a straight edge with an angle, an offset and an
-   * inverse; fringes; a screen behind the flow (full light is 2 there, else 1), or a pattern; and,
-   * with these settings, colours of its own. False for invalid numbers.
+   * inverse; fringes; a screen behind the flow, or a pattern; and, with these settings, colours of
+   * its own. False for invalid numbers.
    */
   static bool CutoffHasK(int cutoff);
   static bool CutoffHasEdge(int cutoff);
@@ -413,6 +416,12 @@ public:
   static bool CutoffHasColor(int cutoff, bool whiteLight, int backgroundPattern);
   bool HasOwnColor() const;
   ///@}
+
+  /**
+   * Return the light that is shown as white: 2 for a cutoff whose undisturbed light is 1 and becomes
+   * more and less than that, as a shadowgraph's, else 1.
+   */
+  static double CutoffWhite(int cutoff);
 
   ///@{
   /**
@@ -435,7 +444,8 @@ public:
 
   ///@{
   /**
-   * Whether the knife edge or graded filter is reversed: I becomes 1 - I. Default: off.
+   * Whether the knife edge or graded filter is reversed: I becomes 1 - I; or the phase plate, see
+   * PhasePlateDiameter. Default: off.
    */
   vtkSetMacro(InvertCutoff, bool);
   vtkGetMacro(InvertCutoff, bool);
@@ -627,11 +637,12 @@ public:
   ///@{
   /**
    * How light continues behind the flow, one of LightModels: as rays (LIGHT_RAYS, the default), or
-   * as waves of Wavelength (LIGHT_WAVES), for SHADOWGRAPH and, with collimated light, KNIFE_EDGE;
-   * other settings are errors then. Light may diverge by 0.1 at most. LIGHT_AUTO: of a shadowgraph
-   * waves where the width of a pixel and the source's image on the screen is less than four Fresnel
-   * widths, sqrt(wavelength distance), and waves can be made. Waves replace Intensity alone; all
-   * other arrays remain those of rays.
+   * as waves of Wavelength (LIGHT_WAVES), for SHADOWGRAPH and, with collimated light, KNIFE_EDGE,
+   * CIRCULAR, CIRCULAR_COMPLEMENT, GRADED_FILTER, PHASE_CONTRAST and INTERFEROGRAM without
+   * WhiteLight; other settings are errors then. Light may diverge by 0.1 at most. LIGHT_AUTO: of a
+   * shadowgraph waves where the width of a pixel and the source's image on the screen is less than
+   * four Fresnel widths, sqrt(wavelength distance), and waves can be made; of PHASE_CONTRAST waves.
+   * Waves replace Intensity alone; all other arrays remain those of rays.
    */
   vtkSetClampMacro(LightModel, int, LIGHT_RAYS, LIGHT_AUTO);
   vtkGetMacro(LightModel, int);
@@ -648,11 +659,28 @@ public:
 
   ///@{
   /**
-   * Points across a knife edge's source, whose waves do not interfere: the image is the mean of
-   * theirs. 1 to 1024; 1 is a laser. Default: 32, whose error is below 0.01 of the light.
+   * Points of the source of waves that is not a POINT, and of a knife edge's, whose waves do not
+   * interfere: the image is the mean of theirs. 1 to 1024; 1 is a laser. Default: 32, whose error
+   * is below 0.01 of the light. A SHADOWGRAPH takes the whole source.
    */
   vtkSetClampMacro(CoherenceSamples, int, 1, 1024);
   vtkGetMacro(CoherenceSamples, int);
+  ///@}
+
+  ///@{
+  /**
+   * The plate of PHASE_CONTRAST, a disc in the plane where undisturbed light is a point: its
+   * diameter in millimetres, with FocalLength (default: 0, which undisturbed light alone passes),
+   * by how many waves it delays light (default: 0.25; -0.25 makes dark what 0.25 makes bright) and
+   * the fraction of light that it transmits, 0 to 1 (default: 1; 0 is an opaque stop). With
+   * InvertCutoff the plate is all around the disc instead; an opaque one is an aperture then.
+   */
+  vtkSetClampMacro(PhasePlateDiameter, double, 0, VTK_DOUBLE_MAX);
+  vtkGetMacro(PhasePlateDiameter, double);
+  vtkSetMacro(PhasePlateDelay, double);
+  vtkGetMacro(PhasePlateDelay, double);
+  vtkSetClampMacro(PhasePlateTransmission, double, 0, 1);
+  vtkGetMacro(PhasePlateTransmission, double);
   ///@}
 
   ///@{

@@ -93,6 +93,7 @@ Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, const PixelPlaces& p
     case Cutoff::Interferogram:
       return interferogram(scene, pixels.size);
     case Cutoff::Shadowgraph:
+    case Cutoff::PhaseContrast:
     case Cutoff::Background:
       break;
   }

@@ -49,7 +49,7 @@ Legend emptyLegendOf(const Scene& scene, double k)
     const double most = (scene.fringes.whiteLight ? 3 : 1) * scene.wavelength;
     range(Legend::Quantity::Path, -most, most);
   }
-  else if (technique.plane == RecordedPlane::Screen)
+  else if (technique.plane != RecordedPlane::Background)
   {
     range(Legend::Quantity::Light, 0, 2);
   }

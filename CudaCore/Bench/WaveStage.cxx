@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/WaveStage.h"
 
+#include "Bench/ImagingOfScene.h"
 #include "Bench/StageSettings.h"
 #include "Rays/Cpu/CpuTracer.h"
 #include "Rays/March/MakeTask.h"
-#include "Waves/EdgeWaves.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -45,6 +46,20 @@ int wavelengthsFor(const Scene& scene)
 {
   constexpr double narrow = 0.03;
   return scene.bandwidth == 0 ? 1 : scene.bandwidth < narrow * scene.wavelength ? 8 : 16;
+}
+
+bool isOfWaves(Cutoff cutoff)
+{
+  constexpr Cutoff all[] = { Cutoff::Shadowgraph, Cutoff::KnifeEdge, Cutoff::Circular,
+    Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::Interferogram,
+    Cutoff::PhaseContrast };
+  return std::find(std::begin(all), std::end(all), cutoff) != std::end(all);
+}
+
+/// A knife edge's source is as wide as k says.
+LightSource sourceOf(const Scene& scene)
+{
+  return scene.cutoff == Cutoff::KnifeEdge ? LightSource{} : scene.source;
 }
 
 /// Rays by which an image's light is traced for waves: those of its centre, on a grid of its own.
@@ -118,10 +133,16 @@ void addBlocked(const TracedPass& traced, float perPass, LightAtExit& light)
 
 std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& frame)
 {
-  if (scene.cutoff != Cutoff::Shadowgraph && scene.cutoff != Cutoff::KnifeEdge)
+  if (!isOfWaves(scene.cutoff))
   {
     return std::string("LightModel is Waves, but Cutoff is ") + techniqueOf(scene.cutoff).name +
-      ", and waves are made of a Shadowgraph or a Knife Edge alone. Set Cutoff to one of these," +
+      ", of which no waves are made. Set Cutoff to another technique," + orRays;
+  }
+  if (techniqueOf(scene.cutoff).hasFringes && scene.fringes.whiteLight)
+  {
+    return std::string("LightModel is Waves, but white light has too many wavelengths. Set "
+                       "WhiteLight to off and Bandwidth "
+                       "to what there is,") +
       orRays;
   }
   const bool isDiverging = frame.pupil > 0 || scene.source.distance;
@@ -153,6 +174,16 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
     return "CoherenceSamples is " + std::to_string(scene.coherenceSamples) +
       ". Set it between 1 and " + std::to_string(mostCoherenceSamples) + ".";
   }
+  const PhasePlate& plate = scene.phasePlate;
+  if (scene.cutoff == Cutoff::PhaseContrast &&
+    !(plate.diameter >= 0 && std::isfinite(plate.diameter) && std::isfinite(plate.delay) &&
+      plate.transmission >= 0 && plate.transmission <= 1))
+  {
+    return "The phase plate has " + std::to_string(plate.diameter) + " radians, delays light by " +
+      std::to_string(plate.delay) + " waves and transmits " + std::to_string(plate.transmission) +
+      ". Set PhasePlateDiameter to 0 or more, PhasePlateDelay to a finite number and "
+      "PhasePlateTransmission between 0 and 1.";
+  }
   if (scene.pathModel == PathModel::Straight)
   {
     return std::string("LightModel is Waves, but PathModel is Straight, and straight rays lack the "
@@ -179,7 +210,7 @@ std::int64_t pixelsOfFresnelMargin(
   const double depth = frame.exit - frame.entry;
   const double farthest = field.lengthScale * (std::abs(filmDistance(scene, frame, faces)) + depth);
   Screen screen;
-  screen.source = scene.cutoff == Cutoff::Shadowgraph ? scene.source : LightSource{};
+  screen.source = sourceOf(scene);
   const double pixels =
     marginOnScreen(screen, scene.wavelength, farthest, 0) / (field.lengthScale * frame.pixelSize);
   constexpr double most = 1 << 20; // more than can be traced
@@ -204,12 +235,13 @@ bool WaveStage<Real>::areWanted(Image& image) const
         "window. Set ViewAngle to 0 and LightSource to Collimated, ExitInto to Surroundings,") +
       orRays;
   }
-  if (!problem.empty() && scene.lightModel == LightModel::Waves)
+  const bool isOfWavesAlone = scene.cutoff == Cutoff::PhaseContrast;
+  if (!problem.empty() && (isOfWavesAlone || scene.lightModel == LightModel::Waves))
   {
     throw Error(problem);
   }
   const bool isOfScreen = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen;
-  if (!problem.empty() || (scene.lightModel == LightModel::Auto && !isOfScreen))
+  if (!problem.empty() || (scene.lightModel == LightModel::Auto && !isOfScreen && !isOfWavesAlone))
   {
     image.lightNote =
       !problem.empty() ? problem : "LightModel Auto takes waves of a Shadowgraph alone.";
@@ -220,8 +252,8 @@ bool WaveStage<Real>::areWanted(Image& image) const
   image.waves.fresnelWidth =
     fresnelWidth(scene.wavelength / (1 + image.exitRefractivity), distance);
   image.waves.blur =
-    blurOnScreen(scene.source, request_.field.lengthScale * image.frame.pixelSize, distance);
-  return scene.lightModel == LightModel::Waves ||
+    blurOnScreen(screen.source, request_.field.lengthScale * image.frame.pixelSize, distance);
+  return scene.lightModel == LightModel::Waves || isOfWavesAlone ||
     image.waves.blur < blurThatHidesWaves * image.waves.fresnelWidth;
 }
 
@@ -236,7 +268,7 @@ Screen WaveStage<Real>::screenOf(const Image& image) const
   screen.distance = scale * filmDistance(scene, image.frame, faces_);
   screen.width = image.width;
   screen.height = image.height;
-  screen.source = scene.cutoff == Cutoff::Shadowgraph ? scene.source : LightSource{};
+  screen.source = sourceOf(scene);
   screen.sourceAngle = scene.knifeEdgeAngle;
   screen.planeOtherwise = 0.5 * depth;
   screen.largestPlane = depth;
@@ -259,7 +291,9 @@ std::int64_t WaveStage<Real>::borderOf(const Image& image, const Screen& screen)
 {
   const Scene& scene = request_.scene;
   const double pixel = request_.field.lengthScale * image.frame.pixelSize;
-  const double bent = (screen.distance + screen.largestPlane) * largestDeflectionOf(image) / pixel;
+  const double farthest =
+    std::max(std::abs(screen.distance), std::abs(screen.distance + screen.largestPlane));
+  const double bent = farthest * largestDeflectionOf(image) / pixel;
   constexpr std::int64_t least = 4; // splines have four points
   const auto most = static_cast<double>(maxMargin(scene.view));
   return least + pixelsOfFresnelMargin(request_.field, scene, image.frame, faces_) +
@@ -375,20 +409,20 @@ std::vector<float> WaveStage<Real>::makeLight(
   {
     return lightOnScreen(light, screen, monitor, image.waves);
   }
-  if (!(image.kScale > 0))
+  if (techniqueOf(scene.cutoff).hasK() && !(image.kScale > 0))
   {
-    throw Error("k is 0, so the source of the knife edge has no width to make waves of. Set KScale "
-                "to more than 0, or "
-                "LightModel to Rays.");
+    throw Error(
+      "k is 0, so the light in the plane of the cutoff has no scale to make waves of. Set "
+      "KScale to more than 0, or "
+      "LightModel to Rays.");
   }
-  constexpr double perMillimetre = 1e3;
-  std::ostringstream note;
-  note << std::setprecision(3) << "rays suffice for features wider than "
-       << perMillimetre * 2 * screen.wavelength * image.kScale << " mm in focus";
-  image.lightNote = note.str();
-  const Edge edge{ scene.knifeEdgeAngle, scene.cutoffOffset / image.kScale, 1 / image.kScale,
-    scene.coherenceSamples, scene.invertCutoff };
-  return lightBehindEdge(light, screen, edge, monitor, image.waves);
+  image.lightNote = noteOnRays(scene.cutoff, screen.wavelength * image.kScale);
+  const Imaging imaging = imagingOf(scene, image.kScale, screen.wavelength, image.frame.pixelSize);
+  if (imaging.mask)
+  {
+    image.undisturbedLevel = undisturbedLight(imaging);
+  }
+  return lightInFocus(light, screen, imaging, monitor, image.waves);
 }
 
 template <class Real>
@@ -443,7 +477,8 @@ bool WaveStage<Real>::run(Image& image)
   }
   catch (const Error& problem)
   {
-    if (request_.scene.lightModel != LightModel::Auto)
+    if (request_.scene.lightModel != LightModel::Auto ||
+      request_.scene.cutoff == Cutoff::PhaseContrast)
     {
       throw;
     }

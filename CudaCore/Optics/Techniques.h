@@ -26,7 +26,8 @@ enum class Cutoff
   Interferogram, ///< I = (1 + cos(2 pi OPD / wavelength + carrier)) / 2; undisturbed: 1 without a carrier
   Background, ///< what a camera sees of a pattern behind the flow (BOS): the light of the place where its ray
               ///< meets the pattern. Undisturbed: the pattern's mean
-  NumericalSchlieren ///< I = exp(-5 k |eps|); undisturbed: 1
+  NumericalSchlieren, ///< I = exp(-5 k |eps|); undisturbed: 1
+  PhaseContrast ///< a plate delays undisturbed light (Scene::phasePlate), of waves; of rays I = 1
 };
 
 /// Where the light that a technique records comes from.
@@ -62,7 +63,7 @@ struct Technique
 };
 
 /// The table, in the order of Cutoff.
-constexpr std::array<Technique, 9> techniques = { {
+constexpr std::array<Technique, 10> techniques = { {
   // cutoff, name, full scale, edge, fringes, plane, colours
   { Cutoff::KnifeEdge, "Knife Edge", 0.5, true, false, RecordedPlane::Focus, Coloring::None },
   { Cutoff::Shadowgraph, "Shadowgraph", 0, false, false, RecordedPlane::Screen, Coloring::None },
@@ -76,6 +77,8 @@ constexpr std::array<Technique, 9> techniques = { {
   { Cutoff::Background, "Background Oriented", 0, false, false, RecordedPlane::Background,
     Coloring::OfBackgroundImage },
   { Cutoff::NumericalSchlieren, "Numerical Schlieren", 1, false, false, RecordedPlane::Focus,
+    Coloring::None },
+  { Cutoff::PhaseContrast, "Phase Contrast", 0, false, false, RecordedPlane::Focus,
     Coloring::None },
 } };
 

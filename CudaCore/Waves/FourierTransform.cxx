@@ -44,19 +44,24 @@ void transformLine(
   }
 }
 
-bool transformRows(ComplexField& field, Direction direction, int threads, const Monitor& monitor)
+bool areDark(const Value* values, std::int64_t count)
+{
+  return std::all_of(values, values + count, [](const Value& value) { return value == Value(0); });
+}
+
+bool transformRows(ComplexField& field, Direction direction, const RowRange& rows, int threads,
+  const Monitor& monitor)
 {
   return parallelFor(
-    field.rows, linesInPiece, threads,
+    rows.end - rows.begin, linesInPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
       Transform transform;
       std::vector<Value> line(static_cast<std::size_t>(field.columns));
-      for (std::int64_t row = begin; row < end; ++row)
+      for (std::int64_t row = rows.begin + begin; row < rows.begin + end; ++row)
       {
         Value* values = field.row(row);
-        const auto isDark = [](const Value& value) { return value == Value(0); };
-        if (!std::all_of(values, values + field.columns, isDark))
+        if (!areDark(values, field.columns))
         {
           std::copy(values, values + field.columns, line.begin());
           transformLine(transform, direction, line.data(), values, field.columns);
@@ -70,20 +75,21 @@ bool transformRows(ComplexField& field, Direction direction, int threads, const 
 struct ColumnWork
 {
   bool isForward;
-  const SpectrumFilter* filter; ///< null: none
+  const SpectrumFilter& filter;
   bool isBackward;
+  RowRange rows; ///< that are wanted of the result
 };
 
 /// Transforms columns begin ... end - 1, `columnsAtOnce` at most.
-void transformColumns(ComplexField& field, std::int64_t begin, std::int64_t end,
-  const ColumnWork& work, Transform& transform, std::vector<Value>& lines)
+void transformColumns(const ComplexField& from, ComplexField& to, std::int64_t begin,
+  std::int64_t end, const ColumnWork& work, Transform& transform, std::vector<Value>& lines)
 {
-  const std::int64_t rows = field.rows;
+  const std::int64_t rows = from.rows;
   for (std::int64_t row = 0; row < rows; ++row)
   {
     for (std::int64_t column = begin; column < end; ++column)
     {
-      lines[static_cast<std::size_t>((column - begin) * rows + row)] = field.row(row)[column];
+      lines[static_cast<std::size_t>((column - begin) * rows + row)] = from.row(row)[column];
     }
   }
   for (std::int64_t column = begin; column < end; ++column)
@@ -95,38 +101,35 @@ void transformColumns(ComplexField& field, std::int64_t begin, std::int64_t end,
       transformLine(transform, Direction::Forward, line, spectrum, rows);
       std::copy(spectrum, spectrum + rows, line);
     }
-    if (work.filter != nullptr)
-    {
-      (*work.filter)(column, line);
-    }
-    if (work.isBackward)
+    work.filter(column, line);
+    if (work.isBackward && !areDark(line, rows))
     {
       transformLine(transform, Direction::Backward, line, spectrum, rows);
       std::copy(spectrum, spectrum + rows, line);
     }
   }
-  for (std::int64_t row = 0; row < rows; ++row)
+  for (std::int64_t row = work.rows.begin; row < work.rows.end; ++row)
   {
     for (std::int64_t column = begin; column < end; ++column)
     {
-      field.row(row)[column] = lines[static_cast<std::size_t>((column - begin) * rows + row)];
+      to.row(row)[column] = lines[static_cast<std::size_t>((column - begin) * rows + row)];
     }
   }
 }
 
-bool transformColumns(
-  ComplexField& field, const ColumnWork& work, int threads, const Monitor& monitor)
+bool transformColumns(const ComplexField& from, ComplexField& to, const ColumnWork& work,
+  int threads, const Monitor& monitor)
 {
   return parallelFor(
-    field.columns, linesInPiece, threads,
+    from.columns, linesInPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
       Transform transform;
-      std::vector<Value> lines(static_cast<std::size_t>((columnsAtOnce + 1) * field.rows));
+      std::vector<Value> lines(static_cast<std::size_t>((columnsAtOnce + 1) * from.rows));
       for (std::int64_t column = begin; column < end; column += columnsAtOnce)
       {
         transformColumns(
-          field, column, std::min(end, column + columnsAtOnce), work, transform, lines);
+          from, to, column, std::min(end, column + columnsAtOnce), work, transform, lines);
       }
     },
     monitor);
@@ -161,25 +164,28 @@ double frequencyOf(std::int64_t index, std::int64_t points, double spacing)
   return static_cast<double>(number) / (static_cast<double>(points) * spacing);
 }
 
-bool makeSpectrum(ComplexField& field, int threads, const Monitor& monitor)
+bool makeSpectrum(
+  ComplexField& field, const SpectrumFilter& filter, int threads, const Monitor& monitor)
 {
-  return transformRows(field, Direction::Forward, threads, monitor) &&
-    transformColumns(field, { true, nullptr, false }, threads, monitor);
+  const RowRange all{ 0, field.rows };
+  return transformRows(field, Direction::Forward, all, threads, monitor) &&
+    transformColumns(field, field, { true, filter, false, all }, threads, monitor);
 }
 
-bool makeField(
-  ComplexField& spectrum, const SpectrumFilter& filter, int threads, const Monitor& monitor)
+bool makeField(const ComplexField& spectrum, const SpectrumFilter& filter, ComplexField& field,
+  const RowRange& rows, int threads, const Monitor& monitor)
 {
-  return transformColumns(spectrum, { false, &filter, true }, threads, monitor) &&
-    transformRows(spectrum, Direction::Backward, threads, monitor);
+  return transformColumns(spectrum, field, { false, filter, true, rows }, threads, monitor) &&
+    transformRows(field, Direction::Backward, rows, threads, monitor);
 }
 
 bool filterSpectrum(
   ComplexField& field, const SpectrumFilter& filter, int threads, const Monitor& monitor)
 {
-  return transformRows(field, Direction::Forward, threads, monitor) &&
-    transformColumns(field, { true, &filter, true }, threads, monitor) &&
-    transformRows(field, Direction::Backward, threads, monitor);
+  const RowRange all{ 0, field.rows };
+  return transformRows(field, Direction::Forward, all, threads, monitor) &&
+    transformColumns(field, field, { true, filter, true, all }, threads, monitor) &&
+    transformRows(field, Direction::Backward, all, threads, monitor);
 }
 
 } // namespace schlieren

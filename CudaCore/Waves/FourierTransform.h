@@ -42,12 +42,20 @@ double frequencyOf(std::int64_t index, std::int64_t points, double spacing);
 /// Multiplies the spectrum along y of one column of a field's spectrum, by its number along x.
 using SpectrumFilter = std::function<void(std::int64_t column, std::complex<double>* alongY)>;
 
-/// Replaces a field by its spectrum. False if aborted.
-bool makeSpectrum(ComplexField& field, int threads, const Monitor& monitor = {});
+/// Replaces a field by its spectrum, multiplied. False if aborted.
+bool makeSpectrum(
+  ComplexField& field, const SpectrumFilter& filter, int threads, const Monitor& monitor = {});
 
-/// Multiplies a spectrum, and replaces it by its field. False if aborted.
-bool makeField(
-  ComplexField& spectrum, const SpectrumFilter& filter, int threads, const Monitor& monitor = {});
+/// The rows from `begin` up to before `end`.
+struct RowRange
+{
+  std::int64_t begin, end;
+};
+
+/// Makes some rows of the field of a spectrum, multiplied; its other rows are left as they are. `field`: as large. False if
+/// aborted.
+bool makeField(const ComplexField& spectrum, const SpectrumFilter& filter, ComplexField& field,
+  const RowRange& rows, int threads, const Monitor& monitor = {});
 
 /// Multiplies the spectrum of a field: both in one. The result does not depend on the number of threads. False if aborted.
 bool filterSpectrum(

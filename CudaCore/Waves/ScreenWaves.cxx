@@ -94,6 +94,11 @@ double blurOnScreen(const LightSource& source, double pixel, double distance)
   return std::hypot(pixel, image);
 }
 
+std::int64_t pixelsAround(const LightAtExit& light, const Screen& screen)
+{
+  return (light.columns / screen.raysPerPixel - screen.width) / 2;
+}
+
 double marginOnScreen(
   const Screen& screen, double wavelengthInMedium, double distance, double largestDeflection)
 {
@@ -123,33 +128,35 @@ double SpaceFilter::turns(double fx, double fy) const
   return -space_.distance * wavelength * square / (1 + cosine);
 }
 
-std::complex<double> SpaceFilter::at(double fx, double fy, const double (&tilt)[2]) const
+std::complex<double> SpaceFilter::at(double fx, double fy) const
 {
   const double f[2] = { fx + space_.carrier[0], fy + space_.carrier[1] };
-  const double square = std::pow(f[0] + tilt[0], 2) + std::pow(f[1] + tilt[1], 2);
+  const double square = f[0] * f[0] + f[1] * f[1];
   if (std::abs(f[0]) > limits_[0] || std::abs(f[1]) > limits_[1] ||
     space_.wavelength * space_.wavelength * square >= 1)
   {
     return 0;
   }
-  const double phase = 2 * pi *
-    (turns(f[0] + tilt[0], f[1] + tilt[1]) -
-      turns(space_.carrier[0] + tilt[0], space_.carrier[1] + tilt[1]));
+  const double phase = 2 * pi * (turns(f[0], f[1]) - turnsOfCarrier());
   return { std::cos(phase), std::sin(phase) };
+}
+
+SpectrumFilter filterOf(const FreeSpace& space, const ComplexField& field)
+{
+  return [ofSpace = SpaceFilter(space, field), columns = field.columns, rows = field.rows,
+           spacing = space.spacing](std::int64_t column, Value* alongY)
+  {
+    const double fx = frequencyOf(column, columns, spacing);
+    for (std::int64_t row = 0; row < rows; ++row)
+    {
+      alongY[row] *= ofSpace.at(fx, frequencyOf(row, rows, spacing));
+    }
+  };
 }
 
 bool propagate(ComplexField& field, const FreeSpace& space, int threads, const Monitor& monitor)
 {
-  const SpaceFilter ofSpace(space, field);
-  const auto filter = [&](std::int64_t column, Value* alongY)
-  {
-    const double fx = frequencyOf(column, field.columns, space.spacing);
-    for (std::int64_t row = 0; row < field.rows; ++row)
-    {
-      alongY[row] *= ofSpace.at(fx, frequencyOf(row, field.rows, space.spacing));
-    }
-  };
-  return filterSpectrum(field, filter, threads, monitor);
+  return filterSpectrum(field, filterOf(space, field), threads, monitor);
 }
 
 double parallelDistance(const Screen& screen, double plane)
@@ -169,8 +176,7 @@ FieldBeforeScreen fieldBefore(const LightAtExit& ofRays, const Screen& screen, d
   int fields, WaveReport& report)
 {
   const double wavelength = screen.wavelength / ofRays.refractiveIndex;
-  const std::int64_t border =
-    (ofRays.columns / screen.raysPerPixel - screen.width) / 2 * screen.raysPerPixel;
+  const std::int64_t border = pixelsAround(ofRays, screen) * screen.raysPerPixel;
   report.plane = std::clamp(bestPlane(ofRays, screen.planeOtherwise), 0., screen.largestPlane);
   const double distance = parallelDistance(screen, report.plane);
   const bool isDiverging = screen.pointSource.has_value();
@@ -180,7 +186,7 @@ FieldBeforeScreen fieldBefore(const LightAtExit& ofRays, const Screen& screen, d
   const LightAtExit& light = isDiverging ? parallel : ofRays;
   report.fresnelWidth = fresnelWidth(wavelength, distance);
   report.blur = blurOnScreen(screen.source, light.spacing * screen.raysPerPixel, distance);
-  const LightOnPlane plane = bringToPlane(light, isDiverging ? 0 : report.plane, screen.threads);
+  LightOnPlane plane = bringToPlane(light, isDiverging ? 0 : report.plane, screen.threads);
   const double margin =
     std::max(leastMargin, marginOnScreen(screen, wavelength, distance, largestDeflection(light)));
   const WaveGrid grid = gridFor(
@@ -191,8 +197,9 @@ FieldBeforeScreen fieldBefore(const LightAtExit& ofRays, const Screen& screen, d
   report.columns = grid.columns;
   report.rows = grid.rows;
   const double taper = taperOf(static_cast<double>(border), report.fresnelWidth / light.spacing);
+  const double path = takeOffCommonPath(plane, grid, screen.wavelength);
   return { grid, fieldOf(plane, grid, screen.wavelength, taper, screen.threads),
-    { wavelength, distance, grid.spacing, { grid.carrier[0], grid.carrier[1] } } };
+    { wavelength, distance, grid.spacing, { grid.carrier[0], grid.carrier[1] } }, path };
 }
 
 std::vector<float> lightOnScreen(
@@ -203,7 +210,7 @@ std::vector<float> lightOnScreen(
   {
     return {};
   }
-  WavePixels pixels(light, screen.raysPerPixel);
+  WavePixels pixels(light, screen.raysPerPixel, 0);
   pixels.add(before.field, before.grid, 1, 1, screen.threads);
   const bool isExtended = screen.source.shape != SourceShape::Point;
   const double pixel = light.spacing * screen.raysPerPixel;

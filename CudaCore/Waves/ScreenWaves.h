@@ -38,6 +38,9 @@ struct Screen
   int threads = 0;
 };
 
+/// The pixels that rays have been traced for beside an image, on each side.
+std::int64_t pixelsAround(const LightAtExit& light, const Screen& screen);
+
 /// How wide the light around an image is that may reach it over a distance, metres: eight Fresnel widths, what is deflected
 /// and what comes from an extended source.
 double marginOnScreen(
@@ -62,9 +65,10 @@ class SpaceFilter
 public:
   SpaceFilter(const FreeSpace& space, const ComplexField& field);
 
-  /// Of the frequencies of a field, without the carrier, seen by light that is tilted by other frequencies, too.
-  std::complex<double> at(double fx, double fy, const double (&tilt)[2]) const;
-  std::complex<double> at(double fx, double fy) const { return at(fx, fy, { 0, 0 }); }
+  /// Of the frequencies of a field, without the carrier.
+  std::complex<double> at(double fx, double fy) const;
+  /// The phase, in turns, by which the carrier's light is ahead of light along the normal: 0 or less.
+  double turnsOfCarrier() const { return turns(space_.carrier[0], space_.carrier[1]); }
 
 private:
   double turns(double fx, double fy) const;
@@ -72,6 +76,9 @@ private:
   FreeSpace space_;
   double limits_[2];
 };
+
+/// Multiplies the spectrum of a field by what space does to it.
+SpectrumFilter filterOf(const FreeSpace& space, const ComplexField& field);
 
 /// Brings a field over a distance. False if aborted.
 bool propagate(
@@ -83,6 +90,8 @@ struct FieldBeforeScreen
   WaveGrid grid;
   ComplexField field;
   FreeSpace space;
+  double
+    path; ///< less that of undisturbed light, of light that is 1 in the field where its rays begin; metres of vacuum
 };
 
 /// The distance over which parallel light makes the same image, up to its size: see parallelOf. `plane`: before where light

@@ -87,35 +87,6 @@ double taperAt(double place, std::int64_t rays, double taper)
   return t <= 0 ? 0 : t >= 1 ? 1 : 1 / (1 + std::exp(1 / t - 1 / (1 - t)));
 }
 
-/// Paths without the carrier's, less their median along the border: light there is about 1, as undisturbed light around it.
-RayValues pathsToUse(const LightOnPlane& plane, const WaveGrid& grid, double wavelength)
-{
-  RayValues paths(plane.path.size()), border;
-  for (std::int64_t row = 0; row < plane.rows; ++row)
-  {
-    const bool isEnd = row == 0 || row + 1 == plane.rows;
-    for (std::int64_t column = 0; column < plane.columns; ++column)
-    {
-      const auto ray = static_cast<std::size_t>(row * plane.columns + column);
-      paths[ray] = plane.path[ray] -
-        wavelength * plane.spacing *
-          (grid.carrier[0] * static_cast<double>(column) +
-            grid.carrier[1] * static_cast<double>(row));
-      if (isEnd || column == 0 || column + 1 == plane.columns)
-      {
-        border.push_back(paths[ray]);
-      }
-    }
-  }
-  const auto middle = border.begin() + static_cast<std::ptrdiff_t>(border.size() / 2);
-  std::nth_element(border.begin(), middle, border.end());
-  for (double& path : paths)
-  {
-    path -= *middle;
-  }
-  return paths;
-}
-
 /// Where points along an axis lie between rays.
 struct PointAlong
 {
@@ -142,6 +113,33 @@ double valueAt(const Spline::Stencil& stencil, const std::vector<double>& coeffi
 }
 
 } // namespace
+
+double takeOffCommonPath(LightOnPlane& plane, const WaveGrid& grid, double wavelength)
+{
+  RayValues border;
+  for (std::int64_t row = 0; row < plane.rows; ++row)
+  {
+    const bool isEnd = row == 0 || row + 1 == plane.rows;
+    for (std::int64_t column = 0; column < plane.columns; ++column)
+    {
+      const auto ray = static_cast<std::size_t>(row * plane.columns + column);
+      plane.path[ray] -= wavelength * plane.spacing *
+        (grid.carrier[0] * static_cast<double>(column) +
+          grid.carrier[1] * static_cast<double>(row));
+      if (isEnd || column == 0 || column + 1 == plane.columns)
+      {
+        border.push_back(plane.path[ray]);
+      }
+    }
+  }
+  const auto middle = border.begin() + static_cast<std::ptrdiff_t>(border.size() / 2);
+  std::nth_element(border.begin(), middle, border.end());
+  for (double& path : plane.path)
+  {
+    path -= *middle;
+  }
+  return *middle;
+}
 
 double pointsFor(double length, double largestDeflection, double wavelengthInMedium)
 {
@@ -177,7 +175,7 @@ WaveGrid gridFor(const LightAtExit& light, const GridRequest& request)
 ComplexField fieldOf(
   const LightOnPlane& plane, const WaveGrid& grid, double wavelength, double taper, int threads)
 {
-  const Spline path(pathsToUse(plane, grid, wavelength), plane.columns, plane.rows);
+  const Spline path(plane.path, plane.columns, plane.rows);
   const Spline amplitude(plane.amplitude, plane.columns, plane.rows);
   const std::vector<PointAlong> xs = pointsAlong(plane.columns, grid.pointsPerRay, taper);
   const std::vector<PointAlong> ys = pointsAlong(plane.rows, grid.pointsPerRay, taper);

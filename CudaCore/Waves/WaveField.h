@@ -41,8 +41,12 @@ double pointsFor(double length, double largestDeflection, double wavelengthInMed
 /// Finds the points that light on its plane needs. Throws Error where they need more memory than there may be.
 WaveGrid gridFor(const LightAtExit& light, const GridRequest& request);
 
-/// The light of a plane as a wave by undisturbed light, which is 1, less undisturbed light. It falls to that within
-/// `taper` rays from the ends.
+/// Takes the carrier's paths off those of light, which begin at the first ray, and then their median along the border, which is
+/// returned: light there is about 1, as undisturbed light around it.
+double takeOffCommonPath(LightOnPlane& plane, const WaveGrid& grid, double wavelength);
+
+/// The light of a plane, without its common path, as a wave by undisturbed light, which is 1, less undisturbed light. It falls to
+/// that within `taper` rays from the ends.
 ComplexField fieldOf(
   const LightOnPlane& plane, const WaveGrid& grid, double wavelength, double taper, int threads);
 

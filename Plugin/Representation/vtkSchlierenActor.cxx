@@ -507,9 +507,8 @@ void vtkSchlierenActor::UpdatePixels()
     }
     else
     {
-      const bool isShadow = vtkSchlierenFilter::CutoffHasScreen(this->Bench->GetCutoff());
-      this->Pixels->GetPointData()->SetScalars(
-        greyOf(arrays->GetArray("Intensity"), isShadow ? 2 : 1));
+      this->Pixels->GetPointData()->SetScalars(greyOf(
+        arrays->GetArray("Intensity"), vtkSchlierenFilter::CutoffWhite(this->Bench->GetCutoff())));
     }
     this->Pixels->Modified();
   }

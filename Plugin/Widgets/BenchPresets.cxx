@@ -39,6 +39,9 @@ const std::vector<PresetSetting> defaults = {
   { "SourceShape", Filter::POINT, nullptr },
   { "LightModel", Filter::LIGHT_RAYS, nullptr },
   { "Bandwidth", 0, nullptr },
+  { "PhasePlateDiameter", 0, nullptr },
+  { "PhasePlateDelay", 0.25, nullptr },
+  { "PhasePlateTransmission", 1, nullptr },
 };
 
 BenchPreset preset(const char* name, const std::vector<PresetSetting>& changes)
@@ -74,6 +77,9 @@ const std::vector<BenchPreset>& benchPresets()
         { "FringeMode", Filter::FINITE_FRINGES, nullptr }, { "FringeAngle", 90, nullptr } }),
     preset("Interferogram in white light",
       { { "Cutoff", Filter::INTERFEROGRAM, nullptr }, { "WhiteLight", 1, nullptr } }),
+    preset("Phase contrast of a laser",
+      { { "Cutoff", Filter::PHASE_CONTRAST, nullptr },
+        { "LightModel", Filter::LIGHT_WAVES, nullptr } }),
     preset("Background-oriented schlieren, dots",
       { { "Cutoff", Filter::BACKGROUND_ORIENTED, nullptr } }),
   };

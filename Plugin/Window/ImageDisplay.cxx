@@ -79,7 +79,7 @@ double ImageDisplay::white(vtkSMProxy* filter)
   const bool isColored = valueOf(filter, "ColorByField") != 0 ||
     Filter::CutoffHasColor(
       cutoff, valueOf(filter, "WhiteLight") != 0, valueOf(filter, "BackgroundPattern"));
-  return isColored ? 0 : Filter::CutoffHasScreen(cutoff) ? 2 : 1;
+  return isColored ? 0 : Filter::CutoffWhite(cutoff);
 }
 
 //------------------------------------------------------------------------------

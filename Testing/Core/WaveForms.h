@@ -101,6 +101,21 @@ inline double disc(double fromAxis, double radius, double wavelength, double dis
   return std::norm(1. - behind);
 }
 
+/// The field behind exp(i phase exp(-x^2 / size^2)): a sum of Gaussians, each of which stays one.
+inline Complex fieldBehindColumn(
+  double x, double size, double phase, double distance, double wavelength = green)
+{
+  const Complex grows(0, distance * wavelength / pi); // 2 i D / k
+  Complex sum = 1, factor = 1;
+  for (int n = 1; n < 40; ++n)
+  {
+    factor *= Complex(0, phase) / static_cast<double>(n);
+    const double square = size * size / n;
+    sum += factor * std::sqrt(square / (square + grows)) * std::exp(-x * x / (square + grows));
+  }
+  return sum;
+}
+
 /// Airy's function.
 inline double airy(double x)
 {

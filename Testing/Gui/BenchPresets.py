@@ -25,6 +25,10 @@ def choose_preset(name):
 # What was set before leaves no trace: the same bench as by a script.
 user.click("InvertCutoff/CheckBox")
 user.choose("CutoffOffset/DoubleLineEdit0", "0.3")
+choose_preset("Phase contrast of a laser")
+user.check("Cutoff/ComboBox", "currentText", "Phase Contrast")
+user.check("PhasePlateDelay", "visible", "true")
+user.check("KFromOptics", "visible", "false")
 choose_preset("Toepler bench: mirror of 1 m, slit of 1 mm")
 user.check("KFromOptics/CheckBox", "checked", "true")
 user.check("InvertCutoff/CheckBox", "checked", "false")

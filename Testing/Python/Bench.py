@@ -39,7 +39,8 @@ SETTINGS = {"Wavelength": 500.0, "Cutoff": "Color Filter", "KnifeEdgeAngle": 30.
             "FringeMode": "Finite", "FringeSpacing": 0.125, "FringeAngle": 45.0, "BeamAngle": 0.5,
             "WhiteLight": 1, "ScreenDistance": 3.0, "FocusOffset": 0.5, "LightSource": "Diverging",
             "SourceDistance": 30.0, "SourceShape": "Slit", "LightModel": "Waves",
-            "Bandwidth": 5.0, "CoherenceSamples": 3, "BackgroundPattern": "Picture",
+            "Bandwidth": 5.0, "CoherenceSamples": 3, "PhasePlateDiameter": 0.5, "PhasePlateDelay": -0.25,
+            "PhasePlateTransmission": 0.5, "BackgroundPattern": "Picture",
             "BackgroundDistance": 4.0, "BackgroundPeriod": 0.25, "BackgroundAngle": 60.0,
             "BackgroundImage": as_text(png([[WHITE, RED]])), "FilmEstimator": "Photon",
             "NoiseFilter": "Gaussian", "NoiseFilterRadius": 1.5, "HistogramSize": 33, "MemoryBudget": 77}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Laser shadowgraphs: the light behind a sphere, with the bright spot in the middle of its shadow."""
+"""Laser light: a sphere's shadow with the bright spot in its middle, phase contrast, filters and interferograms."""
 
 import math
 
@@ -76,14 +76,89 @@ assert np.array_equal(image_array(shadow, "Intensity"), light)
 shadow.ImageSize, shadow.ParallelScale = [8, 8], 2e-2
 output(shadow)
 assert "rays, which suffice" in status_of(shadow), status_of(shadow)
-shadow.Cutoff = "Circular"
+shadow.Cutoff = "Color Filter"
 output(shadow)
-assert "waves are made of a Shadowgraph or a Knife Edge alone" in status_of(shadow)
+assert "of which no waves are made" in status_of(shadow), status_of(shadow)
+
+# In focus: a column of 3.4 rad, 1/e half width 0.6 mm, behind plates and filters, and with a reference beam.
+column = Schlieren(Input=gaussian_column(96), Density=["POINTS", "N"], IndexModel="Refractivity", IndexArray=["POINTS", "N"],
+                   AutoAmbientRefractivity=0, LengthScale=2e-3, Wavelength=1e9 * WAVELENGTH, ParallelScale=0.8,
+                   ImageSize=[128, 128], Quality="Publication", LightModel="Waves")
+
+
+def difference(values, exact):
+    """The root of the mean square of what two images differ by."""
+    return float(np.sqrt(np.mean((values - exact)**2)))
+
+
+column.Cutoff = "Phase Contrast"
+for delay, transmission, inverted in ((0.25, 1, 0), (-0.25, 0.1, 0), (0.25, 0, 0), (0.125, 0.5, 1)):
+    column.PhasePlateDelay, column.PhasePlateTransmission, column.InvertCutoff = delay, transmission, inverted
+    seen = image_array(column, "Intensity")
+    phase = np.exp(2j * math.pi * image_array(column, "OpticalPathDifference") / WAVELENGTH)
+    plate = math.sqrt(transmission) * np.exp(2j * math.pi * delay)
+    truth = np.abs(1 + plate * (phase - 1))**2 if inverted else np.abs(plate + phase - 1)**2
+    print(f"phase contrast {delay}, {transmission}: {difference(seen, truth):.1e}")
+    assert difference(seen, truth) < 5e-3
+    assert np.ptp(truth) > 0.5
+    level = output(column).GetFieldData().GetArray("UndisturbedLevel").GetValue(0)
+    assert abs(level - (1 if inverted else transmission)) < 1e-9, level
+assert "rays do not show phases" in status_of(column), status_of(column)
+
+# A stop and an aperture of 5 mm, 1 m focal length, are wider than what the column bends light by.
+column.PhasePlateTransmission, column.PhasePlateDiameter, column.InvertCutoff = 0, 5, 0
+stopped = image_array(column, "Intensity")
+column.InvertCutoff = 1
+passed = image_array(column, "Intensity")
+stopped, passed = stopped[48:80], passed[48:80]  # away from where the data end
+print(f"stop {stopped.max():.1e}, aperture {difference(passed, 1):.1e}")
+assert stopped.max() < 0.02 and difference(passed, 1) < 0.02
+column.PhasePlateDiameter = 0.3
+assert image_array(column, "Intensity")[64].min() < 0.5, "The flanks bend light beside the aperture"
+column.InvertCutoff = 0
+
+for cutoff, settings, most in (("Graded Filter", {"AutoKScale": 0, "KScale": 300}, 5e-3), ("Interferogram", {}, 3e-3),
+                               ("Interferogram", {"FringeMode": "Finite", "FringeSpacing": 0.1, "FringeAngle": 60}, 3e-3)):
+    column.Cutoff = cutoff
+    for key, value in settings.items():
+        setattr(column, key, value)
+    column.LightModel = "Waves"
+    waves = image_array(column, "Intensity")
+    assert "waves" in status_of(column), status_of(column)
+    column.LightModel = "Rays"
+    rays = image_array(column, "Intensity")
+    print(f"{cutoff}: {difference(waves, rays):.1e}")
+    assert difference(waves, rays) < most
+    assert np.ptp(rays) > 0.2
+
+# A preview has no waves, and says so.
+column.LightModel, column.PreviewReduction = "Waves", 4
+output(column)
+assert status_of(column).startswith("Preview: rays as yet, "), status_of(column)
+column.PreviewReduction = 1
+
+# Stops whose light depends on |deflection| show the square of a weak phase, and of a strong one what rays do.
+for cutoff in ("Circular", "Circular Complement"):
+    column.Cutoff = cutoff
+    column.LightModel = "Rays"
+    rays = image_array(column, "Intensity")
+    column.LightModel, column.SourceShape = "Waves", "Point"
+    laser = image_array(column, "Intensity")
+    column.SourceShape, column.SourceWidth, column.CoherenceSamples = "Disc", 1, 8
+    disc = image_array(column, "Intensity")
+    print(f"{cutoff}: {difference(laser, rays):.2f}, {difference(laser, disc):.2f}")
+    assert 0.01 < difference(laser, rays) < 0.3
+    assert difference(laser, disc) > 0.01
+    assert "several wavelengths" in status_of(column), status_of(column)
 
 # What waves cannot do is one message.
 flow = Schlieren(Input=gaussian_column(16), Density=["POINTS", "rho"], ImageSize=[32, 32], LightModel="Waves",
-                Cutoff="Circular")
-for settings, words in (({}, "Cutoff to one of these"), ({"Cutoff": "Shadowgraph", "ViewAngle": 30}, "ViewAngle to less"),
+                Cutoff="Color Filter")
+for settings, words in (({}, "Cutoff to another technique"),
+                        ({"Cutoff": "Interferogram", "WhiteLight": 1}, "WhiteLight to off"),
+                        ({"Cutoff": "Phase Contrast", "LightModel": "Rays"}, "LightModel to Waves"),
+                        ({"LightModel": "Waves", "ViewAngle": 30}, "ViewAngle to less"),
+                        ({"Cutoff": "Shadowgraph", "ViewAngle": 30}, "ViewAngle to less"),
                         ({"ViewAngle": 0, "PathModel": "Difference"}, "PathModel to Auto"),
                         ({"PathModel": "Auto", "LengthScale": 10}, "MemoryBudget")):
     for key, value in settings.items():

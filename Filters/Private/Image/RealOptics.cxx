@@ -103,6 +103,20 @@ void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
 }
 
 //------------------------------------------------------------------------------
+schlieren::PhasePlate phasePlateFrom(const OpticsSettings& optics)
+{
+  schlieren::PhasePlate plate;
+  if (optics.PhasePlateDiameter > 0)
+  {
+    requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
+    plate.diameter = metresPerMillimetre * optics.PhasePlateDiameter / optics.FocalLength;
+  }
+  plate.delay = optics.PhasePlateDelay;
+  plate.transmission = optics.PhasePlateTransmission;
+  return plate;
+}
+
+//------------------------------------------------------------------------------
 std::string kInWords(double k, bool isKept)
 {
   return (isKept ? "k locked at " : "k = ") + textOf(k, 4);

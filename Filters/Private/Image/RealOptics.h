@@ -31,6 +31,9 @@ double offsetOfOptics(const OpticsSettings& optics);
 /// Sets k and the cutoff's offset to those given or of the optics, or leaves them to the tracer.
 void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene);
 
+/// Returns the plate of a phase contrast. Throws std::runtime_error.
+schlieren::PhasePlate phasePlateFrom(const OpticsSettings& optics);
+
 /// Returns the text of vtkSchlierenFilter::GetSensitivity for an image with this k, which may be
 /// that of an earlier image (`isKept`); empty for k = 0.
 std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool isKept = false);

@@ -70,6 +70,14 @@ schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbI
 schlieren::LightModel lightModelFrom(const SchlierenSettings& settings)
 {
   const auto model = static_cast<schlieren::LightModel>(settings.LightModel);
+  const bool isOfRays =
+    model == schlieren::LightModel::Rays || settings.PathModel == AccuracySettings::differencePath;
+  if (isOfRays && settings.Cutoff == static_cast<int>(schlieren::Cutoff::PhaseContrast))
+  {
+    throw std::runtime_error("Cutoff is Phase Contrast, which shows the phases of waves, but rays "
+                             "have none. Set LightModel to Waves and PathModel to Auto or "
+                             "Refracted, or Cutoff to another technique.");
+  }
   if (settings.PathModel != AccuracySettings::differencePath)
   {
     return model;
@@ -188,6 +196,10 @@ schlieren::Scene sceneFrom(
   }
   scene.bandwidth = metresPerNanometre * settings.Bandwidth;
   scene.coherenceSamples = settings.CoherenceSamples;
+  if (scene.cutoff == schlieren::Cutoff::PhaseContrast)
+  {
+    scene.phasePlate = phasePlateFrom(settings);
+  }
   if (hasFringes)
   {
     scene.fringes = fringesFrom(settings, frame);

@@ -82,7 +82,7 @@ void expectSameInPieces(const Field& field, Scene scene)
 
 constexpr Cutoff allCutoffs[] = { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular,
   Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram,
-  Cutoff::Background, Cutoff::NumericalSchlieren };
+  Cutoff::Background, Cutoff::NumericalSchlieren, Cutoff::PhaseContrast };
 
 TEST(Pausing, ChangesNoBitBehindAnyCutoff)
 {

@@ -335,6 +335,7 @@ TEST(UndisturbedLevel, IsThatOfLightThatNothingBends)
   EXPECT_EQ(level(Cutoff::Circular), 1);
   EXPECT_EQ(level(Cutoff::CircularComplement), 0);
   EXPECT_EQ(level(Cutoff::NumericalSchlieren), 1);
+  EXPECT_EQ(level(Cutoff::PhaseContrast), 1);
   EXPECT_EQ(level(Cutoff::GradedFilter), 0.5);
   EXPECT_EQ(level(Cutoff::ColorFilter), 1);
   EXPECT_EQ(level(Cutoff::Interferogram), 1);
@@ -380,7 +381,7 @@ TEST(Cutoffs, AnyDeflectionGivesLight)
   Scene scene;
   for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular,
          Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::ColorFilter,
-         Cutoff::Interferogram, Cutoff::NumericalSchlieren })
+         Cutoff::Interferogram, Cutoff::NumericalSchlieren, Cutoff::PhaseContrast })
   {
     scene.cutoff = cutoff;
     for (const int variant : { 0, 1, 2, 3 })

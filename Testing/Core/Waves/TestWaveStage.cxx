@@ -6,6 +6,7 @@
 #include "SameImage.h"
 #include "WaveForms.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <string>
@@ -54,18 +55,27 @@ Field columnInVacuum()
   return field;
 }
 
-/// exp(i phase exp(-x^2 / s^2)) is a sum of Gaussians, each of which stays one.
-double lightBehindColumn(double x, double distance, double wavelength = green)
+double lightBehindColumn(double x, double distance)
 {
-  const std::complex<double> grows(0, distance * wavelength / pi); // 2 i D / k
-  std::complex<double> sum = 1, factor = 1;
-  for (int n = 1; n < 40; ++n)
+  return std::norm(fieldBehindColumn(x, radius, phase, distance));
+}
+
+/// The mean of a function of x over a pixel.
+template <class Function>
+double meanOfPixel(const Image& image, int column, const Function& f)
+{
+  const double middle = centreOf(image, column, 0).u, half = 0.5 * image.frame.pixelSize;
+  return integral(f, middle - half, middle + half, 8) / image.frame.pixelSize;
+}
+
+Numbers rowOf(const Image& image, int row)
+{
+  Numbers light;
+  for (int i = 0; i < image.width; ++i)
   {
-    factor *= std::complex<double>(0, phase * green / wavelength) / static_cast<double>(n);
-    const double square = radius * radius / n;
-    sum += factor * std::sqrt(square / (square + grows)) * std::exp(-x * x / (square + grows));
+    light.push_back(static_cast<double>(image.intensity[pixelOf(image, i, row)]));
   }
-  return std::norm(sum);
+  return light;
 }
 
 std::string messageOf(const Field& field, const Scene& scene)
@@ -226,6 +236,148 @@ TEST(WaveStage, KnifeEdgeOfAWideSlitIsAsThatOfRays)
   EXPECT_NE(messageOf(field, scene).find("KScale"), std::string::npos);
 }
 
+TEST(WaveStage, KnifeEdgeOfADiscIsAsThatOfRays)
+{
+  Field field = strongColumn().field;
+  field.ambient = 0;
+  Scene scene = laserShadowgraph();
+  scene.cutoff = Cutoff::KnifeEdge;
+  scene.kScale = radius / (3 * strongPath);
+  scene.source = { {}, SourceShape::Disc, 1 / *scene.kScale, 0 };
+  const Image waves = Bench().render(field, scene);
+  scene.lightModel = LightModel::Rays;
+  const Image disc = Bench().render(field, scene);
+  scene.source.shape = SourceShape::Slit;
+  const Image slit = Bench().render(field, scene);
+  EXPECT_LT(rms(rowOf(waves, 48), rowOf(disc, 48)), 0.01);
+  EXPECT_GT(rms(rowOf(slit, 48), rowOf(disc, 48)), 0.02);
+}
+
+TEST(WaveStage, GradedFilterOfALaserIsAsThatOfRays)
+{
+  Field field = strongColumn().field;
+  field.ambient = 0;
+  Scene scene = laserShadowgraph();
+  scene.kScale = radius / (5 * strongPath);
+  scene.cutoff = Cutoff::GradedFilter;
+  scene.gradedFilter = { 0.2, 0.6, 0.9 };
+  for (const bool inverted : { false, true })
+  {
+    scene.invertCutoff = inverted;
+    scene.lightModel = LightModel::Waves;
+    const Image waves = Bench().render(field, scene);
+    scene.lightModel = LightModel::Rays;
+    const Image rays = Bench().render(field, scene);
+    EXPECT_LT(rms(rowOf(waves, 48), rowOf(rays, 48)), 6e-3);
+    EXPECT_GT(rms(rowOf(rays, 48), Numbers(96, 0.6)), 0.05);
+    EXPECT_NEAR(waves.undisturbedLevel, rays.undisturbedLevel, 1e-6);
+  }
+}
+
+TEST(WaveStage, PhaseContrastIsOfItsPlate)
+{
+  Scene scene = laserShadowgraph();
+  scene.cutoff = Cutoff::PhaseContrast;
+  for (const auto& [plate, inverted] :
+    { std::pair(PhasePlate{ 0, 0.25, 1 }, false), std::pair(PhasePlate{ 0, -0.25, 0.04 }, false),
+      std::pair(PhasePlate{ 0, 0, 0 }, false), std::pair(PhasePlate{ 0, 0.25, 0.5 }, true) })
+  {
+    scene.phasePlate = plate;
+    scene.invertCutoff = inverted;
+    scene.lightModel = inverted ? LightModel::Auto : LightModel::Waves;
+    const Image image = Bench().render(columnInVacuum(), scene);
+    ASSERT_EQ(image.lightModel, LightModel::Waves);
+    const Complex factor = std::polar(std::sqrt(plate.transmission), 2 * pi * plate.delay);
+    const Complex disc = inverted ? 1 : factor, around = inverted ? factor : 1;
+    Numbers exact;
+    for (int i = 0; i < image.width; ++i)
+    {
+      exact.push_back(meanOfPixel(image, i,
+        [&](double x)
+        {
+          const double turned = phase * std::exp(-x * x / (radius * radius));
+          return std::norm(disc + around * (std::polar(1., turned) - 1.));
+        }));
+    }
+    EXPECT_LT(rms(rowOf(image, 48), exact), 2e-3) << plate.transmission;
+    EXPECT_NEAR(image.undisturbedLevel, inverted ? 1 : plate.transmission, 1e-12);
+  }
+}
+
+TEST(WaveStage, InterferogramIsThatOfRaysInFocus)
+{
+  for (const double spacing : { 0., 8e-4 })
+  {
+    Scene scene = laserShadowgraph();
+    scene.cutoff = Cutoff::Interferogram;
+    scene.fringes.finite = spacing > 0;
+    scene.fringes.spacing = spacing;
+    scene.fringes.angle = 30;
+    const Image waves = Bench().render(columnInVacuum(), scene);
+    EXPECT_EQ(waves.lightModel, LightModel::Waves);
+    scene.lightModel = LightModel::Rays;
+    scene.samplesPerPixel = 16;
+    const Image rays = Bench().render(columnInVacuum(), scene);
+    for (const int row : { 10, 48, 80 })
+    {
+      EXPECT_LT(rms(rowOf(waves, row), rowOf(rays, row)), 2e-3) << spacing;
+    }
+    EXPECT_GT(rms(rowOf(rays, 48), Numbers(96, 0.5)), 0.2);
+    EXPECT_EQ(waves.undisturbedLevel, rays.undisturbedLevel);
+  }
+}
+
+TEST(WaveStage, InterferogramAwayFromFocusIsAsItsClosedForm)
+{
+  for (const double offset : { 0.2, -0.2 })
+  {
+    Scene scene = laserShadowgraph();
+    scene.cutoff = Cutoff::Interferogram;
+    scene.focusOffset = offset;
+    const Image image = Bench().render(columnInVacuum(), scene);
+    Numbers exact;
+    for (int i = 0; i < image.width; ++i)
+    {
+      exact.push_back(meanOfPixel(image, i,
+        [offset](double x)
+        { return 0.25 * std::norm(1. + fieldBehindColumn(x, radius, phase, offset)); }));
+    }
+    EXPECT_LT(rms(rowOf(image, 48), exact), 1e-3) << offset;
+    scene.lightModel = LightModel::Rays;
+    EXPECT_GT(rms(rowOf(Bench().render(columnInVacuum(), scene), 48), exact), 5e-3) << offset;
+  }
+}
+
+TEST(WaveStage, BandOfWavelengthsTakesFringesTheirContrast)
+{
+  // Beside the column. The tilt is one of paths, so that each wavelength has fringes of its own.
+  Scene scene = laserShadowgraph();
+  scene.cutoff = Cutoff::Interferogram;
+  scene.fringes.finite = true;
+  scene.fringes.spacing = 6e-4;
+  scene.fringes.angle = 90;
+  scene.bandwidth = 5e-8;
+  const Image image = Bench().render(columnInVacuum(), scene);
+  Numbers seen, exact;
+  for (int row = 0; row < image.height; ++row)
+  {
+    seen.push_back(static_cast<double>(image.intensity[pixelOf(image, 1, row)]));
+    const double paths = centreOf(image, 1, row).v / scene.fringes.spacing;
+    const auto light = [&](double wavelength)
+    {
+      const double turns = paths * green / wavelength;
+      const double inPixel = image.frame.pixelSize / scene.fringes.spacing * green / wavelength;
+      return 0.5 * (1 + std::cos(2 * pi * turns) * std::sin(pi * inPixel) / (pi * inPixel));
+    };
+    exact.push_back(
+      integral(light, green - 0.5 * scene.bandwidth, green + 0.5 * scene.bandwidth, 100) /
+      scene.bandwidth);
+  }
+  EXPECT_LT(rms(seen, exact), 2e-3);
+  EXPECT_LT(*std::max_element(seen.begin(), seen.begin() + 12), 0.9);
+  EXPECT_GT(*std::max_element(seen.begin() + 42, seen.begin() + 54), 0.95);
+}
+
 TEST(WaveStage, AllButTheLightIsOfRays)
 {
   Scene scene = laserShadowgraph();
@@ -300,7 +452,13 @@ TEST(WaveStage, WhatCannotBeMadeIsAnError)
     const char* words;
   };
   for (const Case& each :
-    { Case{ [](Scene& scene) { scene.cutoff = Cutoff::Interferogram; }, "Cutoff is Interferogram" },
+    { Case{ [](Scene& scene) { scene.cutoff = Cutoff::ColorFilter; }, "Cutoff is Color Filter" },
+      Case{ [](Scene& scene)
+        {
+          scene.cutoff = Cutoff::Interferogram;
+          scene.fringes.whiteLight = true;
+        },
+        "WhiteLight" },
       Case{ [](Scene& scene) { scene.view.viewAngle = 40; }, "ViewAngle to less" },
       Case{ [](Scene& scene) { scene.source.distance = 1e-2; }, "Collimated" },
       Case{ [](Scene& scene)

@@ -427,13 +427,13 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
       "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter", "ColorFilterImage",
       "FringeMode", "FringeSpacing", "FringeAngle", "BeamAngle", "WhiteLight", "ScreenDistance",
       "FocusOffset", "LightSource", "SourceDistance", "SourceShape", "LightModel", "Bandwidth",
-      "CoherenceSamples", "BackgroundPattern", "BackgroundDistance", "BackgroundPeriod",
-      "BackgroundAngle", "BackgroundImage", "FNumber", "LensFocalLength", "FocusDistance",
-      "SensorWidth", "LensDiffraction", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth",
-      "FilmEstimator", "NoiseFilter", "NoiseFilterRadius", "HistogramSize", "MemoryBudget",
-      "Quality", "PathModel", "Integrator", "StepSize", "HomogeneityTolerance", "Interpolation",
-      "SamplesPerPixel", "Precision", "AdaptiveTolerance", "PathTolerance", "Seed", "Device",
-      "NumberOfThreads" })
+      "CoherenceSamples", "PhasePlateDiameter", "PhasePlateDelay", "PhasePlateTransmission",
+      "BackgroundPattern", "BackgroundDistance", "BackgroundPeriod", "BackgroundAngle",
+      "BackgroundImage", "FNumber", "LensFocalLength", "FocusDistance", "SensorWidth",
+      "LensDiffraction", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth", "FilmEstimator",
+      "NoiseFilter", "NoiseFilterRadius", "HistogramSize", "MemoryBudget", "Quality", "PathModel",
+      "Integrator", "StepSize", "HomogeneityTolerance", "Interpolation", "SamplesPerPixel",
+      "Precision", "AdaptiveTolerance", "PathTolerance", "Seed", "Device", "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }
