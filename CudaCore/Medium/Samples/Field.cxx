@@ -78,6 +78,28 @@ void validatePlaces(const Grid& grid, std::size_t axis)
   }
 }
 
+/// Throws where light would cross more points of one axis within a spacing of another than rays can count.
+void validateShape(const Grid& grid)
+{
+  constexpr double most = 1e12;
+  const auto finest = static_cast<std::size_t>(
+    std::min_element(grid.spacing.begin(), grid.spacing.end()) - grid.spacing.begin());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = grid.spacing[axis] * static_cast<double>(grid.dimensions[axis] - 1);
+    if (length > most * grid.spacing[finest])
+    {
+      std::ostringstream text;
+      text << "The data are " << length << " long along their "
+           << "xyz"[axis] << " axis, but their points are only " << grid.spacing[finest]
+           << " apart along "
+           << "xyz"[finest]
+           << ". Check the points' coordinates; of data that are flat in truth, take a Slice.";
+      throw Error(text.str());
+    }
+  }
+}
+
 } // namespace
 
 void validate(const Grid& grid)
@@ -109,6 +131,7 @@ void validate(const Grid& grid)
     }
     validatePlaces(grid, axis);
   }
+  validateShape(grid);
   const std::array<double, 9>& d = grid.direction;
   for (std::size_t a = 0; a < 3; ++a)
   {

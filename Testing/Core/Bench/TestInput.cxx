@@ -122,6 +122,12 @@ std::vector<Mistake> mistakes()
         s.stepSize = 0.005;
       } },
     { "data beyond floats", "LengthScale", [](Field& f, Scene&) { f.grid.spacing[1] = 1e40; } },
+    { "data as thin as nothing", "their points are only",
+      [](Field& f, Scene&)
+      {
+        f.grid.spacing[0] = 1e-20;
+        f.grid.origin[0] = 0;
+      } },
     { "data that vanish", "LengthScale", [](Field& f, Scene&) { f.grid.spacing[2] = 1e-40; } },
     { "points that cannot be distinguished", "origin",
       [](Field& f, Scene&) { f.grid.origin[0] = 1e15 * f.grid.spacing[0]; } },
