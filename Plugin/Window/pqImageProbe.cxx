@@ -3,6 +3,7 @@
 #include "pqImageProbe.h"
 
 #include "ImagesInViews.h"
+#include "UnitPrefix.h"
 #include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
@@ -55,19 +56,13 @@ QString inWords(std::initializer_list<double> values, const QString& unit)
   {
     largest = std::max(largest, std::abs(value));
   }
-  constexpr std::array<std::pair<double, const char*>, 4> prefixes = { { { 1, "" }, { 1e-3, "m" },
-    { 1e-6, "\xC2\xB5" }, { 1e-9, "n" } } };
-  std::size_t choice = largest > 0 ? 0 : 1;
-  while (largest > 0 && choice + 1 < prefixes.size() && largest < prefixes[choice].first)
-  {
-    ++choice;
-  }
+  const UnitPrefix prefix = unitPrefixOf(largest);
   QStringList texts;
   for (const double value : values)
   {
-    texts << QString::number(value / prefixes[choice].first, 'g', 4);
+    texts << QString::number(value / prefix.factor, 'g', 4);
   }
-  return texts.join(", ") + " " + QString::fromUtf8(prefixes[choice].second) + unit;
+  return texts.join(", ") + " " + QString::fromUtf8(prefix.name) + unit;
 }
 
 /// Returns the name of a direction in the data, if it is along an axis.
