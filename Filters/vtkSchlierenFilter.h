@@ -1113,6 +1113,15 @@ public:
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 
+  ///@{
+  /**
+   * What the image has at a place, fractions of its width and height from the lower left, in words: position, deflection,
+   * optical path difference and intensity. Empty beside the image. The place is no setting of the image.
+   */
+  void SetProbedPlace(double right, double up);
+  const char* GetProbedPlace();
+  ///@}
+
   /// Returns all properties that are numbers and texts.
   VTK_WRAPEXCLUDE const SchlierenSettings& GetSettings() const { return *this; }
 
@@ -1218,6 +1227,8 @@ private:
   std::string Sensitivity;
   vtkTypeInt64 PictureCount = 0;
   std::string Status;
+  double ProbedPlace[2] = { -1, -1 };
+  std::string Probed;
 };
 
 #endif
