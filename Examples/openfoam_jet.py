@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From an OpenFOAM case to a figure, and to numbers that an interferometer measures: Documentation/tutorial.md.
 
-    pvpython Examples/openfoam_jet.py        (writes openfoam_jet.png, .json, .pvsm and _intensity.png)
+    pvpython Examples/openfoam_jet.py        (writes openfoam_jet.png, .json, .pvsm, _intensity.png and .tif)
 """
 
 import os

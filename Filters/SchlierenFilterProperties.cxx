@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SchlierenFilterInternals.h"
 
+#include "Image/PixelInWords.h"
 #include "Image/RealOptics.h"
 #include "Settings/QualityPresets.h"
 
@@ -353,6 +354,20 @@ vtkTypeInt64 vtkSchlierenFilter::GetMeshBuilds() { return this->Medium->GetMeshB
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetGridPlans() { return this->Medium->GetGridPlans(); }
+
+//------------------------------------------------------------------------------
+void vtkSchlierenFilter::SetProbedPlace(double right, double up)
+{
+  this->ProbedPlace[0] = right;
+  this->ProbedPlace[1] = up;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSchlierenFilter::GetProbedPlace()
+{
+  this->Probed = pixelInWords(this->GetOutput(), this->ProbedPlace[0], this->ProbedPlace[1]);
+  return this->Probed.c_str();
+}
 
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetLockedK(double k)

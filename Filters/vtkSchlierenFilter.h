@@ -487,6 +487,16 @@ public:
   double GetLockedK() const;
   ///@}
 
+  /**
+   * Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
+   * with the first and the last where there are more, and keeps the smallest of their automatic k, that of the largest
+   * deflections: no image exceeds full scale then by more than an image with its own k. LockK, which must not be
+   * LOCK_OFF, says how long it is kept. Reports progress; aborted, it changes nothing. An error where the data have no
+   * time steps or k is not automatic. The output is that of the last update until the next one.
+   */
+  void FitKOverSeries();
+  static constexpr int MOST_STEPS = 100;
+
   ///@{
   /**
    * Sensitivity k, used if AutoKScale is off: focal length / source width; the intensity at a
@@ -1131,6 +1141,15 @@ public:
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 
+  ///@{
+  /**
+   * What the image has at a place, fractions of its width and height from the lower left, in words: position, deflection,
+   * optical path difference and intensity. Empty beside the image. The place is no setting of the image.
+   */
+  void SetProbedPlace(double right, double up);
+  const char* GetProbedPlace();
+  ///@}
+
   /// Returns all properties that are numbers and texts.
   VTK_WRAPEXCLUDE const SchlierenSettings& GetSettings() const { return *this; }
 
@@ -1236,6 +1255,8 @@ private:
   std::string Sensitivity;
   vtkTypeInt64 PictureCount = 0;
   std::string Status;
+  double ProbedPlace[2] = { -1, -1 };
+  std::string Probed;
 };
 
 #endif

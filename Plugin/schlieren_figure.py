@@ -22,7 +22,7 @@ from PIL import Image
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkPNGWriter, vtkTIFFWriter
 
 ENDINGS = (".png", ".pdf", ".svg")
 
@@ -38,20 +38,12 @@ class FigureError(RuntimeError):
 # Numbers in words
 
 
-def length_unit(metres):
-    """The name of the unit for a length, and its metres."""
-    for name, factor in (("km", 1e3), ("m", 1), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9)):
-        if metres >= factor:
-            return name, factor
-    return "m", 1
-
-
 def prefix_of(value):
-    """The prefix of a unit in which a value has one to three digits before the point, and its factor."""
-    for prefix, factor in (("", 1), ("m", 1e-3), ("µ", 1e-6)):
+    """The prefix of a unit in which a value has one to three digits before the point, and its factor; milli for 0."""
+    for prefix, factor in (("k", 1e3), ("", 1), ("m", 1e-3), ("µ", 1e-6)):
         if abs(value) >= factor:
             return prefix, factor
-    return "n", 1e-9
+    return ("n", 1e-9) if value else ("m", 1e-3)
 
 
 def axis_name(axis, otherwise):
@@ -100,8 +92,8 @@ class Axes:
 
     def __init__(self, left, bottom, pixel, size, names, length_scale):
         """`left`, `bottom`, `pixel`: data units; `size`: columns, rows; `length_scale`: metres for 1."""
-        self.unit, metres = length_unit(max(size) * pixel * length_scale)
-        scale = length_scale / metres
+        prefix, factor = prefix_of(max(size) * pixel * length_scale)
+        self.unit, scale = prefix + "m", length_scale / factor
         self.left, self.bottom = left * scale, bottom * scale
         self.right, self.top = self.left + size[0] * pixel * scale, self.bottom + size[1] * pixel * scale
         self.names = names
@@ -312,19 +304,19 @@ def sheet_of(image, title=""):
     return sheet
 
 
-def write_numbers(path, image):
-    """The intensities as a 16-bit PNG; 0 is black, the field data's WhiteLevel is 65535."""
+def write_numbers(paths, image):
+    """The intensities in 16 bits as a PNG and a TIFF; 0 is black, the field data's WhiteLevel is 65535."""
     white = facts_of(image)["WhiteLevel"][0]
     numbers = np.clip(np.nan_to_num(rows_of(image, "Intensity")) / white, 0, 1)
     made = vtkImageData()
     made.SetDimensions(numbers.shape[1], numbers.shape[0], 1)
     made.GetPointData().SetScalars(numpy_to_vtk(np.rint(65535 * numbers).astype(np.uint16).ravel(), deep=True))
-    writer = vtkPNGWriter()
-    writer.SetFileName(path)
-    writer.SetInputData(made)
-    writer.Write()
-    if writer.GetErrorCode() or not os.path.isfile(path):
-        raise FigureError(f"Could not write '{path}'.")
+    for writer, path in zip((vtkPNGWriter(), vtkTIFFWriter()), paths):
+        writer.SetFileName(path)
+        writer.SetInputData(made)
+        writer.Write()
+        if writer.GetErrorCode() or not os.path.isfile(path):
+            raise FigureError(f"Could not write '{path}'.")
 
 
 def plain(value):
@@ -397,7 +389,7 @@ def save(filename, image=None, view=None, title="", size=None):
     title: default: the technique.
     size: columns and rows of the image of a flow that a view draws as Schlieren; default: the view's.
 
-    Returns the names of the files: the figure; NAME_intensity.png, 16 bits, where 65535 is white; NAME.json with the
+    Returns the names of the files: the figure; NAME_intensity.png and .tif, 16 bits, where 65535 is white; NAME.json with the
     settings; NAME.pvsm, a state that makes the image again. FigureError where there is no image."""
     base, ending = os.path.splitext(filename)
     if ending.lower() not in ENDINGS:
@@ -407,11 +399,11 @@ def save(filename, image=None, view=None, title="", size=None):
     made = servermanager.Fetch(bench)
     if made is None or made.GetNumberOfPoints() == 0:
         raise FigureError("The image could not be made: see the message about its filter.")
-    files = [filename, base + "_intensity.png", base + ".json", base + ".pvsm"]
+    files = [filename] + [base + ending for ending in ("_intensity.png", "_intensity.tif", ".json", ".pvsm")]
     sheet_of(made, title).write(filename)
-    write_numbers(files[1], made)
-    write_description(files[2], made, bench, title, [os.path.basename(name) for name in files])
-    simple.SaveState(files[3])
+    write_numbers(files[1:3], made)
+    write_description(files[3], made, bench, title, [os.path.basename(name) for name in files])
+    simple.SaveState(files[4])
     return files
 
 

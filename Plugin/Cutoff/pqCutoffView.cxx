@@ -3,6 +3,7 @@
 #include "pqCutoffView.h"
 
 #include "MousePlace.h"
+#include "UnitPrefix.h"
 #include "pqColorFilterImage.h"
 
 #include <QFontMetrics>
@@ -28,21 +29,6 @@ constexpr double leastRange = 1e-12; // radians, minimum that can be shown
 const QColor lineColor(255, 160, 0);
 constexpr int knife[] = { 40, 90, 160 }; // colour of a stop
 constexpr double knifeOpacity = 0.75;
-
-struct Unit
-{
-  QString Name;
-  double Size; // radians
-};
-
-Unit unitFor(double range)
-{
-  if (range >= 1e-3)
-  {
-    return { QStringLiteral("mrad"), 1e-3 };
-  }
-  return range >= 1e-6 ? Unit{ QString::fromUtf8("µrad"), 1e-6 } : Unit{ "nrad", 1e-9 };
-}
 
 int blend(double a, double b, double fraction)
 {
@@ -283,8 +269,8 @@ void pqCutoffView::drawAxes(QPainter& painter) const
       tr("The light on the cutoff plane is known after Apply."));
     return;
   }
-  const Unit unit = unitFor(this->Range);
-  const QString end = QString::number(this->Range / unit.Size);
+  const UnitPrefix prefix = unitPrefixOf(this->Range);
+  const QString end = QString::number(this->Range / prefix.factor);
   const QString minus = QString::fromUtf8("\u2212") + end;
   const int line = this->fontMetrics().height();
   const QRectF below(square.left(), square.bottom() + 2, square.width(), line);
@@ -292,7 +278,8 @@ void pqCutoffView::drawAxes(QPainter& painter) const
   {
     painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter, minus);
     painter.drawText(row, Qt::AlignRight | Qt::AlignVCenter, end);
-    painter.drawText(row, Qt::AlignCenter, QString("%1, %2").arg(axis, unit.Name));
+    painter.drawText(
+      row, Qt::AlignCenter, QString("%1, %2rad").arg(axis, QString::fromUtf8(prefix.name)));
   };
   write(below, QString::fromUtf8("ε\u1D64"));
   painter.save();

@@ -335,12 +335,18 @@ bool vtkSchlierenActor::HasFailed() const
 }
 
 //------------------------------------------------------------------------------
+bool vtkSchlierenActor::GetFinished() const
+{
+  return this->Finished || !this->HasData || this->HasFailed() || this->Bench->GetStopped();
+}
+
+//------------------------------------------------------------------------------
 void vtkSchlierenActor::TraceUpTo(double seconds)
 {
   this->Reduction = 1;
   this->Bench->SetPreviewReduction(1);
   this->Bench->SetTimeLimit(seconds);
-  if (!(seconds > 0))
+  if (!(seconds > 0) && !this->Bench->GetStopped())
   {
     this->Bench->Refine(); // resumes what began with a limit
   }

@@ -130,9 +130,9 @@ public:
   bool Refine();
 
   /**
-   * Returns whether the image is complete.
+   * Returns whether the image is complete, or stopped.
    */
-  bool GetFinished() const { return this->Finished || !this->HasData || this->HasFailed(); }
+  bool GetFinished() const;
 
   /**
    * Returns the full image's pixels, along each axis, for each pixel of the preview.

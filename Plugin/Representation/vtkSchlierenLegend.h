@@ -15,6 +15,7 @@
 #include "vtkOpenGLContextActor.h"
 #include "vtkSmartPointer.h"
 
+class LegendPanel;
 class vtkImageData;
 class vtkScalarsToColors;
 
@@ -49,7 +50,8 @@ public:
 
   /**
    * Sets the corner, one of Corners (default: LOWER_RIGHT), and the size of the font, points
-   * (default: 10).
+   * (default: 10): smaller in views that the legend would cover more than a quarter of, down to 8 points; there, the
+   * last lines are left out, too.
    */
   void SetCorner(int corner);
   void SetFontSize(int points);
@@ -69,8 +71,7 @@ private:
   vtkSchlierenLegend(const vtkSchlierenLegend&) = delete;
   void operator=(const vtkSchlierenLegend&) = delete;
 
-  class Panel;
-  vtkSmartPointer<Panel> Shown;
+  vtkSmartPointer<LegendPanel> Shown;
 };
 
 #endif

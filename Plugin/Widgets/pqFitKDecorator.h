@@ -4,8 +4,8 @@
 
 #include "pqPropertyWidgetDecorator.h"
 
-/// Adds a button behind a property that finds the automatic k again, for the image as it is seen, where Lock K has kept
-/// that of an earlier one.
+/// Adds a button behind a property that finds the automatic k again, for the image as it is seen or, in its menu, for all
+/// time steps, where Lock K keeps that of an earlier one.
 class pqFitKDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT
@@ -16,4 +16,5 @@ public:
 
 private:
   void fit();
+  void fitOverSeries();
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqSizeNoteDecorator.h"
 
+#include "UnitPrefix.h"
 #include "WidgetRows.h"
 #include "pqPropertyWidget.h"
 
@@ -45,25 +46,16 @@ std::array<double, 3> sizeOfInput(vtkSMProxy* filter)
 /// Returns lengths in the unit that suits the largest, such as "40 × 10 mm", without zeros.
 QString lengthsInWords(const std::array<double, 3>& metres)
 {
-  struct Unit
-  {
-    double metres;
-    const char* name;
-  };
-  constexpr std::array<Unit, 4> units{ { { 1e3, "km" }, { 1, "m" }, { 1e-3, "mm" },
-    { 1e-6, "µm" } } };
-  const double largest = *std::max_element(metres.begin(), metres.end());
-  const auto unit = std::find_if(
-    units.begin(), units.end() - 1, [=](const Unit& one) { return largest >= one.metres; });
+  const UnitPrefix prefix = unitPrefixOf(*std::max_element(metres.begin(), metres.end()));
   QStringList lengths;
   for (const double length : metres)
   {
     if (length > 0)
     {
-      lengths << QString::number(length / unit->metres, 'g', 3);
+      lengths << QString::number(length / prefix.factor, 'g', 3);
     }
   }
-  return lengths.join(" × ") + " " + QString::fromUtf8(unit->name);
+  return lengths.join(" × ") + " " + QString::fromUtf8(prefix.name) + "m";
 }
 
 } // namespace

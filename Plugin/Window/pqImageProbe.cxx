@@ -10,14 +10,14 @@
 #include "pqRenderView.h"
 #include "pqServerManagerModel.h"
 
-#include "vtkAlgorithm.h"
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
-#include "vtkImageData.h"
-#include "vtkPointData.h"
+#include "vtkClientServerStream.h"
+#include "vtkPVDataInformation.h"
+#include "vtkPVSession.h"
 #include "vtkRenderer.h"
-#include "vtkSMProxy.h"
+#include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
+#include "vtkSMSession.h"
+#include "vtkSMSourceProxy.h"
 
 #include <QHelpEvent>
 #include <QToolTip>
@@ -31,100 +31,23 @@ namespace
 /// Property of a watched widget: its view.
 constexpr const char* viewOfWidget = "SchlierenProbedView";
 
-/// Returns the image of a filter in this process; null: it has none.
-vtkImageData* imageOf(vtkSMProxy* filter)
+/// Returns what the image of a filter has at a place, from 0 to 1 to the right and up, where the filter is.
+QString placeInWords(vtkSMProxy* filter, double right, double up)
 {
-  auto* algorithm = vtkAlgorithm::SafeDownCast(filter->GetClientSideObject());
-  auto* image = algorithm ? vtkImageData::SafeDownCast(algorithm->GetOutputDataObject(0)) : nullptr;
-  return image && image->GetPointData()->GetArray("Intensity") ? image : nullptr;
-}
-
-double fieldValue(vtkImageData* image, const char* name, int component)
-{
-  vtkDataArray* array = image->GetFieldData()->GetArray(name);
-  return array && array->GetNumberOfValues() > component
-    ? array->GetVariantValue(component).ToDouble()
-    : 0;
-}
-
-/// Returns values with a unit whose prefix suits the largest of them.
-QString inWords(std::initializer_list<double> values, const QString& unit)
-{
-  double largest = 0;
-  for (const double value : values)
-  {
-    largest = std::max(largest, std::abs(value));
-  }
-  constexpr std::array<std::pair<double, const char*>, 4> prefixes = { { { 1, "" }, { 1e-3, "m" },
-    { 1e-6, "\xC2\xB5" }, { 1e-9, "n" } } };
-  std::size_t choice = largest > 0 ? 0 : 1;
-  while (largest > 0 && choice + 1 < prefixes.size() && largest < prefixes[choice].first)
-  {
-    ++choice;
-  }
-  QStringList texts;
-  for (const double value : values)
-  {
-    texts << QString::number(value / prefixes[choice].first, 'g', 4);
-  }
-  return texts.join(", ") + " " + QString::fromUtf8(prefixes[choice].second) + unit;
-}
-
-/// Returns the name of a direction in the data, if it is along an axis.
-QString axisName(vtkImageData* image, const char* direction, const QString& otherwise)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double part = fieldValue(image, direction, axis);
-    if (std::abs(part) > 1 - 1e-9)
-    {
-      return (part < 0 ? "-" : "") + QString("xyz").mid(axis, 1);
-    }
-  }
-  return otherwise;
-}
-
-/// Returns what a pixel of an image has; empty if it is not in the image.
-QString pixelInWords(vtkImageData* image, int column, int row)
-{
-  const int* size = image->GetDimensions();
-  if (column < 0 || row < 0 || column >= size[0] || row >= size[1])
-  {
-    return QString();
-  }
-  const vtkIdType pixel = vtkIdType{ row } * size[0] + column;
-  const auto valueOf = [&](const char* name, int component)
-  {
-    vtkDataArray* array = image->GetPointData()->GetArray(name);
-    return array ? array->GetComponent(pixel, component) : 0;
-  };
-  const double scale = fieldValue(image, "LengthScale", 0);
-  double place[3];
-  image->GetPoint(pixel, place);
-  QString text = axisName(image, "AxisRight", "u") + ", " + axisName(image, "AxisUp", "v") + ": " +
-    inWords({ scale * place[0], scale * place[1] }, "m");
-  if (valueOf("BlockedFraction", 0) >= 1)
-  {
-    return text + "\nLight is blocked";
-  }
-  text += "\nDeflection to the right, up: " +
-    inWords({ valueOf("Deflection", 0), valueOf("Deflection", 1) }, "rad");
-  text += "\nOptical path difference: " + inWords({ valueOf("OpticalPathDifference", 0) }, "m");
-  return text + "\nIntensity: " + QString::number(valueOf("Intensity", 0), 'g', 3);
+  // Sends the place itself, because a property would make views update.
+  vtkClientServerStream stream;
+  stream << vtkClientServerStream::Invoke << VTKOBJECT(filter) << "SetProbedPlace" << right << up
+         << vtkClientServerStream::End;
+  filter->GetSession()->ExecuteStream(vtkPVSession::DATA_SERVER, stream);
+  filter->UpdatePropertyInformation(filter->GetProperty("ProbedPlace"));
+  return QString::fromUtf8(vtkSMPropertyHelper(filter, "ProbedPlace").GetAsString());
 }
 
 /// Returns what the image that a view draws has at a place, from 0 to 1 to the right and up.
 QString drawnInWords(pqRenderView* view, double right, double up)
 {
-  for (vtkSMProxy* bench : pqRepresentationRefiner::benchesIn(view))
-  {
-    if (vtkImageData* image = imageOf(bench))
-    {
-      return pixelInWords(image, static_cast<int>(std::floor(right * image->GetDimensions()[0])),
-        static_cast<int>(std::floor(up * image->GetDimensions()[1])));
-    }
-  }
-  return QString();
+  const QList<vtkSMProxy*> benches = pqRepresentationRefiner::benchesIn(view);
+  return benches.isEmpty() ? QString() : placeInWords(benches.front(), right, up);
 }
 
 /// Returns what an image of a filter, which is in the plane z = 0, has at a place of a view.
@@ -148,21 +71,24 @@ QString sliceInWords(pqRenderView* view, double right, double up)
   {
     return QString();
   }
-  const double fraction = ends[0][2] / depth;
+  const double along = ends[0][2] / depth;
   std::array<double, 2> place{};
   for (int axis = 0; axis < 2; ++axis)
   {
-    place[axis] = ends[0][axis] + fraction * (ends[1][axis] - ends[0][axis]);
+    place[axis] = ends[0][axis] + along * (ends[1][axis] - ends[0][axis]);
   }
   for (pqPipelineSource* filter : imagesInViews::imagesIn(view))
   {
-    vtkImageData* image = imageOf(filter->getProxy());
-    const auto index = [&](int axis)
+    vtkPVDataInformation* image = filter->getSourceProxy()->GetDataInformation(0);
+    const auto fraction = [&](int axis)
     {
-      return static_cast<int>(
-        std::lround((place[axis] - image->GetOrigin()[axis]) / image->GetSpacing()[axis]));
+      // Bounds are centres of pixels.
+      const double* bounds = image->GetBounds() + 2 * axis;
+      const int* extent = image->GetExtent() + 2 * axis;
+      const double last = extent[1] - extent[0];
+      return (0.5 + last * (place[axis] - bounds[0]) / (bounds[1] - bounds[0])) / (last + 1);
     };
-    const QString text = image ? pixelInWords(image, index(0), index(1)) : QString();
+    const QString text = placeInWords(filter->getProxy(), fraction(0), fraction(1));
     if (!text.isEmpty())
     {
       return text;

@@ -8,7 +8,7 @@ class pqRenderView;
 class pqView;
 
 /// Shows what an image has under the mouse when that rests in a view: position, deflection, optical path and intensity, in
-/// units that suit them. Needs the image in this process: with a remote server there is nothing to show.
+/// units that suit them.
 class pqImageProbe : public QObject
 {
   Q_OBJECT

@@ -167,7 +167,7 @@ void pqImageProgress::abort()
     this->Executing->SetAbortExecute(1);
     if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
     {
-      window->statusBar()->showMessage("Stopped. Another setting and Apply begin anew.");
+      window->statusBar()->showMessage("Stopped.");
     }
   }
   else

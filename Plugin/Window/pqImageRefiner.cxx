@@ -24,6 +24,7 @@
 #include "vtkSMViewProxy.h"
 #include "vtkSmartPointer.h"
 
+#include <QRegularExpression>
 #include <QScopedValueRollback>
 
 #include <algorithm>
@@ -96,10 +97,22 @@ bool isFinished(vtkSMSourceProxy* filter)
   return vtkSMPropertyHelper(filter, "Finished").GetAsInt() != 0;
 }
 
-int percentDone(vtkSMSourceProxy* filter)
+int percentDone(vtkSMProxy* filter)
 {
   filter->UpdatePropertyInformation(filter->GetProperty("PercentDone"));
   return vtkSMPropertyHelper(filter, "PercentDone").GetAsInt();
+}
+
+/// Returns a text such as "Refining: 3 of 64 samples, about 3 min".
+QString refinementInWords(vtkSMProxy* filter)
+{
+  static const QRegularExpression samples(
+    "^(\\d+ of \\d+ samples?) per pixel(?:(, about [^,]*) more)?");
+  filter->UpdatePropertyInformation(filter->GetProperty("Status"));
+  const QRegularExpressionMatch found =
+    samples.match(QString::fromUtf8(vtkSMPropertyHelper(filter, "Status").GetAsString()));
+  return found.hasMatch() ? "Refining: " + found.captured(1) + found.captured(2)
+                          : QString("Refining");
 }
 
 void setTimeLimit(vtkSMProxy* filter, double seconds)
@@ -140,6 +153,8 @@ pqImageRefiner::pqImageRefiner(QObject* parentObject)
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, &pqImageRefiner::forget);
   QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqImageRefiner::watch);
+  QObject::connect(model, &pqServerManagerModel::preViewRemoved, this,
+    [this](pqView* view) { this->onRefinedInView(view, false); });
   for (pqView* view : model->findItems<pqView*>())
   {
     this->watch(view);
@@ -318,31 +333,66 @@ void pqImageRefiner::show(vtkSMSourceProxy* filter, const QList<QPointer<pqView>
 }
 
 //------------------------------------------------------------------------------
-void pqImageRefiner::report()
+void pqImageRefiner::onRefinedInView(pqView* view, bool isUnfinished)
 {
-  QString what;
-  int jobs = 0;
-  int percent = 0;
-  const bool isTime = !this->SinceReport.isValid() || this->SinceReport.elapsed() >= reportPeriod;
+  if (!isUnfinished)
+  {
+    this->SinceInViews.remove(view);
+  }
+  else if (!this->SinceInViews.contains(view))
+  {
+    this->SinceInViews[view].start();
+  }
+  this->report();
+}
+
+//------------------------------------------------------------------------------
+QList<vtkSMProxy*> pqImageRefiner::reported() const
+{
+  QList<vtkSMProxy*> images;
   for (const Job& job : this->Jobs)
   {
-    pqPipelineSource* source = sourceOf(job.Filter);
-    if (source && job.Since.elapsed() >= unreported)
+    if (sourceOf(job.Filter) && job.Since.elapsed() >= unreported)
     {
-      what = ++jobs == 1 ? source->getSMName() : QString("%1 images").arg(jobs);
-      percent += isTime ? percentDone(job.Filter) : 0;
+      images << job.Filter;
     }
   }
-  if (jobs > 0 && isTime)
+  for (auto since = this->SinceInViews.begin(); since != this->SinceInViews.end(); ++since)
   {
-    this->SinceReport.start();
-    Q_EMIT this->progressed(what, percent / jobs);
+    if (since->elapsed() >= unreported && !this->IsPlaying)
+    {
+      images << pqRepresentationRefiner::benchesIn(since.key());
+    }
   }
-  else if (jobs == 0 && this->SinceReport.isValid())
+  return images;
+}
+
+//------------------------------------------------------------------------------
+void pqImageRefiner::report()
+{
+  const QList<vtkSMProxy*> images = this->reported();
+  if (images.isEmpty())
   {
-    this->SinceReport.invalidate();
-    Q_EMIT this->progressed(QString(), 0);
+    if (this->SinceReport.isValid())
+    {
+      this->SinceReport.invalidate();
+      Q_EMIT this->progressed(QString(), 0);
+    }
+    return;
   }
+  if (this->SinceReport.isValid() && this->SinceReport.elapsed() < reportPeriod)
+  {
+    return;
+  }
+  this->SinceReport.start();
+  int percent = 0;
+  for (vtkSMProxy* image : images)
+  {
+    percent += percentDone(image);
+  }
+  Q_EMIT this->progressed(images.size() == 1 ? refinementInWords(images.front())
+                                             : QString("Refining %1 images").arg(images.size()),
+    percent / static_cast<int>(images.size()));
 }
 
 //------------------------------------------------------------------------------
@@ -383,6 +433,16 @@ void pqImageRefiner::stop()
       Q_EMIT still->dataUpdated(still);
     }
   }
+  for (pqView* view : this->SinceInViews.keys())
+  {
+    for (vtkSMProxy* bench : pqRepresentationRefiner::benchesIn(view))
+    {
+      SCOPED_UNDO_EXCLUDE();
+      bench->InvokeCommand("Stop");
+    }
+    view->render(); // the line over the image says it
+  }
+  this->SinceInViews.clear();
   this->report();
   this->wakeUp();
 }

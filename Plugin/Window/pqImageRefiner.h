@@ -7,6 +7,7 @@
 #include "vtkWeakPointer.h"
 
 #include <QElapsedTimer>
+#include <QHash>
 #include <QList>
 #include <QObject>
 #include <QPointer>
@@ -36,8 +37,11 @@ public:
   /// Shows a filter's image, also in a representation, in all its views after UpdateVTKObjects().
   void refine(vtkSMProxy* filter);
 
-  /// Stops refining all images until something else changes them.
+  /// Stops refining all images, those that views draw, too, until something else changes them.
   void stop();
+
+  /// Reports a step of pqRepresentationRefiner in a view, and whether its images need more of them.
+  void onRefinedInView(pqView* view, bool isUnfinished);
 
   /// Returns whether there are ShortUpdates.
   bool isShort() const { return this->NumberOfShortUpdates > 0; }
@@ -60,7 +64,7 @@ Q_SIGNALS:
   /// Views show another image of the filter.
   void imageChanged(vtkSMProxy* filter);
 
-  /// Reports an image that is refined for some time, and its completed fraction; empty: none is.
+  /// Reports what is refined for some time, in words, and its completed fraction; empty: nothing is.
   void progressed(const QString& what, int percent);
 
 private Q_SLOTS:
@@ -94,8 +98,10 @@ private:
   void report();
   void show(vtkSMSourceProxy* filter, const QList<QPointer<pqView>>& views);
   bool hasJob(vtkSMSourceProxy* filter) const;
+  QList<vtkSMProxy*> reported() const; ///< images that are refined for some time
 
-  QList<Job> Jobs; // in the order of turns
+  QList<Job> Jobs;                            // in the order of turns
+  QHash<pqView*, QElapsedTimer> SinceInViews; // of views that draw unfinished images
   QTimer Timer;
   bool IsBusy = false;
   bool IsPlaying = false;

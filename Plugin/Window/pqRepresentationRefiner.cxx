@@ -4,6 +4,7 @@
 
 #include "pqApplicationCore.h"
 #include "pqImageRefiner.h"
+#include "pqProgressManager.h"
 #include "pqRenderView.h"
 #include "pqRepresentation.h"
 #include "pqServer.h"
@@ -11,15 +12,19 @@
 
 #include "vtkPVRenderView.h"
 #include "vtkRenderWindow.h"
+#include "vtkSMCameraLink.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSmartPointer.h"
 
 #include <QTimer>
 #include <QVariant>
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace
 {
@@ -44,10 +49,13 @@ bool isUnfinished(pqRepresentation* representation)
     return false;
   }
   // Reads from the server, because the client's own representation knows nothing.
-  bench->UpdatePropertyInformation(bench->GetProperty("Finished"));
-  bench->UpdatePropertyInformation(bench->GetProperty("Status"));
+  for (const char* name : { "Finished", "Status", "Stopped" })
+  {
+    bench->UpdatePropertyInformation(bench->GetProperty(name));
+  }
   return vtkSMPropertyHelper(bench, "Finished").GetAsInt() == 0 ||
-    std::strncmp(vtkSMPropertyHelper(bench, "Status").GetAsString(), "Preview", 7) == 0;
+    (std::strncmp(vtkSMPropertyHelper(bench, "Status").GetAsString(), "Preview", 7) == 0 &&
+      vtkSMPropertyHelper(bench, "Stopped").GetAsInt() == 0);
 }
 
 /// Returns whether streaming updates refine images, in the process that draws; else renderings do.
@@ -62,6 +70,37 @@ bool isBeingTurned(pqView* view)
   auto* proxy = vtkSMRenderViewProxy::SafeDownCast(view->getProxy());
   return proxy->GetRenderWindow()->GetDesiredUpdateRate() > 1;
 }
+
+/// Disables camera links during its lifetime: a link renders the other view, too, though a refined image is not turned.
+class UnlinkedCameras
+{
+public:
+  explicit UnlinkedCameras(vtkSMSessionProxyManager* manager)
+  {
+    for (int i = 0; i < manager->GetNumberOfLinks(); ++i)
+    {
+      auto* link =
+        vtkSMCameraLink::SafeDownCast(manager->GetRegisteredLink(manager->GetLinkName(i)));
+      if (link && link->GetEnabled())
+      {
+        link->SetEnabled(false);
+        this->Links.emplace_back(link);
+      }
+    }
+  }
+  ~UnlinkedCameras()
+  {
+    for (vtkSMCameraLink* link : this->Links)
+    {
+      link->SetEnabled(true);
+    }
+  }
+  UnlinkedCameras(const UnlinkedCameras&) = delete;
+  UnlinkedCameras& operator=(const UnlinkedCameras&) = delete;
+
+private:
+  std::vector<vtkSmartPointer<vtkSMCameraLink>> Links;
+};
 
 } // namespace
 
@@ -150,8 +189,13 @@ void pqRepresentationRefiner::watch(pqView* view)
 void pqRepresentationRefiner::refineLater(pqView* view)
 {
   const QList<pqRepresentation*> shown = view->getRepresentations();
+  if (isBeingTurned(view))
+  {
+    pqImageRefiner::instance()->onRefinedInView(view, false); // each turn restarts the image
+    return;
+  }
   // Uses one timer for each view, because streaming updates render, too.
-  if (isBeingTurned(view) || view->property("SchlierenIsRefined").toBool() ||
+  if (view->property("SchlierenIsRefined").toBool() ||
     std::none_of(shown.begin(), shown.end(), isSchlieren))
   {
     return;
@@ -164,9 +208,12 @@ void pqRepresentationRefiner::refineLater(pqView* view)
 void pqRepresentationRefiner::refine(pqView* view)
 {
   const QList<pqRepresentation*> shown = view->getRepresentations();
+  pqProgressManager* progress = pqApplicationCore::instance()->getProgressManager();
+  progress->lockProgress(view); // else the bar would show the rendering
   if (!isBeingTurned(view) && !view->getServer()->isProcessingPending())
   {
     auto* proxy = vtkSMRenderViewProxy::SafeDownCast(view->getProxy());
+    const UnlinkedCameras unlinked(proxy->GetSessionProxyManager());
     if (isTracedWhereDrawn(view))
     {
       proxy->StreamingUpdate(true);
@@ -176,8 +223,11 @@ void pqRepresentationRefiner::refine(pqView* view)
       proxy->StillRender();
     }
   }
+  progress->unlockProgress(view);
   view->setProperty("SchlierenIsRefined", false);
-  if (std::any_of(shown.begin(), shown.end(), isUnfinished))
+  const bool isMore = std::any_of(shown.begin(), shown.end(), isUnfinished);
+  pqImageRefiner::instance()->onRefinedInView(view, isMore);
+  if (isMore)
   {
     this->refineLater(view);
     return;

@@ -56,8 +56,9 @@ with open(os.path.join(FOLDER, "added.pvsm"), encoding="utf-8") as file:
 assert len(benches) == 2 and max(len(text) for text in benches) < 35e3, [len(text) for text in benches]
 
 # It is the image of the filter that a script makes, seen in another size than in the window, with a legend.
-frame_view(view, 0.015)
 assert display.SchlierenLegend == 1
+frame_view(view, 0.015)
+display.SchlierenLegend = 1
 with_legend = pixels_of(view, SIZE)
 display.SchlierenLegend = 0
 assert 0.02 < (np.abs(with_legend - pixels_of(view, SIZE)) > 20).mean() < 0.3
@@ -89,5 +90,4 @@ assert traced == added, [(name, added[name], traced[name]) for name in added
                          if added[name] != traced[name]]
 (_, view) = views()[1]
 frame_view(view, 0.015)
-display.SchlierenLegend = 0
 assert np.abs(pixels_of(view, SIZE) - seen).max() <= 1

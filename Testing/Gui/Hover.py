@@ -1,9 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """The mouse rests in a view: what the image has there is shown, of a flow drawn as Schlieren and of a filter's image,
-zoomed, too; nothing beside the image. Plot Over Line on an image in mm, as the guide says."""
+zoomed, too; nothing beside the image. Plot Over Line on an image in mm, as the guide says. With an argument, where a
+server makes the images; skipped without pvserver."""
+
+import sys
 
 from filter_testing import SCENE
+from server_testing import connect, start_server
 from views_testing import INSIDE, ViewsSession
 
 user = ViewsSession()
@@ -34,6 +38,11 @@ def check(text, image, column, row, scale):
     assert np.allclose(numbers(deflection, "rad"), eps, rtol=1e-3, atol=1e-3 * max(map(abs, eps))), (deflection, eps)
     assert np.allclose(numbers(path, "m"), arrays.GetArray("OpticalPathDifference").GetValue(pixel), rtol=1e-3)
     assert np.isclose(float(light.split(": ")[1]), arrays.GetArray("Intensity").GetValue(pixel), rtol=1e-2), light
+def image_of(bench):
+    "None where it is on a server."
+    here = bench.GetClientSideObject()
+    image = here.GetOutputDataObject(0) if here else None
+    return image if image and image.GetNumberOfPoints() else None
 (drawn,) = by_name("Schlieren View")
 (display,) = displays()
 display.SchlierenBench.LengthScale = 1e-3
@@ -41,14 +50,22 @@ Render(drawn)
 settle_views()
 for right, up in ((0.4, 0.55), (0.6, 0.5)):
     text, x, y = rest(drawn, right, up)
-    image = display.SchlierenBench.GetClientSideObject().GetOutputDataObject(0)
-    columns, rows, _ = image.GetDimensions()
-    check(text, image, int(x * columns), int(y * rows), 1e-3)
+    image = image_of(display.SchlierenBench)
+    if image:
+        columns, rows, _ = image.GetDimensions()
+        check(text, image, int(x * columns), int(y * rows), 1e-3)
+    else:
+        place, deflection, _, _ = text.split("\\n")
+        camera, size = drawn.GetActiveCamera(), drawn.ViewSize
+        pixel = 2 * np.tan(np.radians(camera.GetViewAngle() / 2)) * camera.GetDistance() / size[1]
+        expected = [camera.GetFocalPoint()[i] + (at - 0.5) * size[i] * pixel for i, at in enumerate((x, y))]
+        assert np.allclose(numbers(place, "m"), np.multiply(expected, 1e-3), atol=1e-3 * pixel), (place, expected)
+        assert max(map(abs, numbers(deflection, "rad"))) > 0, deflection
 
 # Of a filter, whose pixels are larger than the screen's.
 bench, flat = by_name("bench", "RenderView2")
 settle(bench)
-image = bench.GetClientSideObject().GetOutputDataObject(0)
+image = servermanager.Fetch(bench)
 seen = set()
 for zoom in (1, 3):
     flat.CameraParallelScale = flat.CameraParallelScale / zoom
@@ -60,7 +77,10 @@ for zoom in (1, 3):
         pixel = 2 * camera.GetParallelScale() / size[1]
         u = camera.GetFocalPoint()[0] + (x - 0.5) * size[0] * pixel
         v = camera.GetFocalPoint()[1] + (y - 0.5) * size[1] * pixel
-        column, row = (int(round((at - image.GetOrigin()[i]) / image.GetSpacing()[i])) for i, at in enumerate((u, v)))
+        # What is fetched from a server has its place in few digits.
+        bounds = bench.GetDataInformation().GetBounds()
+        column, row = (int((at - low) / (high - low) * (count - 1) + 0.5) for at, low, high, count in zip(
+            (u, v), bounds[::2], bounds[1::2], image.GetDimensions()))
         check(text, image, column, row, 1)
         seen.add((column, row))
 assert len(seen) == 3, seen
@@ -77,7 +97,7 @@ bounds = millimetres.GetDataInformation().GetBounds()
 plot = PlotOverLine(Input=millimetres, Point1=[bounds[0], 0.5, 0], Point2=[bounds[1], 0.5, 0])
 table = servermanager.Fetch(plot).GetPointData()
 length, path = (vtk_to_numpy(table.GetArray(name)) for name in ("arc_length", "OpticalPathDifference"))
-image = bench.GetClientSideObject().GetOutputDataObject(0)
+image = servermanager.Fetch(bench)
 columns, rows, _ = image.GetDimensions()
 paths = vtk_to_numpy(image.GetPointData().GetArray("OpticalPathDifference")).reshape(rows, columns)
 places = image.GetOrigin()[0] + image.GetSpacing()[0] * np.arange(columns)
@@ -88,4 +108,10 @@ assert np.isclose(length[-1], 1000 * np.ptp(places)), length[-1]
 found = np.interp(1000 * (places - places[0]), length, path)
 assert np.abs(found - expected).max() < 2e-3 * np.ptp(expected), np.abs(found - expected).max() / np.ptp(expected)
 """)
-user.play(INSIDE + SCENE)
+is_remote = len(sys.argv) > 1
+server, port = start_server() if is_remote else (None, 0)
+try:
+    user.play((connect(port) if is_remote else "") + INSIDE + SCENE)
+finally:
+    if server:
+        server.kill()

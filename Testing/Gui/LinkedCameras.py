@@ -75,6 +75,7 @@ for step in ("first", "turned", "zoomed", "back", "script"):
     check_linked(step + ".pvsm", scene, view)
     view.OrientationAxesVisibility = 0
     display = drawn(simple.FindSource("jet"), view)
+    display.SchlierenLegend = 0
     images[step] = pixels_of(view, SIZE)
     assert np.abs(images[step] - filter_like(display, view, SIZE)).max() <= GREY_LEVEL, step
     cameras[step] = view.GetActiveCamera().GetDirectionOfProjection(), view.CameraParallelScale

@@ -100,7 +100,7 @@ user.python(BEGIN + begin("again") + "GetAnimationScene().GoToFirst()")
 vcr("Play")
 user.python(SETTLE + "save('again')\n" + begin("begun"))
 user.python(BEGIN + begin("saved") + f"""
-shown.OrientationAxesVisibility = 0
+shown.OrientationAxesVisibility = display.SchlierenLegend = 0
 SaveAnimation(os.path.join(FOLDER, "saved.png"), shown, FrameWindow=[0, 3], ImageResolution={SIZE})
 """ + begin("over") + SETTLE + "save('saved')\n")
 user.save_state("saved.pvsm")

@@ -162,6 +162,7 @@ def frame_view(view, scale):
     for display in view.Representations:
         if display.GetProperty("SchlierenBench") is not None:
             display.SchlierenBench.LockK = "Off"
+            display.SchlierenLegend = 0
 
 
 def check_display(representation, white=1):
@@ -196,6 +197,7 @@ def frame(bench, view, size, scale):
     view.CameraFocalPoint, view.CameraPosition = middle + [0], middle + [10 * scale]
     view.CameraViewUp = [0, 1, 0]
     view.OrientationAxesVisibility = 0
+    shown(bench, view).SchlierenLegend = 0
     view.UseFXAA = 0  # would mix neighbouring pixels where they differ much
 
 

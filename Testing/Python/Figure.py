@@ -12,6 +12,7 @@ from plugin_testing import Schlieren, image_array
 from representation_testing import pixels_of, show
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
+from PIL import Image
 import schlieren_figure
 
 COLUMNS, ROWS = 600, 320
@@ -45,7 +46,7 @@ flow.UpdatePipeline()
 bench = Schlieren(Input=flow, ImageSize=[COLUMNS, ROWS], GladstoneDaleConstant=1e-6, LengthScale=1e-3,
                   FocalPoint=[5, -2, 0], ParallelScale=16, ViewDirection=[0, 0, -1], ViewUp=[0, 1, 0], KnifeEdgeAngle=90)
 files = schlieren_figure.save("figure.png", bench, title="A $ figure")
-assert files == ["figure.png", "figure_intensity.png", "figure.json", "figure.pvsm"], files
+assert files == ["figure.png", "figure_intensity.png", "figure_intensity.tif", "figure.json", "figure.pvsm"], files
 
 # Pixel by pixel, and the numbers in steps of 1 / 65535.
 light = image_array(bench, "Intensity").reshape(ROWS, COLUMNS)[::-1]
@@ -55,6 +56,8 @@ place = place_of(page, np.repeat(grey[..., None], 3, axis=2))
 assert place, "The image is not in the figure pixel by pixel"
 numbers = png("figure_intensity.png")[..., 0]
 assert numbers.dtype == np.uint16
+with Image.open("figure_intensity.tif") as tiff:
+    assert tiff.mode == "I;16" and np.array_equal(np.array(tiff), numbers), tiff.mode
 assert np.abs(numbers / 65535 - np.clip(light, 0, 1)).max() <= 0.5 / 65535 + 1e-6
 
 # The axes are in mm, and say where the data are: the ticks are below the image.

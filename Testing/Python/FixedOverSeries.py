@@ -68,6 +68,31 @@ bench.LockAmbient, bench.Cutoff = 1, "Knife Edge"
 bench.LockedAmbient = fixed[1]
 bench.LockedK = fixed[0]
 
+# Fitted to all of it: that of the strongest image, wherever it is, and none has another one.
+made = []
+note = bench.GetClientSideObject().AddObserver("EndEvent", lambda *_: made.append(used(bench)[0]))
+progress = []
+seen = bench.GetClientSideObject().AddObserver(
+    "ProgressEvent", lambda filter, _: progress.append(filter.GetProgress()))
+bench.InvokeCommand("FitKOverSeries")
+bench.GetClientSideObject().RemoveObserver(note)
+bench.GetClientSideObject().RemoveObserver(seen)
+assert len(made) == len(TIMES) and min(np.diff(progress)) > -1e-9 and progress[0] < 0.1 and progress[-1] > 0.99, progress
+strongest = at(bench, 1.5)[0]
+assert strongest == min(made) and np.isclose(strongest, min(k for k, _ in own.values()), rtol=1e-3), (strongest, own)
+assert {at(bench, time)[0] for time in TIMES} == {strongest} and bench.LockedK == strongest
+assert (bench.LockK, bench.SamplesPerPixel) == ("Over Time", Schlieren(**settings).SamplesPerPixel)
+
+# Stopped in the middle, it changes nothing.
+bench.LockedK = fixed[0]
+at(bench, 0.5)
+stop = bench.GetClientSideObject().AddObserver(
+    "ProgressEvent", lambda filter, _: filter.GetProgress() > 0.5 and filter.SetAbortExecute(1))
+bench.InvokeCommand("FitKOverSeries")
+bench.GetClientSideObject().RemoveObserver(stop)
+assert at(bench, 0.5)[0] == fixed[0]
+assert at(bench, 1.5) == fixed
+
 # An animation makes its frames in the order of time; the one that was shown before does not matter.
 view = simple.CreateRenderView(ViewSize=[160, 120])
 simple.Show(bench, view)

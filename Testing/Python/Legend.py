@@ -58,6 +58,18 @@ small = box_of(pixels_of(view, SIZE), without)
 assert 0.55 < (small[1] - small[0]) / (box[1] - box[0]) < 0.85, (small, box)
 display.SchlierenLegendFontSize = 10
 
+# In a smaller view it has a smaller font, and covers a quarter at most; less of it is shown where that does not suffice.
+heights = [(box[3] - box[2]) * SIZE[1]]
+for size in (300, 200), (280, 170):
+    view.ViewSize = list(size)
+    display.SchlierenLegend = 0
+    alone = pixels_of(view, size)
+    display.SchlierenLegend = 1
+    left, right, bottom, top = box_of(pixels_of(view, size), alone)
+    assert 0.15 < (right - left) * (top - bottom) < 0.26, (size, left, right, bottom, top)
+    heights.append((top - bottom) * size[1])
+assert heights[1] < 0.85 * heights[0] and heights[2] < 0.92 * heights[1], heights
+
 # A view that it would cover has none.
 view.ViewSize = [150, 110]
 tiny = pixels_of(view, (150, 110))

@@ -9,13 +9,13 @@ from arguments import ROOT
 
 sys.path.insert(0, os.path.join(ROOT, "Plugin"))
 
-from schlieren_figure import Axes, FigureError, Sheet, axis_name, grey, length_unit  # noqa: E402
+from schlieren_figure import Axes, FigureError, Sheet, axis_name, grey, prefix_of  # noqa: E402
 
 
 def format_length(data_units, options):
     metres = data_units * options.length_scale
-    unit, factor = length_unit(abs(metres) * 1.0001)
-    return f"{metres / factor:.3g} {unit}"
+    prefix, factor = prefix_of(abs(metres) * 1.0001)
+    return f"{metres / factor:.3g} {prefix}m"
 
 
 def layout(frame):

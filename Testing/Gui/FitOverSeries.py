@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One k for a series, of the menu beside Fit Again: that of the strongest image, in a view and in a filter; the abort
+button leaves the k that was, and Undo brings it back."""
+
+import os
+
+import numpy as np
+from views_testing import FOLDER, INSIDE, ViewsSession
+from series_testing import write_series
+from window_testing import BENCH
+
+SERIES, TRACE = os.path.join(FOLDER, "flow.pvd"), os.path.join(FOLDER, "trace.py")
+TIMES = list(range(41))
+
+
+def blob(x, y, z, time):
+    strength = 0.1 + 0.4 * max(0, 1 - abs(time - 20) / 10)
+    return 1 - strength * np.maximum(0, 1 - (x**2 + y**2 + z**2) / 0.6**2)**2
+
+
+HELPERS = """
+import inside_window
+def fit():
+    button = widget("propertiesPanel", *inside_window.PANEL, "LockK", "FitK")
+    (series,) = button.menu().actions()
+    QTimer.singleShot(0, series.trigger)
+    process_events()
+def k():
+    return information(inside_window.BENCH, "KScaleUsed")
+def check():
+    "Fits, at the first time, whose own k is five times that of the strongest."
+    settle_views()
+    abort, bench, own = widget("AbortButton"), inside_window.BENCH, k()
+    end = click_during(bench.GetClientSideObject(), 0.3, abort)
+    fit()
+    end()
+    inside_window.SETTLE()
+    assert np.isclose(k(), own, rtol=1e-3), (k(), own)
+    assert not abort.isEnabled()
+    fit()
+    inside_window.SETTLE()
+    inside_window.before, inside_window.fitted = own, k()
+    assert np.isclose(k() / own, 0.2, rtol=0.01), (k(), own)
+    assert "k locked at" in information(bench, "Status")
+    assert not abort.isEnabled()
+"""
+REDONE = """
+inside_window.SETTLE()
+scene = GetAnimationScene()
+for time in 20, 40, 0:
+    scene.AnimationTime = time
+    inside_window.SETTLE()
+    assert k() == inside_window.fitted, (time, k())
+"""
+UNDONE = """
+inside_window.SETTLE()
+assert np.isclose(k(), inside_window.before, rtol=1e-6), (k(), inside_window.before)
+"""
+
+write_series(SERIES, TIMES, 25, blob)
+user = ViewsSession(BENCH)
+user.press("OneImage")
+user.python(HELPERS + """
+(display,) = displays()
+inside_window.BENCH, inside_window.PANEL, inside_window.SETTLE = display.SchlierenBench, ["SchlierenBench"], settle_views
+check()
+""")
+user.menu("menu_Edit", "actionEditUndo")
+user.python(HELPERS + UNDONE)
+user.menu("menu_Edit", "actionEditRedo")
+user.python(HELPERS + REDONE + "SetActiveSource(FindSource('flow'))\n")
+user.choose_filter("Schlieren")
+user.apply()
+user.python(HELPERS + f"""
+from paraview import smtrace
+bench = FindSource("Schlieren1")
+inside_window.BENCH, inside_window.PANEL, inside_window.SETTLE = bench, [], lambda: settle(bench)
+settle(bench)
+bench.LockK = "Off"
+settle(bench)
+smtrace.start_trace()
+check()
+with open({TRACE!r}, "w") as file:
+    file.write(smtrace.stop_trace())
+assert bench.LockK == "Always"
+""")
+user.menu("menu_Edit", "actionEditUndo")
+user.python(HELPERS + UNDONE + """
+assert inside_window.BENCH.LockK == "Always"  # since the first, which was stopped
+""")
+user.menu("menu_Edit", "actionEditRedo")
+user.python(HELPERS + REDONE)
+user.play(INSIDE + f"""
+from paraview.simple import *
+flow = OpenDataFile({SERIES!r}, registrationName="flow")
+flow.UpdatePipeline()
+GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
+view = GetActiveViewOrCreate("RenderView")
+Show(flow, view)
+view.ResetCamera()
+SetActiveSource(flow)
+""")
+
+with open(TRACE, encoding="utf-8") as file:
+    trace = file.read()
+assert trace.count("schlieren1.InvokeCommand('FitKOverSeries')") == 2 and "schlieren1.LockK = 'Always'" in trace, trace

@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A flow that a view draws as Schlieren is refined: ParaView's progress bar says how far, the window responds meanwhile,
+and the abort button stops it until the view is turned. With an argument, where a server makes the images; skipped
+without pvserver."""
+
+import os
+import sys
+
+import numpy as np
+from server_testing import connect, start_server
+from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession
+
+REPORT = os.path.join(FOLDER, "turns.txt")
+LONGEST = 0.07  # seconds until the window responds
+
+user = ViewsSession()
+user.press("OneImage")
+user.python(f"""
+import re
+import inside_window
+settle_views()
+(display,), view = displays(), FindView("Schlieren View")
+bench = display.SchlierenBench
+abort, bar = widget("AbortButton"), widget("ProgressBar")
+def line():
+    return widget("Frame.2", "Viewport", "SchlierenStatus").text()
+def is_refined():
+    return re.match("Refining: [0-9]+ of 20000 samples", bar.text()) is not None
+assert not abort.isEnabled() and bar.text() == ""
+bench.AutoTargetError = 0
+bench.SamplesPerPixel = 20000
+Render(view)
+until(is_refined)
+assert abort.isEnabled()
+until(lambda: re.fullmatch("Refining: [0-9]+ of 20000 samples, about [0-9]+ (s|min|h)", bar.text()))
+widget().grab().save(os.path.join(FOLDER, "refining.png"))
+turns, end = [], inside_window.time.monotonic() + 5
+while inside_window.time.monotonic() < end:
+    turns.append(inside_window.process_events())
+    assert is_refined() and 0 <= information(bench, "PercentDone") < 100
+np.savetxt({REPORT!r}, turns)
+
+# Stopped, it stays as it is, also where it is rendered and saved.
+click(abort)
+until(lambda: line().startswith("Stopped. "))
+assert not abort.isEnabled() and bar.text() == ""
+assert (information(bench, "Stopped"), information(display, "SchlierenFinished")) == (1, 1)
+rays = information(bench, "TotalRaysTraced")
+Render(view)
+SaveScreenshot(os.path.join(FOLDER, "stopped.png"), view)
+pause(1)
+assert information(bench, "TotalRaysTraced") == rays and line().startswith("Stopped. ")
+
+# Turned, it is made again.
+view.GetActiveCamera().Azimuth(10)
+bench.SamplesPerPixel = 2
+Render(view)
+settle_views()
+assert information(bench, "Stopped") == 0 and line().startswith("2 samples"), line()
+assert not abort.isEnabled() and bar.text() == ""
+
+# Closed while it is refined.
+bench.SamplesPerPixel = 20000
+Render(view)
+until(is_refined)
+Delete(view)
+until(lambda: bar.text() == "")
+assert not abort.isEnabled()
+""")
+
+is_remote = len(sys.argv) > 1
+server, port = start_server() if is_remote else (None, 0)
+try:
+    user.play((connect(port) if is_remote else "") + INSIDE + OPEN_JET)
+finally:
+    if server:
+        server.kill()
+
+turns = np.loadtxt(REPORT)
+print(f"The window responds within {1e3 * np.median(turns):.0f} ms, at most {1e3 * turns.max():.0f} ms.")
+assert len(turns) > 20
+# Other programs take the processor now and then.
+assert np.median(turns) < LONGEST and np.quantile(turns, 0.9) < 2 * LONGEST, np.sort(turns)[::-1]
