@@ -32,7 +32,7 @@ def check():
     "Fits, at the first time, whose own k is five times that of the strongest."
     settle_views()
     abort, bench, own = widget("AbortButton"), inside_window.BENCH, k()
-    end = click_during(bench.GetClientSideObject(), 0.3, abort)
+    end = click_during(bench.GetClientSideObject(), 0.02, abort)
     fit()
     end()
     inside_window.SETTLE()
