@@ -31,11 +31,12 @@ user.python("""
 import inside_window
 for view in GetRenderViews():
     view.CameraParallelProjection = 1
+(display,) = displays()
+display.SchlierenBench.Quality = "Interactive"  # which makes images faster
 Render()
 settle_views()
 # What the linked view shows.
 inside_window.LOG = []
-(display,) = displays()
 def note(*_):
     inside_window.LOG.append(information(display, "SchlierenReduction"))
 FindView("Schlieren View").SMProxy.AddObserver("EndEvent", note)
