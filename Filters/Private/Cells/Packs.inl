@@ -30,3 +30,20 @@ SCHLIEREN_INLINE bool all(const Mask& mask)
   }
   return each != 0;
 }
+
+/// Computes the largest absolute value.
+SCHLIEREN_INLINE void largest(const Real& a, const Real& b, const Real& c, Real& result)
+{
+  const Real absA = a < 0 ? -a : a, absB = b < 0 ? -b : b, absC = c < 0 ? -c : c;
+  const Real more = absA > absB ? absA : absB;
+  result = more > absC ? more : absC;
+}
+
+SCHLIEREN_INLINE void cross(const Real (&a)[3], const Real (&b)[3], Real (&result)[3])
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+    result[axis] = a[next] * b[last] - a[last] * b[next];
+  }
+}

@@ -50,8 +50,8 @@ public:
     {
       Real rest[3], step[3], left, size;
       this->newtonStep(rest, step);
-      largest(rest, left);
-      largest(step, size);
+      largest(rest[0], rest[1], rest[2], left);
+      largest(step[0], step[1], step[2], size);
       const Mask isThere = left <= nothing;
       const Mask isFinite = (step[0] + step[1] + step[2]) * 0 == 0;
       const Mask isMoving = ~isDone & ~isThere & isFinite;
@@ -130,14 +130,6 @@ public:
   }
 
 private:
-  static SCHLIEREN_INLINE void largest(const Real (&of)[3], Real& size)
-  {
-    const Real a = of[0] < 0 ? -of[0] : of[0], b = of[1] < 0 ? -of[1] : of[1],
-               c = of[2] < 0 ? -of[2] : of[2];
-    maximum(a, b, size);
-    maximum(size, c, size);
-  }
-
   SCHLIEREN_INLINE void multiply(Real (&products)[4]) const
   {
     products[0] = this->At[0] * this->At[1];
@@ -178,15 +170,6 @@ private:
     step[0] = (rest[0] * minor[0] + rest[1] * minor[1] + rest[2] * minor[2]) * perVolume;
     step[1] = (by[0][0] * crossed[0] + by[0][1] * crossed[1] + by[0][2] * crossed[2]) * perVolume;
     step[2] = (by[0][0] * outer[0] + by[0][1] * outer[1] + by[0][2] * outer[2]) * perVolume;
-  }
-
-  static SCHLIEREN_INLINE void cross(const Real (&a)[3], const Real (&b)[3], Real (&result)[3])
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const int next = (axis + 1) % 3, last = (axis + 2) % 3;
-      result[axis] = a[next] * b[last] - a[last] * b[next];
-    }
   }
 
   const NormalCell& Cell;

@@ -4,13 +4,6 @@
 // Defines LocateInPart for packs of `lanes` points. PlacesInPart.cxx includes it once for each set
 // of instructions.
 
-SCHLIEREN_INLINE void largest(const Real& a, const Real& b, const Real& c, Real& result)
-{
-  const Real absA = a < 0 ? -a : a, absB = b < 0 ? -b : b, absC = c < 0 ? -c : c;
-  const Real more = absA > absB ? absA : absB;
-  result = more > absC ? more : absC;
-}
-
 /// Evaluates `count` polynomials and their slopes by Horner's rule: all at once, because each sum
 /// waits for the one before it.
 template <int count>
@@ -85,13 +78,7 @@ SCHLIEREN_INLINE void iterate(
     Real minors[3][3]; // cross products of two columns
     for (int along = 0; along < 3; ++along)
     {
-      const Real* a = by[(along + 1) % 3];
-      const Real* b = by[(along + 2) % 3];
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const int next = (axis + 1) % 3, last = (axis + 2) % 3;
-        minors[along][axis] = a[next] * b[last] - a[last] * b[next];
-      }
+      cross(by[(along + 1) % 3], by[(along + 2) % 3], minors[along]);
     }
     const Real perVolume =
       1 / (by[0][0] * minors[0][0] + by[0][1] * minors[0][1] + by[0][2] * minors[0][2]);
