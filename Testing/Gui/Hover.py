@@ -7,7 +7,7 @@ server makes the images; skipped without pvserver."""
 import sys
 
 from filter_testing import SCENE
-from server_testing import connect, start_server
+from server_testing import play
 from views_testing import INSIDE, ViewsSession
 
 user = ViewsSession()
@@ -108,10 +108,4 @@ assert np.isclose(length[-1], 1000 * np.ptp(places)), length[-1]
 found = np.interp(1000 * (places - places[0]), length, path)
 assert np.abs(found - expected).max() < 2e-3 * np.ptp(expected), np.abs(found - expected).max() / np.ptp(expected)
 """)
-is_remote = len(sys.argv) > 1
-server, port = start_server() if is_remote else (None, 0)
-try:
-    user.play((connect(port) if is_remote else "") + INSIDE + SCENE)
-finally:
-    if server:
-        server.kill()
+play(user, INSIDE + SCENE, is_remote=len(sys.argv) > 1)

@@ -12,7 +12,7 @@ import numpy as np
 from views_testing import (FOLDER, INSIDE, OPEN_JET, ViewsSession, check_baseline, check_linked, drawn, frame_view, load,
                            simple, views)
 from representation_testing import GREY_LEVEL, filter_like, pixels_of
-from server_testing import connect, start_server
+from server_testing import play
 
 SIZE = [270, 270]
 is_remote = len(sys.argv) > 1
@@ -62,12 +62,7 @@ Render(view)
 """)
 keep("script")
 
-server, port = start_server() if is_remote else (None, 0)
-try:
-    user.play((connect(port) if is_remote else "") + INSIDE + OPEN_JET)
-finally:
-    if server:
-        server.kill()
+play(user, INSIDE + OPEN_JET, is_remote)
 
 cameras, images = {}, {}
 for step in ("first", "turned", "zoomed", "back", "script"):

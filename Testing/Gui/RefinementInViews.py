@@ -8,7 +8,7 @@ import os
 import sys
 
 import numpy as np
-from server_testing import connect, start_server
+from server_testing import play
 from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession
 
 REPORT = os.path.join(FOLDER, "turns.txt")
@@ -69,13 +69,7 @@ until(lambda: bar.text() == "")
 assert not abort.isEnabled()
 """)
 
-is_remote = len(sys.argv) > 1
-server, port = start_server() if is_remote else (None, 0)
-try:
-    user.play((connect(port) if is_remote else "") + INSIDE + OPEN_JET)
-finally:
-    if server:
-        server.kill()
+play(user, INSIDE + OPEN_JET, is_remote=len(sys.argv) > 1)
 
 turns = np.loadtxt(REPORT)
 print(f"The window responds within {1e3 * np.median(turns):.0f} ms, at most {1e3 * turns.max():.0f} ms.")

@@ -49,6 +49,16 @@ LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=True, ns=globals())
 """
 
 
+def play(user, begin, is_remote):
+    """Plays a session that begins with a script, of the window alone or connected to a server of its own."""
+    server, port = start_server() if is_remote else (None, 0)
+    try:
+        user.play((connect(port) if is_remote else "") + begin)
+    finally:
+        if server:
+            server.kill()
+
+
 # Before connect(), where the server cannot draw: answers the box in which ParaView says so.
 DISMISS = """
 import inside_window
