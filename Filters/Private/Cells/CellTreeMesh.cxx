@@ -5,6 +5,7 @@
 
 #include "Cells/MeshKey.h"
 #include "Common/CellTypes.h"
+#include "Common/ParallelSort.h"
 
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
@@ -284,35 +285,7 @@ void CellTree::sortCells(Mesh& mesh, const WorkProgress& progress)
         entries[i] = { placeOnCurve(middle), mesh.numbers[i] };
       }
     });
-  // Sorts chunks of fixed size, then merges pairs of them.
-  constexpr std::size_t part = 1 << 15;
-  const auto at = [&](std::size_t i)
-  { return entries.begin() + static_cast<std::ptrdiff_t>(std::min(i, count)); };
-  vtkSMPTools::For(0, static_cast<vtkIdType>((count + part - 1) / part), 1,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      {
-        std::sort(at(i * part), at((i + 1) * part));
-      }
-    });
-  progress.reach(0.6);
-  std::vector<Entry> merged(count > part ? count : 0);
-  for (std::size_t length = part; length < count; length *= 2)
-  {
-    vtkSMPTools::For(0, static_cast<vtkIdType>((count + 2 * length - 1) / (2 * length)), 1,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-        {
-          const std::size_t first = 2 * i * length;
-          std::merge(at(first), at(first + length), at(first + length), at(first + 2 * length),
-            merged.begin() + static_cast<std::ptrdiff_t>(first));
-        }
-      });
-    entries.swap(merged);
-    progress.reach(1 - 0.4 * static_cast<double>(part) / static_cast<double>(length));
-  }
+  sortInParallel(entries, progress.part(0.4, 1));
   for (std::size_t i = 0; i < count; ++i)
   {
     mesh.numbers[i] = entries[i].second;

@@ -336,13 +336,13 @@ PointNeighbours::PointNeighbours(
   }
   const CellsOfPoints known = cellsOfPoints(mesh, isCellUsed, progress.part(0, 0.3));
   const vtkIdType points = mesh.points();
-  std::vector<std::vector<std::uint32_t>> parts(
-    static_cast<std::size_t>((points + chunkSize - 1) / chunkSize));
-  this->Starts.resize(static_cast<std::size_t>(points) + 1);
+  this->Chunks.resize(static_cast<std::size_t>((points + chunkSize - 1) / chunkSize));
+  this->Ends.resize(static_cast<std::size_t>(points));
   forChunks(points, progress.part(0.3, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
       PointSet found;
+      std::vector<std::uint32_t> ids;
       const auto forCells = [&](vtkIdType point, const auto& visit)
       {
         const auto at = static_cast<std::size_t>(point);
@@ -354,18 +354,11 @@ PointNeighbours::PointNeighbours(
       for (vtkIdType point = begin; point < end; ++point)
       {
         findNeighbours(mesh, forCells, point, found);
-        std::vector<std::uint32_t>& part = parts[static_cast<std::size_t>(point / chunkSize)];
-        part.insert(part.end(), found.points().begin() + 1, found.points().end());
-        this->Starts[static_cast<std::size_t>(point) + 1] = found.points().size() - 1;
+        ids.insert(ids.end(), found.points().begin() + 1, found.points().end());
+        this->Ends[static_cast<std::size_t>(point)] = static_cast<std::uint32_t>(ids.size());
       }
+      this->Chunks[static_cast<std::size_t>(begin / chunkSize)].assign(ids.begin(), ids.end());
     });
-  std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
-  this->Ids.reserve(this->Starts.back());
-  for (std::vector<std::uint32_t>& part : parts)
-  {
-    this->Ids.insert(this->Ids.end(), part.begin(), part.end());
-    part = std::vector<std::uint32_t>();
-  }
 }
 
 /// Calls visit(point, begin, end) for points in turn, with the numbers of their neighbours.
@@ -396,7 +389,8 @@ void PointNeighbours::forNeighbours(
     else
     {
       const auto at = static_cast<std::size_t>(point);
-      visit(point, this->Ids.data() + this->Starts[at], this->Ids.data() + this->Starts[at + 1]);
+      const std::uint32_t* ids = this->Chunks[static_cast<std::size_t>(point / chunkSize)].data();
+      visit(point, point % chunkSize == 0 ? ids : ids + this->Ends[at - 1], ids + this->Ends[at]);
     }
   }
 }
@@ -496,8 +490,10 @@ std::vector<double> PointNeighbours::valuesFromCells(
 
 std::size_t PointNeighbours::bytes() const
 {
-  return this->Starts.size() * sizeof(std::uint64_t) + this->Ids.size() * sizeof(std::uint32_t) +
-    this->IsCellUsed.size();
+  const std::size_t ids =
+    std::accumulate(this->Chunks.begin(), this->Chunks.end(), std::size_t{ 0 },
+      [](std::size_t sum, const std::vector<std::uint32_t>& chunk) { return sum + chunk.size(); });
+  return (ids + this->Ends.size()) * sizeof(std::uint32_t) + this->IsCellUsed.size();
 }
 
 } // namespace filters

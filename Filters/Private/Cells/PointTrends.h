@@ -47,10 +47,10 @@ private:
   void forNeighbours(
     const MeshArrays& mesh, vtkIdType begin, vtkIdType end, const Visit& visit) const;
 
-  // Those of point i are Ids[Starts[i]] to Ids[Starts[i + 1]]; structured grids have none, whose cells are found as
-  // fast.
-  std::vector<std::uint64_t> Starts;
-  std::vector<std::uint32_t> Ids;
+  // Neighbours of the points of each chunk, see forChunks(), and where those of each point end in
+  // it. Structured grids have none, whose cells are found as fast.
+  std::vector<std::vector<std::uint32_t>> Chunks;
+  std::vector<std::uint32_t> Ends;
   std::vector<unsigned char> IsCellUsed; // for structured grids
 };
 

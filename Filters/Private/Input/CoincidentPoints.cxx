@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/CoincidentPoints.h"
 
+#include "Common/ParallelSort.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -43,8 +45,14 @@ std::vector<double> mergingTolerances(
 namespace
 {
 
-/// A point's coordinate along a direction, and its number.
-using Placed = std::pair<double, std::int32_t>;
+/// A point's coordinates along two directions, and its number.
+struct Placed
+{
+  double along, across;
+  std::int32_t number;
+
+  bool operator<(const Placed& other) const { return this->along < other.along; }
+};
 
 /// Points, sorted, whose tolerances differ by less than a factor of 2.
 struct Class
@@ -55,20 +63,24 @@ struct Class
 
 /// Separates points with large tolerances, which would be compared with all points of fine regions.
 std::vector<Class> classesOf(
-  const std::vector<Point>& points, const std::vector<double>& tolerances, const Point& along)
+  const std::vector<Point>& points, const std::vector<double>& tolerances)
 {
+  // Takes directions in which points of plausible meshes do not share coordinates.
+  const Point along = unit({ 1, 0.6180339887, 0.2360679775 });
+  const Point across = unit({ -0.4142135624, 1, 0.7320508076 });
   std::map<int, Class> classes;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const double tolerance = tolerances[i];
     Class& of = classes[tolerance > 0 ? std::ilogb(tolerance) : std::numeric_limits<int>::min()];
     of.most = std::max(of.most, tolerance);
-    of.points.emplace_back(dot(along, points[i]), static_cast<std::int32_t>(i));
+    of.points.push_back(
+      { dot(along, points[i]), dot(across, points[i]), static_cast<std::int32_t>(i) });
   }
   std::vector<Class> result;
   for (auto& one : classes)
   {
-    std::sort(one.second.points.begin(), one.second.points.end());
+    sortInParallel(one.second.points);
     result.push_back(std::move(one.second));
   }
   return result;
@@ -79,13 +91,11 @@ std::vector<Class> classesOf(
 std::vector<std::int32_t> coincidentPoints(
   const std::vector<Point>& points, const std::vector<double>& tolerances)
 {
-  // Sorts points along a direction in which those of plausible meshes do not share coordinates.
-  const Point along = unit({ 1, 0.6180339887, 0.2360679775 });
-  const std::vector<Class> classes = classesOf(points, tolerances, along);
+  const std::vector<Class> classes = classesOf(points, tolerances);
   Classes ofPoints(points.size());
   const auto compare = [&](const Placed& one, const Placed& other)
   {
-    const auto i = static_cast<std::size_t>(one.second), j = static_cast<std::size_t>(other.second);
+    const auto i = static_cast<std::size_t>(one.number), j = static_cast<std::size_t>(other.number);
     if (norm(points[i] - points[j]) <= std::min(tolerances[i], tolerances[j]))
     {
       ofPoints.join(i, j);
@@ -99,14 +109,17 @@ std::vector<std::int32_t> coincidentPoints(
       const auto end = coarse->points.end();
       for (auto one = fine->points.begin(); one != fine->points.end(); ++one)
       {
-        while (first != end && first->first < one->first - fine->most)
+        while (first != end && first->along < one->along - fine->most)
         {
           ++first;
         }
         for (auto other = fine == coarse ? one + 1 : first;
-             other != end && other->first <= one->first + fine->most; ++other)
+             other != end && other->along <= one->along + fine->most; ++other)
         {
-          compare(*one, *other);
+          if (std::abs(other->across - one->across) <= fine->most)
+          {
+            compare(*one, *other);
+          }
         }
       }
     }

@@ -49,13 +49,16 @@ std::shared_ptr<const PieceSource> sourceOfMeshes(const PreparedLeaves& prepared
   }
   const bool isNew = !kept->boundary;
   kept->builds += isNew ? 1 : 0;
+  // Finds faces first, because that takes most memory.
+  Faces faces = isNew ? facesOf(leaves, progress.part(0, 0.2)) : Faces();
   auto piece = std::make_unique<MeshPiece>(
-    prepared, mesh, Copies::Used, progress.part(0, isNew ? 0.7 : 1), choices.flatAxis);
+    prepared, mesh, Copies::Used, isNew ? progress.part(0.2, 0.8) : progress, choices.flatAxis);
   if (isNew)
   {
     kept->boundary = std::make_shared<const GasBoundary>(
-      leaves, bodies, choices.outside, [&](const Point& place) { return piece->holds(place); },
-      progress.part(0.7, 1), choices.flatAxis < 0 ? Extent::Volume : Extent::Layer);
+      std::move(faces), leaves, bodies, choices.outside,
+      [&](const Point& place) { return piece->holds(place); }, progress.part(0.8, 1),
+      choices.flatAxis < 0 ? Extent::Volume : Extent::Layer);
     kept->piece = mesh;
     kept->keys = keys;
   }

@@ -7,6 +7,7 @@
 #include "Cells/MeshArrays.h"
 #include "Cells/PointTrends.h"
 #include "Common/CellTypes.h"
+#include "Common/WorkProgress.h"
 #include "Input/CoincidentPoints.h"
 #include "Input/DatasetPieces.h"
 #include "Input/FlatData.h"
@@ -23,6 +24,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -80,6 +82,36 @@ double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
   return std::sqrt(smallest) / (isCurved ? std::cbrt(static_cast<double>(points)) : 1);
 }
 
+/// Returns the smallest edge of the visible cells of each point; -1 without any.
+std::vector<double> smallestEdges(const MeshArrays& mesh)
+{
+  std::vector<std::atomic<double>> sizes(static_cast<std::size_t>(mesh.points()));
+  std::fill(sizes.begin(), sizes.end(), -1);
+  forChunks(mesh.cells(), WorkProgress(),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType cell = begin; cell < end; ++cell)
+      {
+        if (!mesh.isVisible(cell))
+        {
+          continue;
+        }
+        const double edge = smallestEdge(mesh, cell);
+        mesh.forPoints(cell,
+          [&](vtkIdType point)
+          {
+            std::atomic<double>& size = sizes[static_cast<std::size_t>(point)];
+            double known = size.load(std::memory_order_relaxed);
+            while ((known < 0 || edge < known) &&
+              !size.compare_exchange_weak(known, edge, std::memory_order_relaxed))
+            {
+            }
+          });
+      }
+    });
+  return { sizes.begin(), sizes.end() };
+}
+
 /// Points that may coincide with those of other leaves.
 struct Candidates
 {
@@ -89,6 +121,13 @@ struct Candidates
   std::vector<double> sizes;
 
   std::size_t size() const { return this->points.size(); }
+  void reserve(std::size_t count)
+  {
+    this->leaves.reserve(count);
+    this->points.reserve(count);
+    this->places.reserve(count);
+    this->sizes.reserve(count);
+  }
 };
 
 /// Returns whether other boxes intersect this leaf's, or a ghost array hides cells: then points
@@ -161,20 +200,8 @@ void addCandidates(
     }
     return;
   }
-  std::vector<double> sizes(static_cast<std::size_t>(mesh.points()), -1);
-  for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
-  {
-    if (mesh.isVisible(cell))
-    {
-      const double edge = smallestEdge(mesh, cell);
-      mesh.forPoints(cell,
-        [&](vtkIdType point)
-        {
-          double& size = sizes[static_cast<std::size_t>(point)];
-          size = size < 0 ? edge : std::min(size, edge);
-        });
-    }
-  }
+  all.reserve(all.size() + static_cast<std::size_t>(mesh.points()));
+  const std::vector<double> sizes = smallestEdges(mesh);
   for (vtkIdType point = 0; point < mesh.points(); ++point)
   {
     if (sizes[static_cast<std::size_t>(point)] >= 0)

@@ -435,18 +435,18 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesO
   {
     faces = withoutSidesAcrossZ(faces);
   }
-  progress.reach(0.7);
+  progress.reach(0.1);
   const double rounding = relativeRounding(faces.points);
   const std::vector<std::int32_t> before = mergePoints(faces, rounding);
   std::vector<Pair> pairs;
   std::vector<OpenFace> kept = withoutPairs(faces, rounding, pairs);
-  progress.reach(0.8);
+  progress.reach(0.3);
   if (areInCells)
   {
     removeAtGaps(faces, areInCells, kept);
     removeCovered(faces, areInCells, kept);
   }
-  progress.reach(0.9);
+  progress.reach(0.7);
   CutFaces cuts;
   std::vector<unsigned char> areSheets;
   if (valuesOf)
@@ -478,8 +478,8 @@ CutFaces cutFacesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& 
   return cutsOf(faces, before, pairs, Cuts::BetweenThemToo);
 }
 
-BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
-  const WorkProgress& progress, Extent extent, Sheets sheets)
+BoundaryFaces boundaryOf(Faces faces, const std::vector<vtkDataSet*>& leaves,
+  const CellTest& isInCell, const WorkProgress& progress, Extent extent, Sheets sheets)
 {
   ValuesOfCuts valuesOf;
   if (sheets == Sheets::Found)
@@ -487,8 +487,8 @@ BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest&
     valuesOf = [&](const CutFaces& cuts)
     { return valuesAt(cuts.firstContributions, cuts.contributions, leaves); };
   }
-  return boundaryOf(facesOf(leaves, progress.part(0, 0.7)),
-    isInCell ? testInParallel(isInCell, progress.part(0.8, 0.9)) : nullptr, valuesOf, progress,
+  return boundaryOf(std::move(faces),
+    isInCell ? testInParallel(isInCell, progress.part(0.3, 0.7)) : nullptr, valuesOf, progress,
     extent);
 }
 

@@ -65,9 +65,11 @@ struct BoundaryFaces
 /// Sheets without thickness within a dataset, whose cells meet with points of their own on both
 /// sides, are found by their values (see findSheets()), and are included once from each side.
 /// Others are not recognized: give them as Bodies.
-BoundaryFaces boundaryOf(const std::vector<vtkDataSet*>& leaves, const CellTest& isInCell,
-  const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume,
-  Sheets sheets = Sheets::Found);
+///
+/// `faces`: facesOf(leaves), which takes more memory than all else and should come first.
+BoundaryFaces boundaryOf(Faces faces, const std::vector<vtkDataSet*>& leaves,
+  const CellTest& isInCell, const WorkProgress& progress = WorkProgress(),
+  Extent extent = Extent::Volume, Sheets sheets = Sheets::Found);
 
 /// Finds faces with visible cells on both sides, each with points of its own: of one leaf, or of
 /// two, according to `leaf` of the contributions.

@@ -15,9 +15,10 @@
 namespace filters
 {
 
-GasBoundary::GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
-  Outside outside, const CellTest& isInCell, const WorkProgress& progress, Extent extent)
-  : GasBoundary(boundaryOf(leaves, isInCell, progress.part(0, 0.8), extent,
+GasBoundary::GasBoundary(filters::Faces faces, const std::vector<vtkDataSet*>& leaves,
+  vtkDataObject* bodies, Outside outside, const CellTest& isInCell, const WorkProgress& progress,
+  Extent extent)
+  : GasBoundary(boundaryOf(std::move(faces), leaves, isInCell, progress.part(0, 0.8), extent,
                   outside == Outside::Passes ? Sheets::Ignored : Sheets::Found),
       bodies, outside, progress.part(0.8, 1))
 {

@@ -34,10 +34,10 @@ class GasBoundary
 public:
   using Place = schlieren::Place;
 
-  /// `leaves`, `isInCell` (may be empty): see boundaryOf(). `bodies`: may be null; see
+  /// `faces`, `leaves`, `isInCell` (may be empty): see boundaryOf(). `bodies`: may be null; see
   /// BodySurfaces. Keeps copies of all data.
-  GasBoundary(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies, Outside outside,
-    const CellTest& isInCell, const WorkProgress& progress = WorkProgress(),
+  GasBoundary(filters::Faces faces, const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
+    Outside outside, const CellTest& isInCell, const WorkProgress& progress = WorkProgress(),
     Extent extent = Extent::Volume);
   /// Makes the boundary of given faces.
   GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,

@@ -197,9 +197,15 @@ inline Areas areasOf(const GasBoundary& boundary)
   return areas;
 }
 
+inline GasBoundary boundaryOfLeaves(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
+  Outside outside, const filters::CellTest& isInCell)
+{
+  return { filters::facesOf(leaves, filters::WorkProgress()), leaves, bodies, outside, isInCell };
+}
+
 inline Areas areasOf(const std::vector<Data>& leaves, Outside outside = Outside::Auto)
 {
-  return areasOf(GasBoundary(pointers(leaves), nullptr, outside, {}));
+  return areasOf(boundaryOfLeaves(pointers(leaves), nullptr, outside, {}));
 }
 
 inline void expectAreas(const Areas& areas, double wall, double window, double tolerance = 1e-6)

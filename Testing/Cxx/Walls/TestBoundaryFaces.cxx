@@ -243,7 +243,8 @@ TEST(GasBoundary, FacesBetweenBlocksAreNone)
          std::vector<Data>{ half(0, 1.33, 7), half(0.9, 3, 9) } })
   {
     const Cells cells(pair);
-    const GasBoundary boundary(pointers(pair), nullptr, Outside::Auto, cells.test());
+    const GasBoundary boundary =
+      boundaryOfLeaves(pointers(pair), nullptr, Outside::Auto, cells.test());
     const Areas areas = areasOf(boundary);
     EXPECT_EQ(areas.wall, 0);
     for (std::size_t t = 0; t < boundary.surface().size(); ++t)
@@ -262,7 +263,7 @@ TEST(GasBoundary, HeatingCoilIsAWall)
   reader->SetFileName(shared("heating_coil_fluid.vtu").c_str());
   reader->Update();
   const Data mesh = withScalars(reader->GetOutput());
-  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  const GasBoundary boundary = boundaryOfLeaves({ mesh }, nullptr, Outside::Auto, {});
   for (std::size_t t = 0; t < boundary.surface().size(); ++t)
   {
     bool isInSide[3] = { true, true, true };
@@ -358,7 +359,8 @@ TEST(GasBoundary, LightEndsAtASheet)
   setJump(
     mesh, [](const Vec& x) { return std::abs(x[0]) < 0.45 && std::abs(x[1]) < 0.45 ? 0.2 : 0; });
   const Cells cells(std::vector<Data>{ mesh });
-  const GasBoundary boundary(pointers({ mesh }), nullptr, Outside::Auto, cells.test());
+  const GasBoundary boundary =
+    boundaryOfLeaves(pointers({ mesh }), nullptr, Outside::Auto, cells.test());
   const auto valuesOn = [](const Data& data)
   {
     return [data](const filters::CutFaces& cuts)
@@ -459,7 +461,8 @@ TEST(GasBoundary, GapsThatCloseAtOnceAreNoWalls)
   const std::vector<Data> mesh = { block(coarse, curve, -0.1, 0, 5),
     block(fine, curve, 0, 0.1, 5) };
   const Cells cells(mesh);
-  const Areas areas = areasOf(GasBoundary(pointers(mesh), nullptr, Outside::Auto, cells.test()));
+  const Areas areas =
+    areasOf(boundaryOfLeaves(pointers(mesh), nullptr, Outside::Auto, cells.test()));
   expectAreas(areas, 0, 0.3 * (lengthOf(coarse, curve) + lengthOf(fine, curve)) + 0.12 + 0.4);
 }
 
@@ -485,7 +488,8 @@ TEST(GasBoundary, BluntPlatesThinnerThanCellsAreWalls)
     mesh.push_back(block(before, flat, -0.01, 0.01, 1));
     mesh.push_back(block(after, flat, -0.01, 0.01, 1));
     const Cells cells(mesh);
-    const Areas areas = areasOf(GasBoundary(pointers(mesh), nullptr, Outside::Auto, cells.test()));
+    const Areas areas =
+      areasOf(boundaryOfLeaves(pointers(mesh), nullptr, Outside::Auto, cells.test()));
     EXPECT_NEAR(areas.wall, 2 * 0.3 * (end + 0.02), 1e-6);
   }
 }

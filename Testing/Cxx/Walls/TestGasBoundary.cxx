@@ -116,7 +116,7 @@ Lattice latticeAround(const Vec& middle, const Vec& half, double h)
 TEST(GasBoundary, SphereIsWhereItIs)
 {
   const auto mesh = sphereMesh(160, 4);
-  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  const GasBoundary boundary = boundaryOfLeaves({ mesh }, nullptr, Outside::Auto, {});
   for (const double h : { 0.04, 0.02, 0.01 })
   {
     double worst = 0, sum = 0;
@@ -190,7 +190,7 @@ TEST(GasBoundary, NothingLeaksThroughThinPlates)
       turn->SetInputData(body);
       turn->Update();
       const Data gas = gasAround();
-      const GasBoundary boundary({ gas }, turn->GetOutput(), Outside::Auto, {});
+      const GasBoundary boundary = boundaryOfLeaves({ gas }, turn->GetOutput(), Outside::Auto, {});
       Lattice lattice = latticeAround({ 0, 0, 0 }, { 1.2, 1.2, 1.2 }, h);
       if (turned == 0)
       {
@@ -222,7 +222,7 @@ TEST(GasBoundary, PlatesAreAboutAVoxelThick)
   for (double z = 0; z < 0.1; z += 0.013)
   {
     const auto sheet = plate({ -0.8, -0.8, z }, { 0.8, -0.8, z }, { -0.8, 0.8, z });
-    const GasBoundary boundary({ gas }, sheet, Outside::Auto, {});
+    const GasBoundary boundary = boundaryOfLeaves({ gas }, sheet, Outside::Auto, {});
     const Samples samples(boundary, latticeAround({ 0, 0, 0 }, { 1.2, 1.2, 1.2 }, h), always);
     double thickness = 0, deepest = 0;
     for (double at = -0.5; at < 0.5; at += 0.001)
@@ -244,7 +244,7 @@ TEST(GasBoundary, ABoxKeepsItsFacesAndEdges)
     return std::max({ std::abs(x[0]), std::abs(x[1]), std::abs(x[2]) }) > 0.5;
   };
   const Data gas = gasAround();
-  const GasBoundary boundary({ gas }, box({ 1, 1, 1 }), Outside::Auto, {});
+  const GasBoundary boundary = boundaryOfLeaves({ gas }, box({ 1, 1, 1 }), Outside::Auto, {});
   const Lattice lattice = latticeAround({ 0, 0, 0 }, { 1, 1, 1 }, h);
   const Samples samples(boundary, lattice, always);
   for (std::size_t i = 0; i < samples.places.size(); ++i)
@@ -289,9 +289,9 @@ TEST(GasBoundary, ClosedBodiesAreSolidHoweverTheyAreTurned)
   nested->SetBlock(1, box({ 0.5, 0.5, 0.5 }));
   nested->SetBlock(2, box({ 1, 0.2, 0.2 }, { 1, 0, 0 }));
   const Lattice lattice = latticeAround({ 0, 0, 0 }, { 1.3, 1.3, 1.3 }, 0.1);
-  const GasBoundary one({ gas }, source->GetOutput(), Outside::Auto, {});
-  const GasBoundary turned({ gas }, reverse->GetOutput(), Outside::Auto, {});
-  const GasBoundary several({ gas }, nested, Outside::Auto, {});
+  const GasBoundary one = boundaryOfLeaves({ gas }, source->GetOutput(), Outside::Auto, {});
+  const GasBoundary turned = boundaryOfLeaves({ gas }, reverse->GetOutput(), Outside::Auto, {});
+  const GasBoundary several = boundaryOfLeaves({ gas }, nested, Outside::Auto, {});
   const Samples a(one, lattice, always), b(turned, lattice, always), c(several, lattice, always);
   EXPECT_EQ(a.distances, b.distances);
   for (std::size_t i = 0; i < a.places.size(); ++i)
@@ -317,7 +317,7 @@ TEST(GasBoundary, ClosedBodiesAreSolidHoweverTheyAreTurned)
 TEST(GasBoundary, PlacesOutsideAreOfTheNearestFace)
 {
   const Data mesh = sphereMesh(30, 4);
-  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  const GasBoundary boundary = boundaryOfLeaves({ mesh }, nullptr, Outside::Auto, {});
   const auto isIn = [](const Vec& x) { return dot(x, x) > 1 && dot(x, x) < 16; };
   EXPECT_EQ(boundary.kindAt({ 0, 0, 0.1 }, false), Place::Wall);
   EXPECT_EQ(boundary.kindAt({ 0, 4.1, 0.1 }, false), Place::Window);
@@ -346,7 +346,7 @@ TEST(GasBoundary, AmbientIsThatOfTheFarField)
   mesh->GetPointData()->SetActiveScalars("N");
   for (const Outside outside : { Outside::Auto, Outside::Blocks, Outside::Passes })
   {
-    EXPECT_EQ(GasBoundary({ mesh }, nullptr, outside, {}).ambient({ mesh }), 2);
+    EXPECT_EQ(boundaryOfLeaves({ mesh }, nullptr, outside, {}).ambient({ mesh }), 2);
   }
 }
 
@@ -367,7 +367,8 @@ TEST(GasBoundary, GasContinuesFromBlockToBlock)
   for (const std::vector<Data>& blocks : { hanging, overlapping })
   {
     const Cells cells(blocks);
-    const GasBoundary boundary(pointers(blocks), nullptr, Outside::Auto, cells.test());
+    const GasBoundary boundary =
+      boundaryOfLeaves(pointers(blocks), nullptr, Outside::Auto, cells.test());
     for (const double h : { 0.1, 0.02 })
     {
       const double size = std::min(0.4, 15 * h);
@@ -402,7 +403,7 @@ TEST(GasBoundary, CurvedCellsHaveNoWallsWithin)
   };
   const double box =
     2 * (lengths[0] * lengths[1] + lengths[1] * lengths[2] + lengths[2] * lengths[0]);
-  expectAreas(areasOf(GasBoundary({ mesh }, nullptr, Outside::Auto, isWithin)), 0, box, 1e-4);
+  expectAreas(areasOf(boundaryOfLeaves({ mesh }, nullptr, Outside::Auto, isWithin)), 0, box, 1e-4);
 }
 
 // The fin, half of which is modelled, opens in the plane of symmetry and in the plate that it stands on. Far from its
@@ -410,7 +411,7 @@ TEST(GasBoundary, CurvedCellsHaveNoWallsWithin)
 TEST(GasBoundary, BodiesThatOpenInTwoSidesOfTheBoxAreWallUpToTheirEdge)
 {
   const Data mesh = bluntFin(); // half as thick as 0.5, from y = 0 on; the plate is at z = 0
-  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  const GasBoundary boundary = boundaryOfLeaves({ mesh }, nullptr, Outside::Auto, {});
   for (const double h : { 0.002, 0.0075, 0.015, 0.02 })
   {
     const Samples samples(boundary, { { 2, h / 2, h / 2 }, { h, h, h }, { 18, 18, 18 } },
@@ -439,7 +440,7 @@ TEST(GasBoundary, BesideTheEndsOfAProfileIsWindow)
       const double r = std::pow(5, i);
       return Vec{ r * std::cos(2 * pi * j), r * std::sin(2 * pi * j), k };
     });
-  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  const GasBoundary boundary = boundaryOfLeaves({ mesh }, nullptr, Outside::Auto, {});
   const auto isIn = [](const Vec& x) { return std::hypot(x[0], x[1]) > 1 && x[2] > 0 && x[2] < 1; };
   const Samples samples(boundary, latticeAround({ 1, 0, 0 }, { 0.8, 0.8, 0.8 }, 0.1), isIn);
   for (std::size_t i = 0; i < samples.places.size(); ++i)
@@ -477,7 +478,7 @@ TEST(GasBoundary, NothingLeaksThroughThinHoles)
     const Data holed = gasOf(mesh);
     turn(asPoints(holed));
     const Cells cells({ holed });
-    const GasBoundary boundary({ holed }, nullptr, Outside::Auto, {});
+    const GasBoundary boundary = boundaryOfLeaves({ holed }, nullptr, Outside::Auto, {});
     EXPECT_NEAR(areasOf(boundary).wall, 8 + 8 * thickness, 1e-6);
     const Samples samples(boundary, latticeAround({ 0, 0, 0 }, { 1.5, 1.5, 1.5 }, h),
       [&](const Vec& x) { return cells.hold(x); });
@@ -502,7 +503,7 @@ TEST(GasBoundary, NearlyPlaneWallsAreNoThickerThanTheyAre)
     });
   turn(mesh);
   const Cells cells({ mesh });
-  const GasBoundary boundary({ mesh }, nullptr, Outside::Auto, {});
+  const GasBoundary boundary = boundaryOfLeaves({ mesh }, nullptr, Outside::Auto, {});
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-0.05, 0.05);
   for (int i = 0; i < 4; ++i)
@@ -539,7 +540,7 @@ TEST(GasBoundary, NothingLeaksIntoFolds)
         const Vec o{ 0.1 * any(random), 0, 0.1 * any(random) };
         fold->SetBlock(0, plate({ o[0], -1, o[2] }, { o[0], 1, o[2] }, { o[0] + s, -1, o[2] - c }));
         fold->SetBlock(1, plate({ o[0], -1, o[2] }, { o[0], 1, o[2] }, { o[0] - s, -1, o[2] - c }));
-        const GasBoundary boundary({ gasAround() }, fold, Outside::Auto, {});
+        const GasBoundary boundary = boundaryOfLeaves({ gasAround() }, fold, Outside::Auto, {});
         const Samples samples(boundary, latticeAround({ 0, 0, 0 }, { 1.2, 0.5, 1.2 }, h), always);
         int leaks = 0;
         for (int ray = 0; ray < 100; ++ray)
