@@ -3,10 +3,11 @@
 """What several ranks take: processor seconds and memory of each, for a first image and for another view.
 
     SCHLIEREN_PLUGIN=…/Schlieren.so mpiexec -np 4 pvbatch --sym --force-offscreen-rendering \
-        Testing/Benchmarks/Scaling.py MODE CELLS [pixels [samples]] [property=value ...]
+        Testing/Benchmarks/Scaling.py MODE DATA CELLS [pixels [samples]] [property=value ...]
 
-MODE: gathered or stay. Around a sphere, from 1 to 50 radii, CELLS cells of a curvilinear grid, of which each rank
-has a sector. One thread on each rank. Prints a row: ranks, mode, cells, pixels, and for the first image and for another view the
+MODE: gathered or stay. DATA: far, around a sphere, from 1 to 50 radii, CELLS cells of a curvilinear grid, of which
+each rank has a sector; half, those around one half of it, without a seam, because data with one never stay; image, a
+cube of CELLS voxels. One thread on each rank. Prints a row: ranks, mode, data, cells, pixels, and for the first image and for another view the
 seconds on the clock, processor seconds of rank 0 and of the others, least to most; the most memory of both beyond
 what they have with the data, MB; then the voxels, MB, and million rays of the other view.
 
@@ -43,7 +44,7 @@ rank, number = ranks.GetLocalProcessId(), ranks.GetNumberOfProcesses()
 first, last = AROUND * rank // number, AROUND * (rank + 1) // number
 growth = 1.03 ** np.arange(LAYERS + 1) - 1
 r, polar, around = np.meshgrid(1 + 49 * growth / growth[-1], np.linspace(0, np.pi, POLAR + 1),
-                               np.linspace(0, 2 * np.pi, AROUND + 1)[first:last + 1], indexing="ij")
+                               np.linspace(0, TURN * np.pi, AROUND + 1)[first:last + 1], indexing="ij")
 x, y, z = r * np.cos(polar), r * np.sin(polar) * np.sin(around), r * np.sin(polar) * np.cos(around)
 front = np.exp(-((r - 1.6) / 0.15) ** 2) * (1 - np.cos(polar)) / 2
 wake = 0.4 * np.exp(-(y ** 2 + z ** 2) / 0.18) * (0.5 + 0.5 * np.tanh(2 * (x - 0.5))) * np.exp(-(x / 6) ** 2)
@@ -80,25 +81,40 @@ RANKS = vtkMultiProcessController.GetGlobalController()
 simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=globals())
 
 
-def measure():
-    numbers = [argument for argument in sys.argv[2:] if "=" not in argument]
-    others = dict(argument.split("=", 1) for argument in sys.argv[2:] if "=" in argument)
-    mode, cells = sys.argv[1], int(float(numbers[0]))
-    pixels = int(numbers[1]) if len(numbers) > 1 else 512
-    samples = int(numbers[2]) if len(numbers) > 2 else 1
-    size = {"POLAR": round((cells / 3)**(1 / 3)), "AROUND": 2 * round((cells / 3)**(1 / 3))}
+def around_sphere(cells, turn):
+    """A source, how many cells it has, and what to look at."""
+    size = {"POLAR": round((cells / 1.5 / turn)**(1 / 3)), "TURN": turn}
+    size["AROUND"] = turn * size["POLAR"]
     size["LAYERS"] = round(cells / size["POLAR"] / size["AROUND"])
-    cells = math.prod(size.values())
     script, extent = SECTORS, EXTENT
     for name, number in size.items():
         script, extent = script.replace(name, str(number)), extent.replace(name, str(number))
     source = simple.ProgrammableSource(OutputDataSetType="vtkStructuredGrid", ScriptRequestInformation=extent, Script=script)
+    return source, math.prod(size.values()) // turn, {"Density": ["POINTS", "rho"], "ParallelScale": 3, "FocalPoint": [0, 0, 0]}
+
+
+def cube(cells):
+    edge = round(cells**(1 / 3))
+    source = simple.Wavelet(WholeExtent=[0, edge] * 3, Center=[edge / 2] * 3, StandardDeviation=0.5)
+    return source, edge**3, {"Density": ["POINTS", "RTData"], "DensityScale": 0.005, "LengthScale": 1 / edge}
+
+
+DATA = {"far": lambda cells: around_sphere(cells, 2), "half": lambda cells: around_sphere(cells, 1), "image": cube}
+
+
+def measure():
+    mode, data = sys.argv[1:3]
+    numbers = [argument for argument in sys.argv[3:] if "=" not in argument]
+    others = dict(argument.split("=", 1) for argument in sys.argv[3:] if "=" in argument)
+    pixels = int(numbers[1]) if len(numbers) > 1 else 512
+    samples = int(numbers[2]) if len(numbers) > 2 else 1
+    source, cells, looks = DATA[data](float(numbers[0]))
     source.UpdatePipeline()
     before = megabytes()
-    bench = Schlieren(Input=source, Density=["POINTS", "rho"], ParallelScale=3, FocalPoint=[0, 0, 0],  # noqa: F821
-                      ImageSize=[pixels, pixels], SamplesPerPixel=samples, NumberOfThreads=1, Device="CPU",
-                      **MODES[mode], **{name: ast.literal_eval(value) for name, value in others.items()})
-    row = f"{RANKS.GetNumberOfProcesses()} | {mode} | {cells:.3g} | {pixels} |"
+    bench = Schlieren(Input=source, ImageSize=[pixels, pixels], SamplesPerPixel=samples, NumberOfThreads=1,  # noqa: F821
+                      Device="CPU", **looks, **MODES[mode],
+                      **{name: ast.literal_eval(value) for name, value in others.items()})
+    row = f"{RANKS.GetNumberOfProcesses()} | {mode} | {data} | {cells:.3g} | {pixels} |"
     for direction in ([0, 0, -1], [0.3, 0.2, -1]):
         bench.ViewDirection = direction
         RANKS.Barrier()

@@ -89,6 +89,12 @@ def sources():
                       f"(coordsY + 14) * sin({angle}) * jHat + coordsZ * kHat")
     ring = Calculator(Input=ring, ResultArrayName="rho", Function="1.2 + 0.1 * exp(-((coordsX - 14)^2 + coordsY^2) / 30)")
     yield "requested O-grid", ring, ["POINTS", "rho"], None, False, {}
+    # Half of a shell, whose slices all end at the same axis.
+    polar, around = "(coordsZ + 9) * 3.14159265358979 / 18", "(coordsX + 12) * 3.14159265358979 / 26"
+    shell = Calculator(Input=Transform(Input=wavelet), CoordinateResults=1, Function=f"(coordsY + 14) * (cos({polar}) * iHat + "
+                       f"sin({polar}) * (sin({around}) * jHat + cos({around}) * kHat))")
+    shell = Calculator(Input=shell, ResultArrayName="rho", Function="1.2 + 0.1 * exp(-((coordsX - 14)^2 + coordsZ^2) / 30)")
+    yield "requested shell with poles", shell, ["POINTS", "rho"], None, False, {}
     yield "requested tetrahedra", Tetrahedralize(Input=wavelet), ["POINTS", "RTData"], None, True, settings
     cells = GroupDatasets(Input=[PointDatatoCellData(Input=Wavelet(WholeExtent=[*ends, -10, 10, -9, 9]))
                                  for ends in ((-12, 0), (0, 14))])

@@ -8,6 +8,7 @@
 #include "vtkDataSet.h"
 #include "vtkStructuredData.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -77,7 +78,7 @@ void addOuterPoints(vtkDataSet* piece, const Extent& whole, OuterPoints& points)
   }
 }
 
-bool hasSeam(const OuterPoints& points, const Extent& whole)
+bool hasSeam(const OuterPoints& points, const Extent& whole, const std::array<bool, 3>& across)
 {
   std::vector<Point> places;
   std::map<vtkIdType, std::size_t> order;
@@ -99,24 +100,31 @@ bool hasSeam(const OuterPoints& points, const Extent& whole)
     return false;
   }
   std::set<std::set<std::int32_t>> known;
-  const auto isKnown = [&](const std::array<vtkIdType, 4>& corners)
+  const auto placeOf = [&](vtkIdType number)
   {
-    std::set<std::int32_t> face;
-    for (const vtkIdType number : corners)
+    const auto at = order.find(number);
+    return at != order.end() ? firsts[at->second] : -1;
+  };
+  const auto isSeam = [&](std::size_t axis, const std::array<vtkIdType, 4>& corners)
+  {
+    std::array<std::int32_t, 4> ends{};
+    std::transform(corners.begin(), corners.end(), ends.begin(), placeOf);
+    const std::set<std::int32_t> face(ends.begin(), ends.end());
+    if (face.count(-1) != 0)
     {
-      const auto at = order.find(number);
-      if (at != order.end())
-      {
-        face.insert(firsts[at->second]);
-      }
+      return false; // no rank has it
     }
-    return face.size() == corners.size() && !known.insert(face).second;
+    const bool collapses =
+      (across[(axis + 1) % 3] && (ends[0] == ends[1] || ends[2] == ends[3])) ||
+      (across[(axis + 2) % 3] && (ends[0] == ends[2] || ends[1] == ends[3]));
+    return collapses || (face.size() == corners.size() && !known.insert(face).second);
   };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     for (const std::size_t end : { 2 * axis, 2 * axis + 1 })
     {
-      if (anyFace(whole, axis, whole[end], isKnown))
+      if (anyFace(whole, axis, whole[end],
+            [&](const std::array<vtkIdType, 4>& corners) { return isSeam(axis, corners); }))
       {
         return true;
       }

@@ -21,7 +21,9 @@ using OuterPoints = std::map<vtkIdType, Point>;
 void addOuterPoints(vtkDataSet* piece, const std::array<int, 6>& whole, OuterPoints& points);
 
 /// Returns whether faces of cells on the sides of a grid coincide but for rounding, as at the seam
-/// of an O-grid and the wake cut of a C-grid. Sides that collapse to a line (poles) are no seams.
-bool hasSeam(const OuterPoints& points, const std::array<int, 6>& whole);
+/// of an O-grid and the wake cut of a C-grid, or collapse along one of the axes `across`, as at a
+/// pole.
+bool hasSeam(const OuterPoints& points, const std::array<int, 6>& whole,
+  const std::array<bool, 3>& across = {});
 
 } // namespace filters

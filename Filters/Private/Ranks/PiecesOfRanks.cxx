@@ -275,7 +275,8 @@ bool PiecesOfRanks::meetsOthers(const Dataset& dataset) const
       });
 }
 
-/// Returns whether a grid has a seam. All ranks call it.
+/// Returns whether a grid has a seam, or a pole at which pieces end that are no neighbours: VTK takes
+/// them for that, and reads beyond their arrays. All ranks call it.
 bool PiecesOfRanks::meetsItself(const Dataset& dataset) const
 {
   if (dataset.type != VTK_STRUCTURED_GRID || dataset.dimension < 3 || dataset.ranks.size() < 2)
@@ -310,7 +311,15 @@ bool PiecesOfRanks::meetsItself(const Dataset& dataset) const
         points[number] = reader.Get<Point>();
       }
     });
-  return hasSeam(points, dataset.whole);
+  std::array<bool, 3> areDivided{};
+  for (const PointExtent& extent : dataset.extents)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      areDivided[axis] = areDivided[axis] || extent[2 * axis] != dataset.extents[0][2 * axis];
+    }
+  }
+  return hasSeam(points, dataset.whole, areDivided);
 }
 
 double PiecesOfRanks::cells() const
