@@ -6,10 +6,10 @@
         Testing/Benchmarks/Scaling.py MODE DATA CELLS [pixels [samples]] [property=value ...]
 
 MODE: gathered or stay. DATA: far, around a sphere, from 1 to 50 radii, CELLS cells of a curvilinear grid, of which
-each rank has a sector; half, those around one half of it, without a seam, because data with one never stay; image, a
-cube of CELLS voxels. One thread on each rank. Prints a row: ranks, mode, data, cells, pixels, and for the first image and for another view the
-seconds on the clock, processor seconds of rank 0 and of the others, least to most; the most memory of both beyond
-what they have with the data, MB; then the voxels, MB, and million rays of the other view.
+each rank has a sector; half, those around one half of it, without seam and poles, because data with these never
+stay; image, a cube of CELLS voxels. One thread on each rank. Prints a row: ranks, mode, data, cells, pixels, and for
+the first image and for another view the seconds on the clock, processor seconds of rank 0 and of the others, least to most; the most memory of both beyond
+what they have with the data, MB; then the tree's voxels, MB, and million rays of the other view.
 
 Other properties may be given, MediumTolerance=0 for example; their values are Python's.
 """
@@ -43,7 +43,7 @@ ranks = vtkMultiProcessController.GetGlobalController()
 rank, number = ranks.GetLocalProcessId(), ranks.GetNumberOfProcesses()
 first, last = AROUND * rank // number, AROUND * (rank + 1) // number
 growth = 1.03 ** np.arange(LAYERS + 1) - 1
-r, polar, around = np.meshgrid(1 + 49 * growth / growth[-1], np.linspace(0, np.pi, POLAR + 1),
+r, polar, around = np.meshgrid(1 + 49 * growth / growth[-1], np.linspace(GAP, np.pi - GAP, POLAR + 1),
                                np.linspace(0, TURN * np.pi, AROUND + 1)[first:last + 1], indexing="ij")
 x, y, z = r * np.cos(polar), r * np.sin(polar) * np.sin(around), r * np.sin(polar) * np.cos(around)
 front = np.exp(-((r - 1.6) / 0.15) ** 2) * (1 - np.cos(polar)) / 2
@@ -87,7 +87,7 @@ def around_sphere(cells, turn):
     size["AROUND"] = turn * size["POLAR"]
     size["LAYERS"] = round(cells / size["POLAR"] / size["AROUND"])
     script, extent = SECTORS, EXTENT
-    for name, number in size.items():
+    for name, number in [*size.items(), ("GAP", 0.2 - 0.1 * turn)]:
         script, extent = script.replace(name, str(number)), extent.replace(name, str(number))
     source = simple.ProgrammableSource(OutputDataSetType="vtkStructuredGrid", ScriptRequestInformation=extent, Script=script)
     return source, math.prod(size.values()) // turn, {"Density": ["POINTS", "rho"], "ParallelScale": 3, "FocalPoint": [0, 0, 0]}
@@ -125,8 +125,9 @@ def measure():
     row += f" {in_words(of_all_ranks(megabytes() - before), 0)}"
     if RANKS.GetLocalProcessId() == 0:
         facts = bench.GetClientSideObject().GetOutputDataObject(0).GetFieldData()
-        voxels, rays = (facts.GetAbstractArray(name).GetValue(0) for name in ("MediumBytes", "RaysTraced"))
-        print(f"{row} | {voxels / 1e6:.1f} | {rays / 1e6:.2f}", flush=True)
+        of_medium = facts.GetAbstractArray("MediumBytes")  # none of a grid
+        rays = facts.GetAbstractArray("RaysTraced").GetValue(0)
+        print(f"{row} | {of_medium.GetValue(0) / 1e6 if of_medium else 0:.1f} | {rays / 1e6:.2f}", flush=True)
 
 
 measure()
