@@ -180,7 +180,18 @@ void pqImageWidget::addPainting(QGridLayout* grid)
     QObject::connect(undo, &QAbstractButton::clicked, stack, &pqUndoStack::undo);
     showUndo(stack->canUndo(), stack->undoLabel());
   }
+  this->followStrokes();
+  this->Fetcher = new pqCutoffLightFetcher(this->proxy(), this);
+  QObject::connect(
+    this->Fetcher, &pqCutoffLightFetcher::lightChanged, this, &pqImageWidget::showLight);
+  QObject::connect(
+    this->Fetcher, &pqCutoffLightFetcher::imageChanged, this, &pqImageWidget::showLight);
+  QObject::connect(this->Light, &QAbstractButton::toggled, this, &pqImageWidget::showLight);
+}
 
+//------------------------------------------------------------------------------
+void pqImageWidget::followStrokes()
+{
   this->Pause.setSingleShot(true);
   this->Pause.setInterval(pauseOfStroke);
   QObject::connect(&this->Pause, &QTimer::timeout, this, &pqImageWidget::showStroke);
@@ -193,13 +204,6 @@ void pqImageWidget::addPainting(QGridLayout* grid)
   QObject::connect(
     this->Painter, &pqImagePainter::stopped, this, [this]() { this->OnImage->setChecked(false); });
   QObject::connect(this->OnImage, &QAbstractButton::toggled, this, &pqImageWidget::paintOnImage);
-
-  this->Fetcher = new pqCutoffLightFetcher(this->proxy(), this);
-  QObject::connect(
-    this->Fetcher, &pqCutoffLightFetcher::lightChanged, this, &pqImageWidget::showLight);
-  QObject::connect(
-    this->Fetcher, &pqCutoffLightFetcher::imageChanged, this, &pqImageWidget::showLight);
-  QObject::connect(this->Light, &QAbstractButton::toggled, this, &pqImageWidget::showLight);
 }
 
 //------------------------------------------------------------------------------

@@ -61,6 +61,7 @@ private Q_SLOTS:
 private:
   QAbstractButton* newButton(const char* name, const QString& text, const QString& tip);
   void addPainting(QGridLayout* grid);
+  void followStrokes();
   void showImage();
 
   QString Image;

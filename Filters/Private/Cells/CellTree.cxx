@@ -332,6 +332,17 @@ Vector CellTree::sizeOf(const Cell& one) const
   return size;
 }
 
+bool CellTree::areWithin(const Steps& a, const Steps& b)
+{
+  constexpr std::int32_t rounding = 3; // see stepsOf()
+  bool are = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    are = are && a.low[axis] >= b.low[axis] + rounding && a.high[axis] <= b.high[axis] - rounding;
+  }
+  return are;
+}
+
 CellTree::Content CellTree::content(const Bounds& box) const
 {
   Content content{ infinity, -infinity, { infinity, infinity, infinity } };
@@ -341,18 +352,6 @@ CellTree::Content CellTree::content(const Bounds& box) const
     return content;
   }
   const Steps steps = this->stepsOf(box);
-  // Allows for rounding: see stepsOf().
-  constexpr std::int32_t rounding = 3;
-  const auto areWithin = [&](const Steps& other)
-  {
-    bool are = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      are = are && other.low[axis] >= steps.low[axis] + rounding &&
-        other.high[axis] <= steps.high[axis] - rounding;
-    }
-    return are;
-  };
   const auto mayAdd = [&](const Range& range, const float* cellSize)
   {
     return range.lowest < content.lowest || range.highest > content.highest ||
@@ -378,7 +377,7 @@ CellTree::Content CellTree::content(const Bounds& box) const
     {
       return;
     }
-    if (areWithin(group.box))
+    if (areWithin(group.box, steps))
     {
       add(range, group.cellSize);
       return;

@@ -193,6 +193,9 @@ private:
       b.low[1] <= a.high[1] && a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
   }
 
+  /// Returns whether a is within b, whatever has been rounded.
+  static bool areWithin(const Steps& a, const Steps& b);
+
   template <class Enter, class Visit>
   void walk(std::size_t level, std::size_t group, const Enter& enter, const Visit& visit) const
   {

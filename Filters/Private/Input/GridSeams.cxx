@@ -114,8 +114,7 @@ bool hasSeam(const OuterPoints& points, const Extent& whole, const std::array<bo
     {
       return false; // no rank has it
     }
-    const bool collapses =
-      (across[(axis + 1) % 3] && (ends[0] == ends[1] || ends[2] == ends[3])) ||
+    const bool collapses = (across[(axis + 1) % 3] && (ends[0] == ends[1] || ends[2] == ends[3])) ||
       (across[(axis + 2) % 3] && (ends[0] == ends[2] || ends[1] == ends[3]));
     return collapses || (face.size() == corners.size() && !known.insert(face).second);
   };
