@@ -14,24 +14,31 @@ namespace schlieren
 namespace
 {
 
-/// Index coordinates that steps are to be measured in, by the light's unit of length. Where nothing depends on z, only
-/// the bending of rays needs steps along it: by one of d, leapfrog takes a ray's deflection wrong by
-/// d^2 |nu''| / 6, which shall be a thousandth. |nu''| is no more than twice the steepest gradient by a smallest voxel.
+/// Index coordinates that steps are to be measured in, by the light's unit of length. By a step of d smallest voxels,
+/// leapfrog takes a bent ray's deflection wrong by d^2 |nu''| / 6, which shall be a thousandth. |nu''| is no more than
+/// twice the steepest gradient by a smallest voxel. Where nothing depends on z only that needs steps along it.
 template <class Real>
 Vec3<double> scaleOfSteps(const Medium<Real>& medium, const Light& light, PathModel path)
 {
   Vec3<double> scale = light.indexScale;
-  if (medium.tree == nullptr || medium.tree->shape() == BrickShape::Cube)
+  const bool isLayer = medium.tree != nullptr && medium.tree->shape() == BrickShape::Layer;
+  if (isLayer)
+  {
+    scale.z = 0;
+  }
+  if (path == PathModel::Straight)
   {
     return scale;
   }
-  const double perVoxel = std::max(scale.x, scale.y);
-  const double finest = std::exp2(medium.tree->statistics().finestLevel);
+  const double perVoxel = std::max({ scale.x, scale.y, scale.z });
+  const double finest = medium.tree ? std::exp2(medium.tree->statistics().finestLevel) : 1;
   constexpr double allowed = 1e-3;
-  const double steepest = std::max(medium.slope.x, medium.slope.y) / finest; // nu by voxel
+  const double steepest =
+    std::max({ medium.slope.x * scale.x, medium.slope.y * scale.y, medium.slope.z * scale.z }) /
+    perVoxel / finest; // nu by voxel
   const double voxelsAlong = std::sqrt(6 * allowed / (2 * steepest));
-  scale.z = path == PathModel::Straight ? 0 : perVoxel / std::max(1., voxelsAlong);
-  return scale;
+  const double least = perVoxel / std::max(1., voxelsAlong);
+  return { std::max(scale.x, least), std::max(scale.y, least), std::max(scale.z, least) };
 }
 
 } // namespace
@@ -79,7 +86,10 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   // Where n is small, a step leads less far; and an adaptive one may have to be much shorter.
   constexpr double smallestIndex = 1e-3;
   const double slow = medium.largestNu < 1 ? 1 / std::max(1 - medium.largestNu, smallestIndex) : 1;
-  const double shorter = settings.kernel.integrator == Integrator::Adaptive ? adaptiveFactor : 1;
+  // The error per length, which the tolerance limits, is of second order.
+  const double finer = std::sqrt(std::max(1., usualTolerance / settings.adaptiveTolerance));
+  const double shorter =
+    settings.kernel.integrator == Integrator::Adaptive ? adaptiveFactor * finer : 1;
   task.stepLimit = static_cast<std::int32_t>(
     std::min(trappedFactor * straightSteps * slow * shorter, largestLimit));
   task.metresPerUnit = (1 + medium.ambient) * settings.lengthScale * light.unit;

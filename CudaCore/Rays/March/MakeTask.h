@@ -13,15 +13,17 @@ namespace schlieren
 /// A ray that has taken this many times the steps of a straight one is trapped.
 constexpr int trappedFactor = 8;
 
-/// An adaptive ray may take this many times more: where the gradient has kinks its steps are short.
+/// An adaptive ray may take this many times more with the usual tolerance: where the gradient has
+/// kinks its steps are short.
 constexpr int adaptiveFactor = 64;
+constexpr double usualTolerance = 1e-5;
 
 /// What of a scene matters to rays.
 struct RaySettings
 {
   KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };
   double stepVoxels = 1;
-  double adaptiveTolerance = 1e-5;
+  double adaptiveTolerance = usualTolerance;
   double lengthScale = 1; ///< metres per data unit
 };
 

@@ -112,7 +112,8 @@ SceneResult tryScene(int number, bool isShown)
   Random random(static_cast<std::uint64_t>(number) + 1);
   SceneResult result;
   result.kind = kindOf(number);
-  result.cutoff = static_cast<Cutoff>(random.below(static_cast<int>(techniques.size())));
+  constexpr int ofRays = static_cast<int>(Cutoff::PhaseContrast); // which takes waves
+  result.cutoff = static_cast<Cutoff>(random.below(ofRays));
   const RandomData data = randomData(result.kind, random);
   Scene scene = randomScene(data, result.cutoff, random);
   scene.targetError = invisibleError(scene.cutoff) * random.logUniform(0.6, 12);

@@ -313,6 +313,40 @@ void RayExtremes::expectTrapped(Integrator integrator) const
     maxSteps * straightSteps * static_cast<double>(image.raysTraced));
 }
 
+/// A layer of one voxel that is 150 times as deep as wide, in which rays are bent across several of
+/// them, as in the closed form: whatever step is chosen, and however small the tolerance.
+TEST_P(RayExtremes, LayersOfGlassAreTracedWithAnyStep)
+{
+  const ClosedForm form = oscillator(1.5, { 0.8, 0.4, 0 });
+  Grid grid = boxGrid(0.02, { 0.8, 0.8, 0.02 });
+  grid.dimensions[2] = 2;
+  grid.spacing[2] = 3;
+  grid.origin[2] = -1.5;
+  SampledField<double> field = sampled(grid, form);
+  field.field.ambient = 0;
+  Scene scene = sceneOf(raysAround({ 0, 0, 0 }, 9, 9, 0.12));
+  scene.interpolation = Interpolation::Cubic;
+  for (const double voxels : { 4., 1., 0.5, 0.25, 0.125, 0.05 })
+  {
+    SCOPED_TRACE(voxels);
+    scene.stepSize = voxels;
+    const Image image = Bench().render(field.field, scene);
+    EXPECT_LT(errorsOf(form, grid, image).deflection, 1e-5 * std::max(1., voxels * voxels));
+  }
+  // A step from one voxel to the next, of which splines make kinks.
+  SampledField<double> step(grid, [](double x, double, double) { return x < 0 ? 0.6 : 1.6; });
+  step.field.ambient = 0;
+  scene.integrator = Integrator::Adaptive;
+  scene.precision = Precision::Double;
+  scene.stepSize = 1;
+  for (const double tolerance : { 1e-5, 1e-8, 1e-12 })
+  {
+    SCOPED_TRACE(tolerance);
+    scene.adaptiveTolerance = tolerance;
+    EXPECT_EQ(Bench().render(step.field, scene).raysLost, 0);
+  }
+}
+
 TEST_P(RayExtremes, TrappedRaysAreCountedInBoundedTime)
 {
   for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4, Integrator::Euler })
