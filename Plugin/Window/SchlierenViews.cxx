@@ -246,7 +246,7 @@ private:
   /// Finds the 3-D view, or makes one that shows the flow.
   void findScene()
   {
-    this->Scene = imagesInViews::scene(this->Server);
+    this->Scene = imagesInViews::scene(this->Flow);
     if (!this->Scene)
     {
       auto* builder = pqApplicationCore::instance()->getObjectBuilder();
