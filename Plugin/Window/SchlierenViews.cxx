@@ -466,7 +466,8 @@ SchlierenViews::Result SchlierenViews::add(
   vtkSMProxy* pattern = selected ? selected->getProxy() : drawn ? benchOf(drawn) : nullptr;
   QApplication::setOverrideCursor(Qt::WaitCursor);
   const auto cursor = qScopeGuard([] { QApplication::restoreOverrideCursor(); });
-  static const char* const names[] = { "Add Schlieren View", "Add Three Images", "Compare Light" };
+  static const char* const names[] = { "Add Schlieren View", "Three Images",
+    "Compare Straight and Refracted Rays" };
   traceLoading(flow->getServer());
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
   Builder builder(flow, pattern, std::move(defaults));

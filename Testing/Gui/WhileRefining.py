@@ -6,8 +6,8 @@ new session works as the first one did."""
 import os
 
 import numpy as np
-from series_testing import write_series
 from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession
+from series_testing import write_series
 
 TIMES = [0, 1, 2]
 SERIES, REPORT = os.path.join(FOLDER, "flow.pvd"), os.path.join(FOLDER, "report.txt")
