@@ -146,6 +146,7 @@ public:
         // Keeps the cell, unless a new 3-D view has taken it.
         if (cell.layout && !cell.layout->GetView(cell.number))
         {
+          noteLayout(cell.layout, cell.number);
           this->Views.push_back(this->addView(cell.layout, cell.number, "Schlieren View"));
         }
         else
@@ -273,6 +274,7 @@ private:
       this->Controller->AssignViewToLayout(this->Scene->getViewProxy());
     }
     vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy());
+    noteLayout(layout, layout->GetViewLocation(this->Scene->getViewProxy()));
     const bool isCrowded = names.size() > 1 && layout->GetViews().size() > 1;
     const std::array<int, 2> before = sizeOf(this->Scene);
     if (isCrowded)
@@ -434,7 +436,7 @@ private:
 
 //------------------------------------------------------------------------------
 SchlierenViews::Result SchlierenViews::add(
-  Arrangement arrangement, const Cell& cell, double pressure)
+  Arrangement arrangement, const Cell& cell, Completion completion)
 {
   pqOutputPort* flow = pqActiveObjects::instance().activePort();
   const QString missing = flow ? problemOfServer(flow->getServer()) : QString();
@@ -455,12 +457,12 @@ SchlierenViews::Result SchlierenViews::add(
     return { false, true, problem };
   }
   const std::vector<FlowArray> arrays = arraysOfFlow(flow);
-  FlowDefaults defaults = pressure > 0 ? flowDefaultsAt(arrays, pressure) : flowDefaults(arrays);
+  FlowDefaults defaults = completed(arrays, completion);
   if (defaults.arrays.empty())
   {
     return { false, true,
       "'" + flow->getSource()->getSMName() + "': " + QString::fromStdString(defaults.message),
-      !flowDefaultsAt(arrays, pressureOfRoom).arrays.empty() };
+      offerFor(arrays) };
   }
   vtkSMProxy* drawn = drawnAsSchlieren(flow, pqActiveObjects::instance().activeView());
   vtkSMProxy* pattern = selected ? selected->getProxy() : drawn ? benchOf(drawn) : nullptr;

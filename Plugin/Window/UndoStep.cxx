@@ -14,6 +14,7 @@
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMTrace.h"
 #include "vtkSMUndoElement.h"
+#include "vtkSMViewLayoutProxy.h"
 #include "vtkSmartPointer.h"
 
 #include <QSignalBlocker>
@@ -85,6 +86,17 @@ void addUndoStep(std::function<void()> undo, std::function<void()> redo)
   step->OnUndo = std::move(undo);
   step->OnRedo = std::move(redo);
   ADD_UNDO_ELEM(step);
+}
+
+//------------------------------------------------------------------------------
+void noteLayout(vtkSMViewLayoutProxy* layout, int cell)
+{
+  SCOPED_UNDO_EXCLUDE();
+  // Any change makes ParaView note what the layout is like.
+  if (layout->GetMaximizedCell() < 0 && layout->MaximizeCell(cell))
+  {
+    layout->RestoreMaximizedState();
+  }
 }
 
 //------------------------------------------------------------------------------
