@@ -472,6 +472,7 @@ SchlierenViews::Result SchlierenViews::add(
     "Compare Straight and Refracted Rays" };
   traceLoading(flow->getServer());
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
+  keepActiveView();
   Builder builder(flow, pattern, std::move(defaults));
   const Result result = builder.add(arrangement, cell);
   END_UNDO_SET();

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "UndoStep.h"
 
+#include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqRenderView.h"
+#include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -86,6 +88,27 @@ void addUndoStep(std::function<void()> undo, std::function<void()> redo)
   step->OnUndo = std::move(undo);
   step->OnRedo = std::move(redo);
   ADD_UNDO_ELEM(step);
+}
+
+//------------------------------------------------------------------------------
+void keepActiveView()
+{
+  pqView* active = pqActiveObjects::instance().activeView();
+  if (!active)
+  {
+    return;
+  }
+  const auto activate = [id = ProxyById(active->getProxy())]()
+  {
+    pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+    vtkSMProxy* proxy = id.get();
+    if (auto* view = proxy ? model->findItem<pqView*>(proxy) : nullptr)
+    {
+      SCOPED_UNDO_EXCLUDE();
+      pqActiveObjects::instance().setActiveView(view);
+    }
+  };
+  addUndoStep(activate, []() {});
 }
 
 //------------------------------------------------------------------------------

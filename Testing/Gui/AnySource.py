@@ -65,6 +65,7 @@ assert np.ptp(vtk_to_numpy(intensity)) > 0.1
 user.undo()
 user.python("""
 until(lambda: len(GetRenderViews()) == 1 and not displays())
+assert GetActiveView() == GetRenderViews()[0] and widget("Frame.0"), "Of the second undo a cell is left, or no view is active"
 SetActiveSource(FindSource("warm"))
 """)
 
