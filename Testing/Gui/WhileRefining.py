@@ -19,6 +19,7 @@ def blob(x, y, z, time):
 
 
 write_series(SERIES, TIMES, 17, blob)
+open(REPORT, "w", encoding="utf-8").close()
 
 HELPERS = f"""
 (display,) = displays()
