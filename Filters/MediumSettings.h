@@ -90,7 +90,9 @@ struct MediumSettings
   int FractionType = 0; ///< 0: mass, 1: volume
   double TemperatureScale = 0;
   double PressureScale = 0;
-  double UniformPressure = 0; ///< 0: Pressure is an array
+  double UniformPressure = 0;       ///< 0: Pressure is an array
+  double StagnationTemperature = 0; ///< 0: Temperature is an array
+  double StagnationPressure = 101325;
   double RelativeHumidity = 0;
   double CO2 = 450;
   double Wavelength = 632.8;
@@ -114,6 +116,12 @@ struct MediumSettings
   bool hasUniformPressure() const
   {
     return this->IndexModel == Ciddor && this->UniformPressure > 0;
+  }
+  /// Returns whether the model needs a temperature that the pressure gives.
+  bool isIsentropic() const
+  {
+    return this->IndexModel == Ciddor && this->StagnationTemperature > 0 &&
+      !this->hasUniformPressure();
   }
   bool isAxisymmetric() const { return this->Symmetry == 1; }
   bool isSmooth() const { return this->Reconstruction == 0; }
@@ -143,6 +151,8 @@ struct MediumSettings
     use("TemperatureScale", &S::TemperatureScale);
     use("PressureScale", &S::PressureScale);
     use("UniformPressure", &S::UniformPressure);
+    use("StagnationTemperature", &S::StagnationTemperature);
+    use("StagnationPressure", &S::StagnationPressure);
     use("RelativeHumidity", &S::RelativeHumidity);
     use("CO2", &S::CO2);
     use("Wavelength", &S::Wavelength);

@@ -242,6 +242,18 @@ public:
 
   ///@{
   /**
+   * Of air whose pressure changes without heat, such as a flow without strong shocks: its temperature, K, and pressure, Pa,
+   * at rest. The array of the pressure then gives the temperature, T0 (p / p0)^(2/7), and none of the temperature is read.
+   * A temperature of 0 (the default): an array. The default of the pressure is 101325.
+   */
+  vtkSetMacro(StagnationTemperature, double);
+  vtkGetMacro(StagnationTemperature, double);
+  vtkSetMacro(StagnationPressure, double);
+  vtkGetMacro(StagnationPressure, double);
+  ///@}
+
+  ///@{
+  /**
    * For moist air: the relative humidity, 0 to 1, used without an array of it (default: 0), and
    * the carbon dioxide in parts per million (default: 450).
    */
@@ -595,6 +607,8 @@ private:
   vtkForwardPropertyMacro(inner, TemperatureScale, double);                               \
   vtkForwardPropertyMacro(inner, PressureScale, double);                                  \
   vtkForwardPropertyMacro(inner, UniformPressure, double);                                \
+  vtkForwardPropertyMacro(inner, StagnationTemperature, double);                          \
+  vtkForwardPropertyMacro(inner, StagnationPressure, double);                             \
   vtkForwardPropertyMacro(inner, RelativeHumidity, double);                               \
   vtkForwardPropertyMacro(inner, CO2, double);                                            \
   vtkForwardListMacro(inner, Field, Fields, const char*);                                 \

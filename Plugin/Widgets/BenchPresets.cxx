@@ -62,26 +62,26 @@ BenchPreset preset(const char* name, const std::vector<PresetSetting>& changes)
 const std::vector<BenchPreset>& benchPresets()
 {
   static const std::vector<BenchPreset> presets = {
-    preset("Vertical knife edge", {}),
-    preset("Horizontal knife edge", { { "KnifeEdgeAngle", 90, nullptr } }),
-    preset("Toepler bench: mirror of 1 m, slit of 1 mm",
+    preset("Knife Edge, vertical", {}),
+    preset("Knife Edge, horizontal", { { "KnifeEdgeAngle", 90, nullptr } }),
+    preset("Knife Edge, Toepler's bench: mirror of 1 m, slit of 1 mm",
       { { "KFromOptics", 1, nullptr }, { "SourceShape", Filter::SLIT, nullptr } }),
-    preset("Bright field", { { "Cutoff", Filter::CIRCULAR, nullptr } }),
-    preset("Dark field", { { "Cutoff", Filter::CIRCULAR_COMPLEMENT, nullptr } }),
-    preset("Numerical schlieren", { { "Cutoff", Filter::NUMERICAL_SCHLIEREN, nullptr } }),
-    preset("Colour wheel", { { "Cutoff", Filter::COLOR_FILTER, nullptr } }),
+    preset("Circular, bright field", { { "Cutoff", Filter::CIRCULAR, nullptr } }),
+    preset(
+      "Circular Complement, dark field", { { "Cutoff", Filter::CIRCULAR_COMPLEMENT, nullptr } }),
+    preset("Numerical Schlieren", { { "Cutoff", Filter::NUMERICAL_SCHLIEREN, nullptr } }),
+    preset("Color Filter, wheel", { { "Cutoff", Filter::COLOR_FILTER, nullptr } }),
     preset("Shadowgraph", { { "Cutoff", Filter::SHADOWGRAPH, nullptr } }),
     preset("Interferogram, infinite fringes", { { "Cutoff", Filter::INTERFEROGRAM, nullptr } }),
     preset("Interferogram, finite fringes",
       { { "Cutoff", Filter::INTERFEROGRAM, nullptr },
         { "FringeMode", Filter::FINITE_FRINGES, nullptr }, { "FringeAngle", 90, nullptr } }),
-    preset("Interferogram in white light",
+    preset("Interferogram, white light",
       { { "Cutoff", Filter::INTERFEROGRAM, nullptr }, { "WhiteLight", 1, nullptr } }),
-    preset("Phase contrast of a laser",
+    preset("Phase Contrast, laser",
       { { "Cutoff", Filter::PHASE_CONTRAST, nullptr },
         { "LightModel", Filter::LIGHT_WAVES, nullptr } }),
-    preset("Background-oriented schlieren, dots",
-      { { "Cutoff", Filter::BACKGROUND_ORIENTED, nullptr } }),
+    preset("Background Oriented, dots", { { "Cutoff", Filter::BACKGROUND_ORIENTED, nullptr } }),
   };
   return presets;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QBoxLayout>
+#include <QComboBox>
 #include <QGridLayout>
 #include <QWidget>
 
@@ -44,5 +45,16 @@ inline void appendBelow(QWidget* row, QWidget* added)
   else
   {
     added->hide();
+  }
+}
+
+/// Lets the lists of a property's row become so narrow that it fits into ParaView's default panel.
+inline void narrowLists(QWidget* row)
+{
+  constexpr int fewestLetters = 4;
+  for (QComboBox* list : row->findChildren<QComboBox*>())
+  {
+    list->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    list->setMinimumContentsLength(fewestLetters);
   }
 }

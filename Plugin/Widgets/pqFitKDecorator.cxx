@@ -75,7 +75,8 @@ pqFitKDecorator::pqFitKDecorator(vtkPVXMLElement* element, pqPropertyWidget* par
       .arg(vtkSchlierenFilter::MOST_STEPS));
   QObject::connect(series, &QAction::triggered, this, &pqFitKDecorator::fitOverSeries);
   button->setMenu(menu);
-  appendToRow(parentObject, button);
+  narrowLists(parentObject);
+  appendBelow(parentObject, button);
 }
 
 //------------------------------------------------------------------------------

@@ -12,7 +12,6 @@
 #include "vtkSMProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
-#include <QComboBox>
 #include <QMenu>
 #include <QToolButton>
 
@@ -99,13 +98,7 @@ pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidge
       });
   }
   button->setMenu(menu);
-  // Limits the width to ParaView's default panel.
-  constexpr int fewestLetters = 8;
-  for (QComboBox* box : parentObject->findChildren<QComboBox*>())
-  {
-    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    box->setMinimumContentsLength(fewestLetters);
-  }
+  narrowLists(parentObject);
   appendToRow(parentObject, button);
 }
 

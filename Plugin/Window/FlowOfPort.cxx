@@ -85,6 +85,33 @@ std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const ch
 }
 
 //------------------------------------------------------------------------------
+FlowDefaults completed(const std::vector<FlowArray>& arrays, Completion completion)
+{
+  switch (completion)
+  {
+    case Completion::UniformPressure:
+      return flowDefaultsAt(arrays, pressureOfRoom);
+    case Completion::Isentropic:
+      return flowDefaultsFromRest(arrays, temperatureOfRoom);
+    default:
+      return flowDefaults(arrays);
+  }
+}
+
+//------------------------------------------------------------------------------
+Completion offerFor(const std::vector<FlowArray>& arrays)
+{
+  for (const Completion completion : { Completion::UniformPressure, Completion::Isentropic })
+  {
+    if (!completed(arrays, completion).arrays.empty())
+    {
+      return completion;
+    }
+  }
+  return Completion::None;
+}
+
+//------------------------------------------------------------------------------
 void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
 {
   vtkSMPropertyHelper(filter, "IndexModel").Set(defaults.indexModel);
@@ -106,6 +133,10 @@ void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
   if (defaults.uniformPressure > 0)
   {
     vtkSMPropertyHelper(filter, "UniformPressure").Set(defaults.uniformPressure);
+  }
+  if (defaults.stagnationTemperature > 0)
+  {
+    vtkSMPropertyHelper(filter, "StagnationTemperature").Set(defaults.stagnationTemperature);
   }
   if (!defaults.fractions.empty())
   {

@@ -24,5 +24,20 @@ std::vector<FlowArray> arraysOfFlow(pqOutputPort* port);
 /// Returns the range of an array, or of field data, such as numbers in an output; else {0, -1}.
 std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name);
 
+/// What completes a flow without a density: nothing, the pressure of a room for a temperature, or for a pressure the
+/// temperature of isentropic air that was at rest in a room.
+enum class Completion
+{
+  None,
+  UniformPressure,
+  Isentropic
+};
+
+/// Chooses defaults of completed arrays.
+FlowDefaults completed(const std::vector<FlowArray>& arrays, Completion completion);
+
+/// Returns what completes arrays of which flowDefaults() chooses none.
+Completion offerFor(const std::vector<FlowArray>& arrays);
+
 /// Sets the properties of a Schlieren or RefractiveIndex filter.
 void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults);

@@ -8,6 +8,7 @@
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
 #include "pqRenderView.h"
+#include "pqRepresentationRefiner.h"
 #include "pqServerManagerModel.h"
 
 #include "vtkPVRenderView.h"
@@ -81,14 +82,21 @@ pqPipelineSource* imagesInViews::filterOf(pqPipelineSource* source)
 }
 
 //------------------------------------------------------------------------------
-pqRenderView* imagesInViews::scene(pqServer* server)
+pqRenderView* imagesInViews::scene(pqOutputPort* flow)
 {
-  QList<pqRenderView*> views = model()->findItems<pqRenderView*>(server);
+  QList<pqRenderView*> views = model()->findItems<pqRenderView*>(flow->getServer());
   auto* active = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
   if (active && views.removeOne(active))
   {
     views.prepend(active);
   }
+  std::stable_partition(views.begin(), views.end(),
+    [flow](pqRenderView* view)
+    {
+      pqDataRepresentation* shown = flow->getRepresentation(view);
+      return pqRepresentationRefiner::benchesIn(view).empty() ||
+        (shown && pqRepresentationRefiner::isSchlieren(shown));
+    });
   vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
   const auto isMeant = [active, layout](pqRenderView* view)
   {

@@ -5,9 +5,9 @@
 #include <QList>
 #include <QPointer>
 
+class pqOutputPort;
 class pqPipelineSource;
 class pqRenderView;
-class pqServer;
 class pqView;
 
 /// Finds the views that show images of filters.
@@ -19,8 +19,9 @@ bool isSchlieren(pqPipelineSource* source);
 /// Returns the Schlieren filter of an image, the source or one upstream; null if there is none.
 pqPipelineSource* filterOf(pqPipelineSource* source);
 
-/// Returns the active 3-D view, or another one in its layout. Null if all show images of filters.
-pqRenderView* scene(pqServer* server);
+/// Returns the 3-D view of a flow, which its images go beside: the active one, or another one in its
+/// layout, and rather one that draws no other flow as Schlieren. Null if all show images of filters.
+pqRenderView* scene(pqOutputPort* flow);
 
 /// Lists the filters that make images, of all servers.
 QList<pqPipelineSource*> filters();

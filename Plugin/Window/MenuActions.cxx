@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MenuActions.h"
 
+#include "ImagesInViews.h"
 #include "PluginFile.h"
 
 #include "pqActiveObjects.h"
@@ -9,6 +10,7 @@
 #include "pqCoreUtilities.h"
 #include "pqFileDialog.h"
 #include "pqLoadDataReaction.h"
+#include "pqOutputPort.h"
 #include "pqPipelineSource.h"
 #include "pqRenderView.h"
 #include "pqServer.h"
@@ -78,9 +80,9 @@ QString menuActions::openExample()
   jet->getSourceProxy()->UpdatePipeline();
   jet->setModifiedState(pqProxy::UNMODIFIED);
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-  auto* view = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
-  if (view)
+  if (pqRenderView* view = imagesInViews::scene(jet->getOutputPort(0)))
   {
+    pqActiveObjects::instance().setActiveView(view);
     controller->Show(jet->getSourceProxy(), 0, view->getViewProxy());
     view->resetCamera();
     view->render();

@@ -146,6 +146,7 @@ public:
         // Keeps the cell, unless a new 3-D view has taken it.
         if (cell.layout && !cell.layout->GetView(cell.number))
         {
+          noteLayout(cell.layout, cell.number);
           this->Views.push_back(this->addView(cell.layout, cell.number, "Schlieren View"));
         }
         else
@@ -246,7 +247,7 @@ private:
   /// Finds the 3-D view, or makes one that shows the flow.
   void findScene()
   {
-    this->Scene = imagesInViews::scene(this->Server);
+    this->Scene = imagesInViews::scene(this->Flow);
     if (!this->Scene)
     {
       auto* builder = pqApplicationCore::instance()->getObjectBuilder();
@@ -273,6 +274,7 @@ private:
       this->Controller->AssignViewToLayout(this->Scene->getViewProxy());
     }
     vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy());
+    noteLayout(layout, layout->GetViewLocation(this->Scene->getViewProxy()));
     const bool isCrowded = names.size() > 1 && layout->GetViews().size() > 1;
     const std::array<int, 2> before = sizeOf(this->Scene);
     if (isCrowded)
@@ -434,7 +436,7 @@ private:
 
 //------------------------------------------------------------------------------
 SchlierenViews::Result SchlierenViews::add(
-  Arrangement arrangement, const Cell& cell, double pressure)
+  Arrangement arrangement, const Cell& cell, Completion completion)
 {
   pqOutputPort* flow = pqActiveObjects::instance().activePort();
   const QString missing = flow ? problemOfServer(flow->getServer()) : QString();
@@ -455,20 +457,22 @@ SchlierenViews::Result SchlierenViews::add(
     return { false, true, problem };
   }
   const std::vector<FlowArray> arrays = arraysOfFlow(flow);
-  FlowDefaults defaults = pressure > 0 ? flowDefaultsAt(arrays, pressure) : flowDefaults(arrays);
+  FlowDefaults defaults = completed(arrays, completion);
   if (defaults.arrays.empty())
   {
     return { false, true,
       "'" + flow->getSource()->getSMName() + "': " + QString::fromStdString(defaults.message),
-      !flowDefaultsAt(arrays, pressureOfRoom).arrays.empty() };
+      offerFor(arrays) };
   }
   vtkSMProxy* drawn = drawnAsSchlieren(flow, pqActiveObjects::instance().activeView());
   vtkSMProxy* pattern = selected ? selected->getProxy() : drawn ? benchOf(drawn) : nullptr;
   QApplication::setOverrideCursor(Qt::WaitCursor);
   const auto cursor = qScopeGuard([] { QApplication::restoreOverrideCursor(); });
-  static const char* const names[] = { "Add Schlieren View", "Add Three Images", "Compare Light" };
+  static const char* const names[] = { "Add Schlieren View", "Three Images",
+    "Compare Straight and Refracted Rays" };
   traceLoading(flow->getServer());
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
+  keepActiveView();
   Builder builder(flow, pattern, std::move(defaults));
   const Result result = builder.add(arrangement, cell);
   END_UNDO_SET();

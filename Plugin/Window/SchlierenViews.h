@@ -4,6 +4,8 @@
 // Draws the selected flow as Schlieren beside its 3-D view, in one step.
 #pragma once
 
+#include "FlowOfPort.h"
+
 #include <QString>
 
 class pqPipelineSource;
@@ -32,13 +34,14 @@ struct Result
   bool isMade;
   bool isSure; ///< whether the choice needs no check by the user
   QString message;
-  bool lacksPressure = false; ///< none were made, but with a uniform pressure they can be
+  Completion offer = Completion::None; ///< none were made, but with this they can be
 };
 
 /// Adds views, linked to the 3-D view's camera, as one undo step. Uses the flow and settings of the
 /// selected Schlieren filter (or that of a selected image), or the settings of the active view's
-/// representation. `cell`: for one image. `pressure`: that of the air everywhere, Pa; 0: an array has it.
-Result add(Arrangement arrangement, const Cell& cell = {}, double pressure = 0);
+/// representation. `cell`: for one image.
+Result add(
+  Arrangement arrangement, const Cell& cell = {}, Completion completion = Completion::None);
 
 /// Shows the image of a Schlieren filter in grey in a flat view beside the 3-D view.
 void show(pqPipelineSource* filter);

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "UndoStep.h"
 
+#include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqRenderView.h"
+#include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -14,6 +16,7 @@
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMTrace.h"
 #include "vtkSMUndoElement.h"
+#include "vtkSMViewLayoutProxy.h"
 #include "vtkSmartPointer.h"
 
 #include <QSignalBlocker>
@@ -85,6 +88,38 @@ void addUndoStep(std::function<void()> undo, std::function<void()> redo)
   step->OnUndo = std::move(undo);
   step->OnRedo = std::move(redo);
   ADD_UNDO_ELEM(step);
+}
+
+//------------------------------------------------------------------------------
+void keepActiveView()
+{
+  pqView* active = pqActiveObjects::instance().activeView();
+  if (!active)
+  {
+    return;
+  }
+  const auto activate = [id = ProxyById(active->getProxy())]()
+  {
+    pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+    vtkSMProxy* proxy = id.get();
+    if (auto* view = proxy ? model->findItem<pqView*>(proxy) : nullptr)
+    {
+      SCOPED_UNDO_EXCLUDE();
+      pqActiveObjects::instance().setActiveView(view);
+    }
+  };
+  addUndoStep(activate, []() {});
+}
+
+//------------------------------------------------------------------------------
+void noteLayout(vtkSMViewLayoutProxy* layout, int cell)
+{
+  SCOPED_UNDO_EXCLUDE();
+  // Any change makes ParaView note what the layout is like.
+  if (layout->GetMaximizedCell() < 0 && layout->MaximizeCell(cell))
+  {
+    layout->RestoreMaximizedState();
+  }
 }
 
 //------------------------------------------------------------------------------

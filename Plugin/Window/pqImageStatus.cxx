@@ -29,8 +29,8 @@ const QString labelName = "SchlierenStatus";
 const QString settingName = "Schlieren/ShowStatus";
 constexpr int margin = 6; // pixels
 
-/// Places the label at the lower left, beside the image's legend, if its words fit and do not cover
-/// most of an image.
+/// Places the label at the upper left, away from the image's legend and ParaView's axes, if its words
+/// fit and do not cover most of an image.
 void place(QLabel* label, QWidget* view)
 {
   constexpr double widest = 0.6; // of the view
@@ -39,7 +39,7 @@ void place(QLabel* label, QWidget* view)
     std::min(label->sizeHint().width(), static_cast<int>(widest * view->width()) - margin);
   label->setWordWrap(true);
   label->resize(width, label->heightForWidth(width));
-  label->move(margin, view->height() - label->height() - margin);
+  label->move(margin, margin);
   label->setVisible(!label->text().isEmpty() && width >= label->minimumSizeHint().width() &&
     2 * label->height() < view->height());
 }

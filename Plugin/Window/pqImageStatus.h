@@ -7,7 +7,7 @@
 class pqRenderView;
 class pqView;
 
-/// Shows the status of images at the lower left of their views. Not saved.
+/// Shows the status of images at the upper left of their views. Not saved.
 class pqImageStatus : public QObject
 {
   Q_OBJECT

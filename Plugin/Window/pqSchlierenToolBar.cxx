@@ -175,18 +175,22 @@ void pqSchlierenToolBar::addMenu()
 
 //------------------------------------------------------------------------------
 void pqSchlierenToolBar::add(
-  SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell, double pressure)
+  SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell, Completion completion)
 {
-  const SchlierenViews::Result result = SchlierenViews::add(arrangement, cell, pressure);
-  delete this->UniformPressure;
-  if (result.lacksPressure)
+  const SchlierenViews::Result result = SchlierenViews::add(arrangement, cell, completion);
+  delete this->Offer;
+  if (result.offer != Completion::None)
   {
-    this->UniformPressure = new QPushButton(QString("Air at %1 Pa").arg(pressureOfRoom));
-    this->UniformPressure->setObjectName("UniformPressure");
-    this->message()->addButton(this->UniformPressure, QMessageBox::AcceptRole);
+    const bool isPressure = result.offer == Completion::UniformPressure;
+    this->Offer = new QPushButton(isPressure ? QString("Air at %1 Pa").arg(pressureOfRoom)
+                                             : QString("Isentropic air, at rest %1 K and %2 Pa")
+                                                 .arg(temperatureOfRoom)
+                                                 .arg(pressureOfRoom));
+    this->Offer->setObjectName(isPressure ? "UniformPressure" : "Isentropic");
+    this->message()->addButton(this->Offer, QMessageBox::AcceptRole);
     QObject::connect(
-      this->UniformPressure, &QPushButton::clicked, this,
-      [this, arrangement, cell]() { this->add(arrangement, cell, pressureOfRoom); },
+      this->Offer, &QPushButton::clicked, this,
+      [this, arrangement, cell, offer = result.offer]() { this->add(arrangement, cell, offer); },
       Qt::QueuedConnection); // the button is deleted
   }
   this->showResult(result);

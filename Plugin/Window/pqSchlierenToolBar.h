@@ -36,14 +36,14 @@ private:
 
   /// Moves to the last row of toolbars, where there is room, unless the user has moved it before.
   void makeRoom();
-  /// Makes views, or shows why not and, where that helps, offers air at the pressure of a room.
+  /// Makes views, or shows why not and offers what completes the flow.
   void add(SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell = {},
-    double pressure = 0);
+    Completion completion = Completion::None);
   void showExample();
   void showResult(const SchlierenViews::Result& result);
   QMessageBox* message();
 
   QList<QAction*> Arrangements;
   QPointer<QMessageBox> Message;
-  QPointer<QPushButton> UniformPressure; ///< in Message
+  QPointer<QPushButton> Offer; ///< in Message
 };

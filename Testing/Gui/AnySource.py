@@ -43,6 +43,32 @@ assert np.ptp(vtk_to_numpy(intensity)) > 0.2
 """)
 user.undo()
 
+# Where only a pressure is there, isentropic air that was at rest in a room.
+user.python("""
+sound = PassArrays(Input=Calculator(Input=Wavelet(), ResultArrayName="Pressure", Function="1e5 + 10*RTData"),
+                   PointDataArrays=["Pressure"], registrationName="sound")
+sound.UpdatePipeline()
+SetActiveSource(sound)
+""")
+user.press("OneImage")
+user.event("pqClientMainWindow/SchlierenMessage/qt_msgbox_buttonbox/Isentropic", "activate")
+user.python("""
+until(lambda: displays())
+settle_views()
+(display,) = displays()
+bench = display.SchlierenBench
+assert (bench.IndexModel, list(bench.Pressure), bench.StagnationTemperature) == ("Ciddor", ["POINTS", "Pressure"], 293.15), (
+    bench.IndexModel, bench.Pressure, bench.StagnationTemperature)
+intensity = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Intensity")
+assert np.ptp(vtk_to_numpy(intensity)) > 0.1
+""")
+user.undo()
+user.python("""
+until(lambda: len(GetRenderViews()) == 1 and not displays())
+assert GetActiveView() == GetRenderViews()[0] and widget("Frame.0"), "Of the second undo a cell is left, or no view is active"
+SetActiveSource(FindSource("warm"))
+""")
+
 # From the Representation box: the view says why there is no image, and what helps does.
 user.python("""
 import re

@@ -25,11 +25,11 @@ def choose_preset(name):
 # What was set before leaves no trace: the same bench as by a script.
 user.click("InvertCutoff/CheckBox")
 user.choose("CutoffOffset/DoubleLineEdit0", "0.3")
-choose_preset("Phase contrast of a laser")
+choose_preset("Phase Contrast, laser")
 user.check("Cutoff/ComboBox", "currentText", "Phase Contrast")
 user.check("PhasePlateDelay", "visible", "true")
 user.check("KFromOptics", "visible", "false")
-choose_preset("Toepler bench: mirror of 1 m, slit of 1 mm")
+choose_preset("Knife Edge, Toepler's bench: mirror of 1 m, slit of 1 mm")
 user.check("KFromOptics/CheckBox", "checked", "true")
 user.check("InvertCutoff/CheckBox", "checked", "false")
 user.check("SourceLength", "visible", "true")
@@ -38,7 +38,7 @@ user.save_state("toepler.pvsm")
 
 # Once there is an image, at once.
 user.python("Show(FindSource('bench'))\nRender()\nsettle(FindSource('bench'))")
-choose_preset("Dark field")
+choose_preset("Circular Complement, dark field")
 user.check_at(PANEL + "/Accept", "enabled", "false")
 user.check("Cutoff/ComboBox", "currentText", "Circular Complement")
 user.check("KFromOptics/CheckBox", "checked", "false")
@@ -59,6 +59,14 @@ user.check_at(PANEL + "/Accept", "enabled", "true")
 user.reset()
 user.check("ImageSize/LineEdit0", "text", "32")
 user.save_state("fringes.pvsm")
+
+# A preset begins with the name that its cutoff has in the panel, and in the legend.
+user.python("""
+cutoffs = widget("propertiesPanel", "Cutoff", "ComboBox")
+names = [cutoffs.itemText(i) for i in range(cutoffs.count())]
+presets = [action.text() for action in widget("propertiesPanel", "Cutoff").findChild(QtWidgets.QMenu, "PresetsMenu").actions()]
+assert len(presets) > 10 and all(text.split(",")[0] in names for text in presets), (presets, names)
+""")
 user.play(f"""
 import sys
 sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})

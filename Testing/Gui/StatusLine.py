@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The line at the lower left of a view: what its image is made of, as the filter or the representation says; inside
+"""The line at the upper left of a view: what its image is made of, as the filter or the representation says; inside
 the view however narrow that is, and gone where it does not belong."""
 
 import os
@@ -28,12 +28,11 @@ def line(frame=2):
 def is_shown(frame=2):
     return line(frame) is not None and line(frame).isVisible()
 def check_place(frame=2):
-    "In the corner, with as much room on the left as below, and inside the view."
+    "In the corner, with as much room on the left as above, and inside the view."
     view = widget(f"Frame.{{frame}}", "Viewport")
     left, top, width, height = line(frame).geometry().getRect()
-    below = view.height() - top - height
-    assert 0 < left == below < 20, (left, below)
-    assert top >= 0 and left + width <= 0.6 * view.width(), (top, left, width)
+    assert 0 < left == top < 20, (left, top)
+    assert top + height <= view.height() and left + width <= 0.6 * view.width(), (top, left, width)
     return width, height
 def report(text):
     with open({REPORT!r}, "a") as file:

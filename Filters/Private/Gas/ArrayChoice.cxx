@@ -70,6 +70,11 @@ std::string inWords(const MediumSettings& settings)
   {
     text += "; pressure: " + textOf(settings.UniformPressure, 6) + " Pa everywhere";
   }
+  if (settings.isIsentropic())
+  {
+    text += "; isentropic, at rest " + textOf(settings.StagnationTemperature, 6) + " K and " +
+      textOf(settings.StagnationPressure, 6) + " Pa";
+  }
   for (std::size_t i = 0; settings.IndexModel == S::Mixture && i < settings.MixtureArrays.size();
        ++i)
   {
@@ -190,6 +195,10 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
       {
         return { S::TemperatureArray, S::HumidityArray };
       }
+      if (settings.isIsentropic())
+      {
+        return { S::PressureArray, S::HumidityArray };
+      }
       return { S::TemperatureArray, S::PressureArray, S::HumidityArray };
     case S::Curves:
       return {};
@@ -219,8 +228,10 @@ FlowDefaults chooseArrays(
 {
   MediumSettings& settings = choice.settings;
   const bool isAuto = given.IndexModel == S::Auto;
-  const std::vector<FlowArray> arrays =
-    given.UniformPressure > 0 ? withUniformPressure(known, given.UniformPressure) : known;
+  const std::vector<FlowArray> arrays = given.UniformPressure > 0
+    ? withUniformPressure(known, given.UniformPressure)
+    : given.StagnationTemperature > 0 ? withStagnation(known, given.StagnationTemperature)
+                                      : known;
   FlowDefaults defaults;
   if (isAuto && !settings.Arrays[S::DensityArray].isChosen() && given.MixtureArrays.empty())
   {

@@ -21,7 +21,9 @@ namespace
 
 using filters::textOf;
 
-constexpr const char* uniformPressure = "Pressure [Pa]"; ///< the array of withUniformPressure()
+/// The arrays of withUniformPressure() and withStagnation().
+constexpr const char* uniformPressure = "Pressure [Pa]";
+constexpr const char* stagnationTemperature = "Temperature [K]";
 
 const std::set<std::string> indices = { "n", "ior", "refractiveindex", "indexofrefraction",
   "refractionindex" };
@@ -166,14 +168,11 @@ public:
   FlowDefaults Result;
   std::string Note; ///< names that were not understood
 
-  bool hasTemperature() const
+  bool has(Quantity quantity) const
   {
     return std::any_of(this->Arrays.begin(), this->Arrays.end(),
-      [](const FlowArray& array)
-      {
-        return array.components == 1 &&
-          ArrayName(array.name).As(Quantity::Temperature) != Understood::Not;
-      });
+      [quantity](const FlowArray& array)
+      { return array.components == 1 && ArrayName(array.name).As(quantity) != Understood::Not; });
   }
 
 private:
@@ -522,35 +521,76 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
     "There is no density, nor a temperature together with a pressure, so nothing gives the "
     "refractive index. Load or compute one (Documentation/density.md says how), or choose an array "
     "yourself." +
-      std::string(chooser.hasTemperature()
+      std::string(chooser.has(Quantity::Temperature)
           ? " Where the pressure of air is the same everywhere, UniformPressure completes the "
             "temperature (101325 Pa in a room)."
+          : chooser.has(Quantity::Pressure)
+          ? " Of air without heat and strong shocks, StagnationTemperature completes the pressure "
+            "(293.15 K in a room)."
           : ""));
 }
+
+namespace
+{
+
+std::vector<FlowArray> withConstant(std::vector<FlowArray> arrays, const char* name, double value)
+{
+  for (const FlowArray::Association association : associations)
+  {
+    arrays.push_back({ name, association, 1, { value, value } });
+  }
+  return arrays;
+}
+
+/// Takes the array of withConstant() out of the choice, and says what is in its place. Returns whether it was there.
+bool replaceConstant(
+  FlowDefaults& defaults, const char* property, const char* name, const std::string& words)
+{
+  if (defaults.arrayOf(property) != name)
+  {
+    return false;
+  }
+  const auto chosen = std::make_pair(std::string(property), std::string(name));
+  defaults.arrays.erase(
+    std::remove(defaults.arrays.begin(), defaults.arrays.end(), chosen), defaults.arrays.end());
+  const std::string array = quoted(name) + (chosen.first == "Pressure" ? " in Pa" : " in K");
+  defaults.message.replace(defaults.message.find(array), array.size(), words);
+  return true;
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 std::vector<FlowArray> withUniformPressure(std::vector<FlowArray> arrays, double pascals)
 {
-  for (const FlowArray::Association association : associations)
-  {
-    arrays.push_back({ uniformPressure, association, 1, { pascals, pascals } });
-  }
-  return arrays;
+  return withConstant(std::move(arrays), uniformPressure, pascals);
 }
 
 //------------------------------------------------------------------------------
 FlowDefaults flowDefaultsAt(const std::vector<FlowArray>& arrays, double pascals)
 {
   FlowDefaults defaults = flowDefaults(withUniformPressure(arrays, pascals));
-  if (defaults.arrayOf("Pressure") == uniformPressure)
+  if (replaceConstant(defaults, "Pressure", uniformPressure, textOf(pascals, 6) + " Pa everywhere"))
   {
-    defaults.arrays.erase(std::remove(defaults.arrays.begin(), defaults.arrays.end(),
-                            std::make_pair(std::string("Pressure"), std::string(uniformPressure))),
-      defaults.arrays.end());
     defaults.uniformPressure = pascals;
-    const std::string array = quoted(uniformPressure) + " in Pa";
-    const std::size_t at = defaults.message.find(array);
-    defaults.message.replace(at, array.size(), textOf(pascals, 6) + " Pa everywhere");
+  }
+  return defaults;
+}
+
+//------------------------------------------------------------------------------
+std::vector<FlowArray> withStagnation(std::vector<FlowArray> arrays, double kelvins)
+{
+  return withConstant(std::move(arrays), stagnationTemperature, kelvins);
+}
+
+//------------------------------------------------------------------------------
+FlowDefaults flowDefaultsFromRest(const std::vector<FlowArray>& arrays, double kelvins)
+{
+  FlowDefaults defaults = flowDefaults(withStagnation(arrays, kelvins));
+  if (replaceConstant(defaults, "Temperature", stagnationTemperature,
+        "isentropic, " + textOf(kelvins, 6) + " K at rest"))
+  {
+    defaults.stagnationTemperature = kelvins;
   }
   return defaults;
 }

@@ -159,6 +159,13 @@ CiddorAir ciddorAir(const MediumSettings& settings)
       ", which is no pressure. Set it to one in Pa (air in a room: 101325), or to 0 to choose an "
       "array.");
   }
+  requireFinite("StagnationTemperature", settings.StagnationTemperature);
+  if (settings.isIsentropic() &&
+    (!(settings.StagnationPressure > 0) || std::isinf(settings.StagnationPressure)))
+  {
+    throw std::runtime_error("StagnationPressure is " + textOf(settings.StagnationPressure) +
+      ", which is no pressure of air at rest. Set it to one in Pa (101325 in a room).");
+  }
   const bool hasHumidity = settings.Arrays[MediumSettings::HumidityArray].isNamed();
   const double humidity = settings.RelativeHumidity;
   if (!hasHumidity && !(humidity >= 0 && humidity <= 1))
@@ -178,7 +185,9 @@ CiddorAir ciddorAir(const MediumSettings& settings)
       " nm, where Ciddor's equations do not hold. Set it between 300 and 1700 nm.");
   }
   return { schlieren::MoistAir::at(wavelength, settings.CO2), settings.TemperatureScale,
-    settings.PressureScale, settings.UniformPressure, hasHumidity, humidity };
+    settings.PressureScale, settings.UniformPressure,
+    settings.isIsentropic() ? settings.StagnationTemperature : 0, settings.StagnationPressure,
+    hasHumidity, humidity };
 }
 
 } // namespace
@@ -210,16 +219,22 @@ std::string GasMixture::warning(const std::string& fraction) const
 }
 
 //------------------------------------------------------------------------------
+double isentropicTemperature(double atRest, double fraction)
+{
+  constexpr double exponent = 2. / 7; // 1 - 1 / 1.4
+  return atRest * std::pow(fraction, exponent);
+}
+
+//------------------------------------------------------------------------------
 double CiddorAir::refractivity(const double* values) const
 {
   return this->air.refractivity(
-    this->temperatureScale * values[0], this->pressureIn(values), this->humidityIn(values));
+    this->temperatureIn(values), this->pressureIn(values), this->humidityIn(values));
 }
 
 bool CiddorAir::isDoubtful(const double* values) const
 {
-  return !schlieren::isWithinCiddorRange(
-           this->temperatureScale * values[0], this->pressureIn(values)) ||
+  return !schlieren::isWithinCiddorRange(this->temperatureIn(values), this->pressureIn(values)) ||
     (this->hasHumidity && this->humidityIn(values) > maxOfAll);
 }
 

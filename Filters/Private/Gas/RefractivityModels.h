@@ -40,12 +40,17 @@ struct GasMixture
   std::string warning(const std::string& fraction) const;
 };
 
+/// Returns the temperature of air that came from rest to this fraction of its pressure, or beyond, without heat.
+double isentropicTemperature(double atRest, double fraction);
+
 /// N of temperature, pressure and, if hasHumidity, relative humidity.
 struct CiddorAir
 {
   schlieren::MoistAir air;
   double temperatureScale, pressureScale;
-  double uniformPressure;  // 0: the second value
+  double uniformPressure;       // 0: a value
+  double stagnationTemperature; // 0: the first value; else it follows from the pressure
+  double stagnationPressure;
   bool hasHumidity;        // as last value
   double relativeHumidity; // used if not hasHumidity
 
@@ -54,13 +59,22 @@ struct CiddorAir
   std::string warning(const std::string& fraction) const;
 
 private:
+  double temperatureIn(const double* values) const
+  {
+    return this->stagnationTemperature > 0 ? isentropicTemperature(this->stagnationTemperature,
+                                               this->pressureIn(values) / this->stagnationPressure)
+                                           : this->temperatureScale * values[0];
+  }
   double pressureIn(const double* values) const
   {
-    return this->uniformPressure > 0 ? this->uniformPressure : this->pressureScale * values[1];
+    return this->uniformPressure > 0
+      ? this->uniformPressure
+      : this->pressureScale * values[this->stagnationTemperature > 0 ? 0 : 1];
   }
   double humidityIn(const double* values) const
   {
-    return this->hasHumidity ? values[this->uniformPressure > 0 ? 1 : 2] : this->relativeHumidity;
+    const bool hasOneOther = this->uniformPressure > 0 || this->stagnationTemperature > 0;
+    return this->hasHumidity ? values[hasOneOther ? 1 : 2] : this->relativeHumidity;
   }
 };
 

@@ -183,7 +183,8 @@ std::string namesOfArrays(const std::vector<vtkDataSet*>& dataSets)
       (property == "Density"
           ? " A temperature gives no density without a pressure; with both, compute one or use "
             "IndexModel Ciddor (Documentation/density.md). Where air has the same pressure "
-            "everywhere, set UniformPressure (101325 Pa in a room)."
+            "everywhere, set UniformPressure (101325 Pa in a room); of air without heat and strong "
+            "shocks the pressure is enough with StagnationTemperature (293.15 K in a room)."
           : ""));
   }
   throw ArraysMissing("The input has no array '" + selection.name + "'. Set " + property +
@@ -400,8 +401,8 @@ Implausible implausibleIn(const Source& source)
     flow.constant = gasFrom("Gas", settings.Gas)->constantAt(wavelengthOfGases(settings));
   }
   const std::vector<std::size_t> indices = arraysOfModel(settings);
-  const bool isUniform = settings.hasUniformPressure();
-  for (std::size_t i = 0; i < (isUniform ? 1 : flow.scales.size()); ++i)
+  const bool isUniform = settings.hasUniformPressure(), isIsentropic = settings.isIsentropic();
+  for (std::size_t i = 0; i < (isUniform || isIsentropic ? 1 : flow.scales.size()); ++i)
   {
     const ArraySelection& selection = settings.Arrays[indices[i]];
     FlowArray array{ selection.name, selection.cellsFirst ? FlowArray::Cells : FlowArray::Points, 1,
@@ -429,6 +430,13 @@ Implausible implausibleIn(const Source& source)
     flow.scales[1] = 1;
     flow.arrays.push_back({ "UniformPressure", FlowArray::Points, 1,
       { settings.UniformPressure, settings.UniformPressure } });
+  }
+  if (isIsentropic)
+  {
+    flow.scales[0] = 1;
+    flow.arrays.insert(flow.arrays.begin(),
+      { "StagnationTemperature", FlowArray::Points, 1,
+        { settings.StagnationTemperature, settings.StagnationTemperature } });
   }
   return implausible(flow);
 }

@@ -252,6 +252,11 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     f->AddMixtureConstant(1e-4);
     f->AddMixtureMolarMass(0.004);
   };
+  const auto isentropicAir = [](F* f)
+  {
+    moistAir(f);
+    f->SetStagnationTemperature(300);
+  };
   const auto twoFields = [](F* f)
   {
     fields(f);
@@ -315,6 +320,8 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     { "TemperatureScale", moistAir, [](F* f) { f->SetTemperatureScale(1.1); } },
     { "PressureScale", moistAir, [](F* f) { f->SetPressureScale(1.1); } },
     { "UniformPressure", moistAir, [](F* f) { f->SetUniformPressure(9e4); } },
+    { "StagnationTemperature", moistAir, [](F* f) { f->SetStagnationTemperature(300); } },
+    { "StagnationPressure", isentropicAir, [](F* f) { f->SetStagnationPressure(9e4); } },
     { "RelativeHumidity", moistAir, [](F* f) { f->SetRelativeHumidity(0.5); } },
     { "CO2", moistAir, [](F* f) { f->SetCO2(900); } },
     { "Wavelength", moistAir, [](F* f) { f->SetWavelength(450); } },

@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What interrupts a view whose image is far from complete: another time step, and Edit > Reset Session, after which a
+new session works as the first one did."""
+
+import os
+
+import numpy as np
+from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession
+from series_testing import write_series
+
+TIMES = [0, 1, 2]
+SERIES, REPORT = os.path.join(FOLDER, "flow.pvd"), os.path.join(FOLDER, "report.txt")
+
+
+def blob(x, y, z, time):
+    """Warm; becomes warmer."""
+    return 1 - 0.1 * (1 + time) * np.maximum(0, 1 - (x**2 + y**2 + z**2) / 0.36)**2
+
+
+write_series(SERIES, TIMES, 17, blob)
+open(REPORT, "w", encoding="utf-8").close()
+
+HELPERS = f"""
+(display,) = displays()
+bench = display.SchlierenBench
+def report(text):
+    with open({REPORT!r}, "a") as file:
+        file.write(text + "\\n")
+def path():
+    "The largest optical path difference: twice as large in the second step as in the first."
+    image = bench.GetClientSideObject().GetOutputDataObject(0)
+    return np.abs(vtk_to_numpy(image.GetPointData().GetArray("OpticalPathDifference"))).max()
+def refines():
+    return not finished(bench) and " of 100000 samples" in information(bench, "Status")
+"""
+user = ViewsSession()
+user.press("OneImage")
+user.python(HELPERS + """
+bench.Quality = "Fine"
+bench.SamplesPerPixel = 100000
+Render()
+until(refines)
+first = path()
+
+# Steps while samples are added: the image is soon that of the new time, and is refined further.
+for step, ratio in ((1, 2), (2, 3), (0, 1)):
+    GetAnimationScene().AnimationTime = float(step)
+    until(lambda: refines() and abs(path() / first - ratio) < 0.02, 20)
+report("steps")
+until(refines)
+""")
+user.python("""
+(action,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
+def confirm():
+    QApplication.activeModalWidget().button(QtWidgets.QMessageBox.StandardButton.Yes).click()
+QTimer.singleShot(500, confirm)
+QTimer.singleShot(0, action.trigger)
+""")
+user.idle()
+user.python("until(lambda: not GetSources() and not displays(), 20)\n" + OPEN_JET)
+user.press("OneImage")
+user.python(HELPERS + """
+until(lambda: information(bench, "PictureCount") > 0 and path() > 0)
+report("reset")
+""")
+user.play(INSIDE + f"""
+from paraview.simple import *
+flow = OpenDataFile({SERIES!r})
+flow.UpdatePipeline()
+view = GetActiveViewOrCreate("RenderView")
+Show(flow, view)
+view.ResetCamera()
+SetActiveSource(flow)
+""")
+
+with open(REPORT, encoding="utf-8") as file:
+    assert file.read().split() == ["steps", "reset"]
