@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """All images that the bench can make of one flow, on one sheet.
 
-    pvpython Examples/contact_sheet.py                  (writes ladenburg_jet_3d_sheet.png)
+    pvpython Examples/contact_sheet.py                  (writes ladenburg_sheet.png)
     pvpython Examples/contact_sheet.py flow.vtu --array rho --view y --output flow.png
 
 Options are those of Utilities/demo, see --help. No display is needed.
@@ -17,7 +17,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [os.path.join(ROOT, *folder) for folder in (("Examples",), ("Utilities", "four_images"))]
 
-from arguments import DemoError, options_or_exit, parse_arguments  # noqa: E402
+from arguments import JET, DemoError, options_or_exit, parse_arguments  # noqa: E402
 
 DESCRIPTION = """\
 Writes one PNG with all images that the bench can make of a flow field. Without FILE: an
@@ -25,7 +25,7 @@ under-expanded air jet that comes with the sources."""
 
 
 def options_of(arguments):
-    return parse_arguments(arguments, "contact_sheet.py", DESCRIPTION, "400x300", "_sheet.png")
+    return parse_arguments(arguments, "contact_sheet.py", DESCRIPTION, "400x300", "_sheet.png", JET)
 
 
 if __name__ == "__main__":  # --help and mistakes in the arguments need no ParaView

@@ -52,13 +52,14 @@ def open_flow(options, scratch, messages):
 
 
 def bounds_of(reader, array, options):
-    """Those of the data; of 2-D data, of what the filter makes of them."""
+    """Those of the data; of 2-D and axisymmetric data, of what the filter makes of them."""
     bounds = list(reader.GetDataInformation().GetBounds())
     extent = np.array(bounds[1::2]) - bounds[0::2]
     flat = int(extent.argmin())
-    if extent[flat] > 1e-9 * extent.max():
+    is_flat = extent[flat] <= 1e-9 * extent.max()
+    if not is_flat and dict(options.settings).get("Symmetry", "None") == "None":
         return bounds
-    if not options.view:
+    if is_flat and not options.view:
         options.view = VIEWS["xyz"[flat]] if flat != 1 else VIEWS["-y"]
     medium = pv.RefractiveIndex(Input=reader)
     configure(medium, array, options)
