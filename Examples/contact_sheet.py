@@ -37,7 +37,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402
 
-from bench import bounds_of, check_light, load_plugin, new_bench, open_flow, output_of  # noqa: E402
+from bench import bounds_of, check_light, load_plugin, new_bench, new_medium, open_flow, output_of  # noqa: E402
 from frame import Frame  # noqa: E402
 from load_schlieren import plugin_file  # noqa: E402
 from messages import Messages, say  # noqa: E402
@@ -345,7 +345,7 @@ def main(options):
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as scratch:
         reader, array, used = open_flow(options, scratch, messages)
-        frame = Frame(bounds_of(reader, array, options), options)
+        frame = Frame(bounds_of(reader, new_medium(reader, array, options), options), options)
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")
         take = Photographer(new_bench(reader, array, frame, options), messages)
         groups = take_tiles(take, frame, options, scratch)
