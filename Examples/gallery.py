@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Real flows on each kind of mesh, on one sheet: Documentation/gallery.md.
+"""Real flows on eight kinds of mesh, on one sheet: Documentation/gallery.md.
 
     pvpython Examples/gallery.py [FOLDER]        (writes gallery.png into it)
 
