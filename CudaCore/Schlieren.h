@@ -61,8 +61,8 @@ constexpr double leastOfLiquids = 0.1;
 /// Red, green and blue, row by row, bottom row first; sRGB.
 struct RgbImage
 {
-  int width = 0;
-  int height = 0;
+  int width = 0;                  ///< columns
+  int height = 0;                 ///< rows
   std::vector<unsigned char> rgb; ///< 3 for each pixel
 };
 
@@ -70,9 +70,9 @@ struct RgbImage
 /// spacing is wavelength / (2 sin(beta / 2)).
 struct Fringes
 {
-  bool finite = false;
-  double spacing = 0; ///< data units on the film, positive; of finite fringes
-  double angle = 0;   ///< degrees: direction in which the carrier's phase grows, from u to v
+  bool finite = false; ///< else undisturbed light has no fringes
+  double spacing = 0;  ///< data units on the film, positive; of finite fringes
+  double angle = 0;    ///< degrees: direction in which the carrier's phase grows, from u to v
   bool whiteLight =
     false; ///< all wavelengths of equal energy, seen as the CIE's standard observer does
   /// N at a wavelength (metres) by N at Scene::wavelength; of white light. Unset: 1.
@@ -101,7 +101,7 @@ enum class PatternKind
 /// of a bright stripe are where u = v = 0.
 struct BackgroundPattern
 {
-  PatternKind kind = PatternKind::Dots;
+  PatternKind kind = PatternKind::Dots; ///< dots, stripes or `image`
   std::optional<double> distance; ///< from where the data begins, away from the viewer, in what
                                   ///< light leaves them into; unset: one depth
   /// Period of stripes, and of the cells that have a dot each: data units; 0: pixelsPerPeriod. What is finer than four
@@ -109,7 +109,7 @@ struct BackgroundPattern
   double period = 0;
   double angle = 0; ///< of stripes, degrees: direction across them, from u to v
   std::shared_ptr<const RgbImage> image; ///< stretched over what the camera sees
-  double pixelsPerPeriod = 8;
+  double pixelsPerPeriod = 8;            ///< where period is 0
 };
 
 /// The lens of a camera: that of Cutoff::Background and of views with a perspective. What is out of focus is blurred, each
@@ -132,10 +132,10 @@ struct Lens
 /// Everything about the bench that is not the medium.
 struct Scene
 {
-  View view;
+  View view; ///< the camera
 
-  Cutoff cutoff = Cutoff::KnifeEdge;
-  double knifeEdgeAngle = 0;    ///< degrees; 0 measures the deflection along u, 90 along v
+  Cutoff cutoff = Cutoff::KnifeEdge; ///< the imaging technique
+  double knifeEdgeAngle = 0;         ///< degrees; 0 measures the deflection along u, 90 along v
   double cutoffOffset = 0;      ///< how far the edge is in, as a fraction of the source's image
   bool invertCutoff = false;    ///< I becomes 1 - I (knife edge and graded filter); see PhasePlate
   std::optional<double> kScale; ///< k = f/a; unset: 99th percentile of |eps| is full scale, about
@@ -143,20 +143,20 @@ struct Scene
   std::vector<double> gradedFilter{ 0, 1 };
   std::shared_ptr<const RgbImage> colorFilter; ///< from k eps = (-1, -1) to (1, 1); null: the wheel
   double wavelength = 632.8e-9;                ///< of an interferogram and of waves, metres
-  Fringes fringes;
-  PhasePlate phasePlate; ///< of Cutoff::PhaseContrast
-  BackgroundPattern background;
+  Fringes fringes;                             ///< of Cutoff::Interferogram
+  PhasePlate phasePlate;                       ///< of Cutoff::PhaseContrast
+  BackgroundPattern background;                ///< of Cutoff::Background
   /// Distance from where light leaves the data to the screen, data units, in what light leaves them into; unset: one
   /// data depth.
   std::optional<double> screenDistance;
   /// Distance of the plane in focus from the data's middle (with a perspective from the focal point) along w, data units.
   double focusOffset = 0;
 
-  LightSource source;
-  Lens lens;
+  LightSource source; ///< collimated or diverging light, of a point, a slit or a disc
+  Lens lens;          ///< of the camera
 
-  ExitInto exitInto = ExitInto::Surroundings;
-  double exitRefractivity = airRefractivity; ///< n - 1, of ExitInto::Custom
+  ExitInto exitInto = ExitInto::Surroundings; ///< what light enters behind the data
+  double exitRefractivity = airRefractivity;  ///< n - 1, of ExitInto::Custom
 
   /// Red, green and blue, 0 ... 1, of each of Field::gradients.
   std::vector<std::array<float, 3>> fieldColors;
@@ -169,12 +169,12 @@ struct Scene
     0; ///< full width of the spectrum around wavelength of waves, metres; less than wavelength
   int coherenceSamples =
     32; ///< points of an extended source that is not on a screen, whose waves do not interfere; 1 ... 1024
-  FilmEstimator filmEstimator = FilmEstimator::Sheet;
-  NoiseFilter noiseFilter = NoiseFilter::None;
-  double noiseFilterRadius = 2; ///< pixels
-  int histogramSize = 0;        ///< bins along each axis of Image::histogram; 0: none
-  int samplesPerPixel = 4;
-  std::uint32_t seed = 1;
+  FilmEstimator filmEstimator = FilmEstimator::Sheet; ///< how rays become light in pixels
+  NoiseFilter noiseFilter = NoiseFilter::None;        ///< removes the image's grain
+  double noiseFilterRadius = 2;                       ///< pixels
+  int histogramSize = 0;   ///< bins along each axis of Image::histogram; 0: none
+  int samplesPerPixel = 4; ///< rays, 1 or more
+  std::uint32_t seed = 1;  ///< of the rays' places in pixels and on the source
 
   /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the settings below. It chooses
   /// interpolation, stepSize, homogeneityTolerance, samplesPerPixel, mediumTolerance (no coarser than 0.01) and precision,
@@ -183,10 +183,10 @@ struct Scene
   /// not counting what light displaced by 0.05 pixels explains.
   double targetError = 0;
 
-  PathModel pathModel = PathModel::Auto;
-  Integrator integrator = Integrator::Leapfrog;
-  Interpolation interpolation = Interpolation::Quadratic;
-  Precision precision = Precision::Single;
+  PathModel pathModel = PathModel::Auto;                  ///< straight or refracted rays
+  Integrator integrator = Integrator::Leapfrog;           ///< of refracted rays
+  Interpolation interpolation = Interpolation::Quadratic; ///< between the samples
+  Precision precision = Precision::Single;                ///< of the rays' numbers
   /// Voxels, 0.001 ... 16: length of one step in index space; of Integrator::Adaptive the longest. Where
   /// there are solids, no longer than 1.
   double stepSize = 1;
@@ -204,8 +204,8 @@ struct Scene
   std::size_t mediumMemory = std::size_t{ 1 } << 30;
   /// How far, in pixels, a straight ray may be from the refracted one for PathModel::Auto to take it.
   double pathTolerance = 0.01;
-  Device device = Device::Auto;
-  int threads = 0; ///< CPU threads; 0: all cores this process may use
+  Device device = Device::Auto; ///< where rays are traced; Auto: on a GPU where there is one
+  int threads = 0;              ///< CPU threads; 0: all cores this process may use
   /// Bytes of rays that are cached for re-shading. The image does not depend on it.
   std::size_t memoryBudget = std::size_t{ 1 } << 30;
 };
@@ -213,6 +213,7 @@ struct Scene
 /// What an image's light stands for: the light of evenly spaced values of what makes it, as a legend shows it.
 struct Legend
 {
+  /// What makes the light.
   enum class Quantity
   {
     None,            ///< of a pattern behind the flow: nothing that a scale could show
@@ -223,9 +224,15 @@ struct Legend
     Path             ///< optical path difference, metres
   };
 
-  Quantity quantity = Quantity::None;
-  double lowest = 0, highest = 0; ///< at the outer edges of the first and the last value
-  int width = 0, height = 0;      ///< numbers of values, along u and, of DeflectionPlane, along v
+  Quantity quantity = Quantity::None; ///< what the values are of
+  ///@{
+  /// At the outer edges of the first and the last value, in the quantity's unit.
+  double lowest = 0, highest = 0;
+  ///@}
+  ///@{
+  /// Numbers of values, along u and, of DeflectionPlane, along v.
+  int width = 0, height = 0;
+  ///@}
   std::vector<float>
     light; ///< red, green and blue of each, linear, the lowest first; 1 is full light
 };
@@ -242,7 +249,7 @@ struct Work
   std::int64_t mediumBuilds = 0; ///< not those that another Bench has made
   std::int64_t raySets =
     0; ///< how often rays had to be traced anew: for another view, another medium
-  std::int64_t raysTraced = 0;
+  std::int64_t raysTraced = 0; ///< in all of these sets
 };
 
 /// Lets benches have one medium together where it is that of the same samples (or source), version, ambient
@@ -272,8 +279,11 @@ class Bench
 public:
   Bench();
   ~Bench();
+  ///@{
+  /// What is moved from can be destroyed or assigned to, nothing else.
   Bench(Bench&&) noexcept;
   Bench& operator=(Bench&&) noexcept;
+  ///@}
 
   /// The image of `field` on the bench `scene`. Throws Error.
   Image render(const Field& field, const Scene& scene, const Monitor& monitor = {});
@@ -283,8 +293,8 @@ public:
   /// however soon it is paused again: what is not cut into pieces is the medium, a pass on the GPU, and the
   /// development of an image. What Field::gradients points to must still be there. Throws Error.
   Image resume(const Monitor& monitor = {});
-  bool isUnfinished() const;
-  void cancel(); ///< forgets it
+  bool isUnfinished() const; ///< whether there is an image that was paused
+  void cancel();             ///< forgets it
 
   /// Sets the other ranks that trace rays for the next images, each with a RayWorker; null: there are none. The images
   /// are the same to the last bit.
@@ -294,7 +304,7 @@ public:
   /// are given, whatever their arrays' addresses.
   void setMedia(std::shared_ptr<SharedMedia> media);
 
-  const Work& work() const;
+  const Work& work() const; ///< since the bench was made
 
 private:
   struct Stages;

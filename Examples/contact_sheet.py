@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """All images that the bench can make of one flow, on one sheet.
 
-    pvpython Examples/contact_sheet.py                  (writes ladenburg_jet_3d_sheet.png)
+    pvpython Examples/contact_sheet.py                  (writes ladenburg_sheet.png)
     pvpython Examples/contact_sheet.py flow.vtu --array rho --view y --output flow.png
 
 Options are those of Utilities/demo, see --help. No display is needed.
@@ -17,7 +17,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [os.path.join(ROOT, *folder) for folder in (("Examples",), ("Utilities", "four_images"))]
 
-from arguments import DemoError, options_or_exit, parse_arguments  # noqa: E402
+from arguments import JET, DemoError, options_or_exit, parse_arguments  # noqa: E402
 
 DESCRIPTION = """\
 Writes one PNG with all images that the bench can make of a flow field. Without FILE: an
@@ -25,7 +25,7 @@ under-expanded air jet that comes with the sources."""
 
 
 def options_of(arguments):
-    return parse_arguments(arguments, "contact_sheet.py", DESCRIPTION, "400x300", "_sheet.png")
+    return parse_arguments(arguments, "contact_sheet.py", DESCRIPTION, "400x300", "_sheet.png", JET)
 
 
 if __name__ == "__main__":  # --help and mistakes in the arguments need no ParaView
@@ -37,7 +37,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402
 
-from bench import bounds_of, check_light, load_plugin, new_bench, open_flow, output_of  # noqa: E402
+from bench import bounds_of, check_light, load_plugin, new_bench, new_medium, open_flow, output_of  # noqa: E402
 from frame import Frame  # noqa: E402
 from load_schlieren import plugin_file  # noqa: E402
 from messages import Messages, say  # noqa: E402
@@ -345,7 +345,7 @@ def main(options):
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as scratch:
         reader, array, used = open_flow(options, scratch, messages)
-        frame = Frame(bounds_of(reader, array, options), options)
+        frame = Frame(bounds_of(reader, new_medium(reader, array, options), options), options)
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")
         take = Photographer(new_bench(reader, array, frame, options), messages)
         groups = take_tiles(take, frame, options, scratch)

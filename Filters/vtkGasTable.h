@@ -34,17 +34,22 @@ public:
   vtkTypeMacro(vtkGasTable, vtkObject);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  ///@{
   /**
    * Return the number of gases, and the name of each: 0 <= index < GetNumberOfGases().
    */
   static int GetNumberOfGases();
   static std::string GetName(int index);
+  ///@}
 
   /**
    * Returns whether there is a gas of this name or formula.
    */
   static bool Has(const std::string& gas);
 
+  /**
+   * Returns the chemical formula, such as "CO2", of a gas by its name or formula.
+   */
   static std::string GetFormula(const std::string& gas);
 
   /**

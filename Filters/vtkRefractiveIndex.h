@@ -412,6 +412,7 @@ public:
     NO_SYMMETRY = 0,
     AXISYMMETRIC = 1
   };
+  /// What SetSymmetryAxis() takes.
   enum SymmetryAxes
   {
     AUTO_AXIS = 0,

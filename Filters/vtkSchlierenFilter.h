@@ -104,6 +104,7 @@ public:
   vtkTypeMacro(vtkSchlierenFilter, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// What SetCutoff() takes.
   enum Cutoffs
   {
     KNIFE_EDGE = 0,
@@ -118,6 +119,7 @@ public:
     PHASE_CONTRAST = 9
   };
 
+  /// What SetLockK() takes; LOCK_OVER_TIME keeps a value from one time step to the next.
   enum LockModes
   {
     LOCK_OFF = 0,
@@ -125,12 +127,14 @@ public:
     LOCK_ALWAYS = 2
   };
 
+  /// What SetFringeMode() takes.
   enum FringeModes
   {
     INFINITE_FRINGES = 0,
     FINITE_FRINGES = 1
   };
 
+  /// What SetExitInto() takes.
   enum Exits
   {
     EXIT_AUTO = 0,
@@ -139,12 +143,14 @@ public:
     EXIT_CUSTOM = 3
   };
 
+  /// What SetLightSource() takes.
   enum LightSources
   {
     COLLIMATED = 0,
     DIVERGING = 1
   };
 
+  /// What SetSourceShape() takes.
   enum SourceShapes
   {
     POINT = 0,
@@ -152,6 +158,7 @@ public:
     DISC = 2
   };
 
+  /// What SetLightModel() takes.
   enum LightModels
   {
     LIGHT_RAYS = 0,
@@ -159,6 +166,7 @@ public:
     LIGHT_AUTO = 2
   };
 
+  /// What SetBackgroundPattern() takes.
   enum BackgroundPatterns
   {
     DOTS = 0,
@@ -167,12 +175,14 @@ public:
     SCENE = 3
   };
 
+  /// What SetFilmEstimator() takes.
   enum FilmEstimators
   {
     SHEET = 0,
     PHOTON = 1
   };
 
+  /// What SetNoiseFilter() takes.
   enum NoiseFilters
   {
     NO_FILTER = 0,
@@ -181,12 +191,14 @@ public:
     CONE = 3
   };
 
+  /// The image, and the histogram of the cutoff plane.
   enum OutputPorts
   {
     IMAGE_PORT = 0,
     HISTOGRAM_PORT = 1
   };
 
+  /// What SetQuality() takes; CUSTOM is what GetQuality() returns for settings of no preset.
   enum Qualities
   {
     INTERACTIVE = 0,
@@ -197,6 +209,7 @@ public:
     CUSTOM = 5
   };
 
+  /// What SetPathModel() takes.
   enum PathModels
   {
     AUTO_PATH = 0,
@@ -205,6 +218,7 @@ public:
     DIFFERENCE = 3
   };
 
+  /// What SetIntegrator() takes.
   enum Integrators
   {
     LEAPFROG = 0,
@@ -213,6 +227,7 @@ public:
     EULER = 3
   };
 
+  /// What SetInterpolation() takes.
   enum Interpolations
   {
     QUADRATIC = 0,
@@ -221,12 +236,14 @@ public:
     CUBIC = 3
   };
 
+  /// What SetPrecision() takes.
   enum Precisions
   {
     SINGLE = 0,
     DOUBLE = 1
   };
 
+  /// What SetDevice() takes; AUTO is CUDA where there is a GPU that can be used.
   enum Devices
   {
     AUTO = 0,
@@ -495,7 +512,7 @@ public:
    * time steps or k is not automatic. The output is that of the last update until the next one.
    */
   void FitKOverSeries();
-  static constexpr int MOST_STEPS = 100;
+  static constexpr int MOST_STEPS = 100; ///< of FitKOverSeries()
 
   ///@{
   /**

@@ -38,8 +38,7 @@ def open_flow(options, scratch, messages):
     array = choose_array(reader, options)
     if array:
         return reader, array, array[1]
-    proxy = pv.RefractiveIndex(Input=reader)
-    configure(proxy, None, options)
+    proxy = new_medium(reader, None, options)
     proxy.UpdatePipelineInformation()  # it looks at the arrays
     proxy.UpdatePropertyInformation()
     used = proxy.GetProperty("ArraysUsed").GetData()
@@ -51,20 +50,25 @@ def open_flow(options, scratch, messages):
     return reader, None, used.rstrip(".")
 
 
-def bounds_of(reader, array, options):
-    """Those of the data; of 2-D data, of what the filter makes of them."""
+def new_medium(reader, array, options):
+    """The refractivity on a regular grid, made when it is needed."""
+    medium = pv.RefractiveIndex(Input=reader)
+    configure(medium, array, options)
+    return medium
+
+
+def bounds_of(reader, medium, options):
+    """Those of the data; of 2-D and axisymmetric data, of what the filter makes of them."""
     bounds = list(reader.GetDataInformation().GetBounds())
     extent = np.array(bounds[1::2]) - bounds[0::2]
     flat = int(extent.argmin())
-    if extent[flat] > 1e-9 * extent.max():
+    is_flat = extent[flat] <= 1e-9 * extent.max()
+    if not is_flat and dict(options.settings).get("Symmetry", "None") == "None":
         return bounds
-    if not options.view:
+    if is_flat and not options.view:
         options.view = VIEWS["xyz"[flat]] if flat != 1 else VIEWS["-y"]
-    medium = pv.RefractiveIndex(Input=reader)
-    configure(medium, array, options)
     medium.UpdatePipeline()
     made = list(medium.GetDataInformation().GetBounds())
-    pv.Delete(medium)
     return made if made[0] < made[1] else bounds
 
 

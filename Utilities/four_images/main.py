@@ -24,7 +24,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E4
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
 
-from bench import (bounds_of, check_light, configure, load_plugin, new_bench, open_flow,  # noqa: E402
+from bench import (bounds_of, check_light, load_plugin, new_bench, new_medium, open_flow,  # noqa: E402
                    output_of)
 from frame import Frame  # noqa: E402
 from messages import Messages, Progress, say  # noqa: E402
@@ -52,11 +52,9 @@ def bench_images(reader, array, frame, options, messages):
     return images
 
 
-def refractivity(reader, array, clear, options, messages):
+def refractivity(medium, clear, messages):
     """n - 1 on a regular grid, as the tracer sees it; solids get the value that will be clear."""
-    proxy = pv.RefractiveIndex(Input=reader)
-    configure(proxy, array, options)
-    fetched = output_of(proxy, "computation of the refractive index", messages)
+    fetched = output_of(medium, "computation of the refractive index", messages)
     image = vtkImageData()
     image.ShallowCopy(fetched)
     values = vtk_to_numpy(image.GetPointData().GetArray("Refractivity")).astype(np.float32)
@@ -133,15 +131,16 @@ def main(options):
     load_plugin(options, messages)
     with tempfile.TemporaryDirectory() as scratch:
         reader, array, used = open_flow(options, scratch, messages)
-        frame = Frame(bounds_of(reader, array, options), options)
+        medium = new_medium(reader, array, options)
+        frame = Frame(bounds_of(reader, medium, options), options)
         say(f"Tracing rays, {frame.width} x {frame.height} pixels")
         images = bench_images(reader, array, frame, options, messages)
         begin = time.monotonic()
         clear = images[0][1]["AmbientRefractivity"][0]
-        medium = refractivity(reader, array, clear, options, messages)
-        volume = volume_rendering(medium, frame)
+        grid = refractivity(medium, clear, messages)
+        volume = volume_rendering(grid, frame)
         say(f"Volume rendering: {time.monotonic() - begin:.1f} s")
-        compose(volume, medium, images, frame, used, options).write(options.output)
+        compose(volume, grid, images, frame, used, options).write(options.output)
     say(f"The image: {os.path.abspath(options.output)}")
 
 

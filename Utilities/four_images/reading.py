@@ -9,7 +9,7 @@ import struct
 
 import paraview.simple as pv
 
-from arguments import DemoError
+from arguments import MODELS, DemoError
 from messages import say
 
 
@@ -236,16 +236,18 @@ def choose_array(source, options):
 
 
 def evaluate(source, options, messages):
-    """The source with a further array that follows from the user's formula, and that array."""
+    """The source with a further array that follows from the user's formula, and that array. Its name says what it is:
+    the filter warns of a density that is named like another quantity."""
     arrays = arrays_of(source)
+    result = MODELS[options.model]
     for association, kind in (("POINTS", "Point Data"), ("CELLS", "Cell Data")):
         if not any(place == association for place, _ in arrays):
             continue
         calculator = pv.Calculator(Input=source, AttributeType=kind, Function=options.formula,
-                                   ResultArrayName=options.formula)
+                                   ResultArrayName=result)
         calculator.UpdatePipeline()
-        if (association, options.formula) in arrays_of(calculator):
-            return calculator, (association, options.formula)
+        if (association, result) in arrays_of(calculator):
+            return calculator, (association, result)
         pv.Delete(calculator)
     raise DemoError(f"The formula '{options.formula}' gives no values. {messages.last_error()} "
                     f"The arrays of '{options.file}': {listing(source)}.")
