@@ -24,8 +24,9 @@ RaySettings settingsOf(const Scene& scene, double lengthScale, const Displacemen
   settings.kernel.interpolation = scene.interpolation;
   if (settings.kernel.path == PathModel::Refracted)
   {
-    // Does not depend on the step, so that none is worse than a longer one.
-    const bool isTooSteep = steepest > largestChangeInStep;
+    // With a target error the step is yet to be chosen, and the integrator does not depend on it.
+    const double step = scene.targetError > 0 ? 1 : std::min(scene.stepSize, 1.);
+    const bool isTooSteep = steepest * step > largestChangeInStep;
     settings.kernel.integrator =
       isTooSteep && scene.integrator != Integrator::Euler ? Integrator::Adaptive : scene.integrator;
   }
