@@ -32,6 +32,7 @@ layout.SplitHorizontal(0, 0.5)
 view = CreateView("RenderView", UseFXAA=0, OrientationAxesVisibility=0, CenterAxesVisibility=0)
 AssignViewToLayout(view, layout, 2)
 display = Show(flow, view)
+display.SchlierenBench.Density = ["POINTS", "RTData"]
 display.SchlierenBench.GladstoneDaleConstant = 1e-6
 display.SetRepresentationType("Schlieren")
 AddCameraLink(turned, view, "turned")
@@ -126,6 +127,7 @@ layout.SplitHorizontal(0, 0.5)
 pause(1)
 display = GetDisplayProperties(flow, turned)
 image_of = display.SchlierenBench
+image_of.Density = ["POINTS", "RTData"]
 image_of.GladstoneDaleConstant = 1e-6
 display.SetRepresentationType("Schlieren")
 turned.SMProxy.AddObserver("EndEvent", note)
