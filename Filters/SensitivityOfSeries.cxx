@@ -87,9 +87,9 @@ void vtkSchlierenFilter::FitKOverSeries()
     this->SetProgressShiftScale(static_cast<double>(i) * part, part);
     this->Modified();
     this->UpdateTimeStep(times[i]);
-    if (!inside.HasImage)
+    if (!inside.HasImage || this->GetAbortExecute())
     {
-      return; // aborted, or there is a message
+      return; // aborted, maybe as the image was finished, or there is a message
     }
     k = k > 0 ? std::min(k, this->KScaleUsed) : this->KScaleUsed;
   }

@@ -189,14 +189,17 @@ void pqImageProgress::onProgress(vtkObject* filter)
 void pqImageProgress::letAbort(vtkObject* filter)
 {
   pqProgressWidget* bar = progressBar();
-  if (this->Executing || !bar ||
+  auto* algorithm = vtkAlgorithm::SafeDownCast(filter);
+  // An update that only begins, or has ended, would not notice that it is aborted: events wait.
+  const double done = algorithm->GetProgress() - algorithm->GetProgressShift();
+  const bool isWithin = done > 0 && done < algorithm->GetProgressScale();
+  if (this->Executing || !bar || !isWithin ||
     (this->SinceEvents.isValid() && this->SinceEvents.elapsed() < eventPeriod))
   {
     return;
   }
   this->enableAbort(bar, true);
-  const QScopedValueRollback<vtkAlgorithm*> executing(
-    this->Executing, vtkAlgorithm::SafeDownCast(filter));
+  const QScopedValueRollback<vtkAlgorithm*> executing(this->Executing, algorithm);
   // Unblocks events, because ParaView blocks them during updates, also in the button's window.
   const bool wasUnblocked = manager()->unblockEvents(true);
   QCoreApplication::instance()->installEventFilter(this);
