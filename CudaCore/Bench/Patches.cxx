@@ -38,7 +38,7 @@ private:
   };
   using Cells = std::vector<Cell>;
 
-  void spread(const Cells& cells, double pixels);
+  void spread(const Cells& cells, double pixels, PatchList PatchSet::*where);
   /// Aims a patch at where the light comes from that lands on it. False if that is from all over the image.
   bool findOrigin(Patch& patch) const;
   void takeWholeIfCheaper(std::int64_t margin);
@@ -97,10 +97,10 @@ PatchLayout Planner::layOut(std::int64_t margin)
   const double least = sorted.empty() ? 0 : sorted[static_cast<std::size_t>(rank)].variation;
   const auto weak = std::stable_partition(
     within.begin(), within.end(), [&](const Cell& cell) { return cell.variation > least; });
-  spread(Cells(within.begin(), weak), 0.25 * pixelsOfSet);
-  spread(Cells(weak, within.end()), 0.375 * pixelsOfSet);
-  spread(atBodies, 0.25 * pixelsOfSet);
-  spread(atBorders, 0.125 * pixelsOfSet);
+  spread(Cells(within.begin(), weak), 0.25 * pixelsOfSet, &PatchSet::elsewhere);
+  spread(Cells(weak, within.end()), 0.375 * pixelsOfSet, &PatchSet::elsewhere);
+  spread(atBodies, 0.25 * pixelsOfSet, &PatchSet::atBodies);
+  spread(atBorders, 0.125 * pixelsOfSet, &PatchSet::elsewhere);
 
   takeWholeIfCheaper(margin);
   return std::move(layout_);
@@ -127,27 +127,30 @@ void Planner::takeWholeIfCheaper(std::int64_t margin)
     return static_cast<double>(
       (patch.columns + 2 * patch.margin) * (patch.rows + 2 * patch.margin));
   };
-  double rays = 0;
-  for (const PatchList& patches : layout_.sets)
+  double rays = 0, patches = 0;
+  for (const PatchSet& set : layout_.sets)
   {
-    for (const Patch& patch : patches)
+    for (const PatchList* list : { &set.atBodies, &set.elsewhere })
     {
-      rays += raysOf(patch);
+      for (const Patch& patch : *list)
+      {
+        rays += raysOf(patch);
+        ++patches;
+      }
     }
   }
   constexpr double mostLost = 0.02, mostRays = 4; // of both sets
-  const double patches = static_cast<double>(layout_.sets[0].size() + layout_.sets[1].size());
   if (static_cast<double>(lost_) > mostLost * patches || rays > mostRays * raysOf(whole))
   {
     layout_.isWhole = true;
-    layout_.sets[0] = { whole };
-    layout_.sets[1].clear();
+    layout_.sets[0] = { { whole }, {} };
+    layout_.sets[1] = {};
   }
 }
 
 /// Puts patches with so many pixels into each set, in some of these cells: one of each few, in the order of rows, so that no
 /// column is left out.
-void Planner::spread(const Cells& cells, double pixels)
+void Planner::spread(const Cells& cells, double pixels, PatchList PatchSet::*where)
 {
   constexpr std::int64_t edge = Patch::edge;
   const std::int64_t size =
@@ -169,7 +172,7 @@ void Planner::spread(const Cells& cells, double pixels)
                        row = within(cell.row, view_.height);
     Patch patch{ column, row, weight, column, row };
     lost_ += findOrigin(patch) ? 0 : 1;
-    layout_.sets[n % 2].push_back(patch);
+    (layout_.sets[n % 2].*where).push_back(patch);
   }
 }
 

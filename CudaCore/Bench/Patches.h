@@ -24,12 +24,18 @@ struct Patch
 };
 using PatchList = std::vector<Patch>;
 
-/// Two sets of patches that have no pixel in common, some thousand pixels each. They are closer together where the few
-/// pixels are that have the largest errors: beside bodies, and where rays differ most from their neighbours. Where light
-/// is displaced all over the image there is one patch, the image.
+/// Some thousand pixels.
+struct PatchSet
+{
+  PatchList atBodies, elsewhere;
+};
+
+/// Two sets of patches that have no pixel in common. They are closer together where the few pixels are that have the largest
+/// errors: beside bodies, and where rays differ most from their neighbours. Where light is displaced all over the image there
+/// is one patch, the image, which counts as one at a body.
 struct PatchLayout
 {
-  PatchList sets[2];
+  PatchSet sets[2];
   bool isWhole = false; ///< set 0 is the image, and set 1 is empty
 };
 

@@ -39,6 +39,8 @@ Pilot<Real>::Pilot(PilotBench<Real> bench, const DeflectionErrors& errors)
   , scouts_(taskFor(longestStep), bench_.light, bench_.settings.lengthScale, bench_.scene,
       bench_.projection, errors)
   , layout_(layOutPatches(scouts_, bench_.scene.view, bench_.margin))
+  , groups_{ { { &layout_.sets[0].atBodies, {}, {} }, { &layout_.sets[0].elsewhere, {}, {} } },
+    { { &layout_.sets[1].atBodies, {}, {} }, { &layout_.sets[1].elsewhere, {}, {} } } }
 {
 }
 
@@ -62,11 +64,10 @@ Pass Pilot<Real>::passOf(const Patch& patch, std::int64_t number) const
 
 template <class Real>
 const typename Pilot<Real>::Traced* Pilot<Real>::trace(
-  Patches patches, double step, int number, const Monitor& monitor)
+  Group& group, double step, int number, const Monitor& monitor)
 {
-  const std::size_t set = indexOf(patches);
-  Traced& traced = traced_[set][{ step, number }];
-  const PatchList& places = layout_.sets[set];
+  Traced& traced = group.traced[{ step, number }];
+  const PatchList& places = *group.patches;
   const auto count = static_cast<std::int64_t>(places.size());
   if (isPaused_)
   {
@@ -229,25 +230,24 @@ void Pilot<Real>::addDifferences(
 
 template <class Real>
 const typename Pilot<Real>::Exposed* Pilot<Real>::expose(
-  Patches patches, const Settings& settings, const Monitor& monitor)
+  Group& group, double step, int samples, const Monitor& monitor)
 {
-  const std::size_t set = indexOf(patches);
-  const auto [found, isNew] = exposed_[set].try_emplace({ settings.step, settings.samples });
+  const auto [found, isNew] = group.exposed.try_emplace({ step, samples });
   if (!isNew)
   {
     return &found->second;
   }
   std::vector<const Traced*> passes;
-  for (int number = 0; number < settings.samples; ++number)
+  for (int number = 0; number < samples; ++number)
   {
-    passes.push_back(trace(patches, settings.step, number, monitor));
+    passes.push_back(trace(group, step, number, monitor));
     if (!passes.back())
     {
-      exposed_[set].erase(found);
+      group.exposed.erase(found);
       return nullptr;
     }
   }
-  const PatchList& places = layout_.sets[set];
+  const PatchList& places = *group.patches;
   found->second.resize(places.size());
   parallelFor(static_cast<std::int64_t>(places.size()), 1, bench_.scene.threads,
     [&](std::int64_t begin, std::int64_t end)
@@ -262,14 +262,28 @@ const typename Pilot<Real>::Exposed* Pilot<Real>::expose(
 
 template <class Real>
 Differences Pilot<Real>::compare(
-  Patches patches, const Settings& a, const Settings& b, const Monitor& monitor)
+  Patches patches, const PatchSettings& a, const PatchSettings& b, const Monitor& monitor)
 {
-  const Exposed* ofA = expose(patches, a, monitor);
-  const Exposed* ofB = ofA ? expose(patches, b, monitor) : nullptr;
   Differences all;
-  for (std::size_t n = 0; ofB && n < ofB->size(); ++n)
+  const std::size_t set = layout_.isWhole ? 0 : static_cast<std::size_t>(patches);
+  for (std::size_t place = 0; place < 2; ++place)
   {
-    addDifferences((*ofA)[n], (*ofB)[n], layout_.sets[indexOf(patches)][n], all);
+    Group& group = groups_[set][place];
+    const auto expose = [&](const PatchSettings& settings)
+    {
+      return this->expose(
+        group, settings.step, place == 0 ? settings.samplesAtBodies : settings.samples, monitor);
+    };
+    const Exposed* ofA = expose(a);
+    const Exposed* ofB = ofA ? expose(b) : nullptr;
+    if (!ofB)
+    {
+      return {};
+    }
+    for (std::size_t n = 0; n < ofB->size(); ++n)
+    {
+      addDifferences((*ofA)[n], (*ofB)[n], (*group.patches)[n], all);
+    }
   }
   return all;
 }

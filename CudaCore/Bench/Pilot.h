@@ -44,18 +44,19 @@ inline double adaptiveToleranceFor(double step, double tolerance)
   return tolerance * (2 * step) * (2 * step) * (2 * step);
 }
 
+/// What patches are made with.
+struct PatchSettings
+{
+  double step;         ///< voxels
+  int samples;         ///< rays per pixel
+  int samplesAtBodies; ///< likewise, of patches there
+};
+
 /// Images of patches of pixels, see PatchLayout. Rays are traced once for each setting.
 template <class Real>
 class Pilot
 {
 public:
-  /// What a patch is made with.
-  struct Settings
-  {
-    double step; ///< voxels
-    int samples; ///< rays per pixel
-  };
-
   /// Looks at the view. `errors`: see strongDeflection().
   Pilot(PilotBench<Real> bench, const DeflectionErrors& errors);
 
@@ -67,9 +68,12 @@ public:
   {
     resume(cutoff);
     bench_.scene = scene;
-    for (auto& exposed : exposed_)
+    for (auto& set : groups_)
     {
-      exposed.clear();
+      for (Group& group : set)
+      {
+        group.exposed.clear();
+      }
     }
   }
   /// Continues after a pause, with the same cutoff, whose table stays with its owner.
@@ -88,7 +92,7 @@ public:
 
   /// Compares the images of two settings. Aborted or paused: empty.
   Differences compare(
-    Patches patches, const Settings& a, const Settings& b, const Monitor& monitor);
+    Patches patches, const PatchSettings& a, const PatchSettings& b, const Monitor& monitor);
 
   /// Whether the monitor has paused it since then. What it has done is kept.
   bool isPaused() const { return isPaused_; }
@@ -110,17 +114,20 @@ private:
   };
   using Exposed = std::vector<Values>; ///< of each patch
 
-  RayTask<Real> taskFor(double step) const;
-  /// A set of patches.
-  std::size_t indexOf(Patches patches) const
+  /// Patches that are made in one way, and what has been made of them.
+  struct Group
   {
-    return layout_.isWhole ? 0 : static_cast<std::size_t>(patches);
-  }
+    const PatchList* patches;
+    std::map<std::pair<double, int>, Traced> traced;   ///< by step and pass
+    std::map<std::pair<double, int>, Exposed> exposed; ///< by step and rays per pixel
+  };
+
+  RayTask<Real> taskFor(double step) const;
   Pass passOf(const Patch& patch, std::int64_t number) const;
-  /// The rays of all patches of a set; null if aborted or paused.
-  const Traced* trace(Patches patches, double step, int number, const Monitor& monitor);
-  /// The images of all patches of a set; null if aborted or paused.
-  const Exposed* expose(Patches patches, const Settings& settings, const Monitor& monitor);
+  /// The rays of all patches of a group; null if aborted or paused.
+  const Traced* trace(Group& group, double step, int number, const Monitor& monitor);
+  /// The images of all patches of a group; null if aborted or paused.
+  const Exposed* expose(Group& group, double step, int samples, const Monitor& monitor);
   Values expose(
     const Patch& patch, std::size_t index, const std::vector<const Traced*>& passes) const;
   void addDifferences(
@@ -130,8 +137,7 @@ private:
   const Cutoffs* cutoff_ = nullptr;
   Scouts scouts_;
   PatchLayout layout_;
-  std::map<std::pair<double, int>, Traced> traced_[2];   ///< by step and pass
-  std::map<std::pair<double, int>, Exposed> exposed_[2]; ///< by step and rays per pixel
+  Group groups_[2][2]; ///< of each set: at bodies, and elsewhere
   bool isPaused_ = false;
 };
 

@@ -35,8 +35,11 @@ double sumOf(double a, double b, double c = 0, double d = 0)
 /// How steps are compared.
 struct StepRange
 {
-  double longest; ///< voxels
-  int rays;       ///< per pixel
+  double longest;   ///< voxels
+  int raysAtBodies; ///< per pixel; elsewhere one
+
+  /// How patches are made to compare a step with others.
+  PatchSettings with(double step) const { return { step, 1, raysAtBodies }; }
 };
 
 /// Steps move the edges of bodies by fractions of a pixel, which single rays do not see in nearly all pixels. Those that are
@@ -82,7 +85,7 @@ public:
     {
       return 0.5 * ofStep(2 * step);
     }
-    return errorByHalving * differenceOf({ step, steps_.rays }, { 0.5 * step, steps_.rays });
+    return errorByHalving * differenceOf(steps_.with(step), steps_.with(0.5 * step));
   }
 
   /// `allowed`: where the error of 16 rays is less than that by what 4 gain, it is not measured.
@@ -108,13 +111,12 @@ public:
         return before / gain;
       }
     }
-    return errorByFourfold * differenceOf({ longest(), samples }, { longest(), 4 * samples });
+    return errorByFourfold *
+      differenceOf({ longest(), samples, samples }, { longest(), 4 * samples, 4 * samples });
   }
 
 private:
-  using Settings = typename Pilot<Real>::Settings;
-
-  double differenceOf(const Settings& a, const Settings& b)
+  double differenceOf(const PatchSettings& a, const PatchSettings& b)
   {
     const double difference = percentile99(pilot_.compare(Patches::ToChoose, a, b, monitor_));
     return looksAtAll_
@@ -291,7 +293,7 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   const double step = std::max(settings.step, 2 * shortestStep);
   const double bySteps = errorByHalving * settings.step / step;
   const Differences ofSteps =
-    pilot.compare(Patches::ToVerify, { step, steps.rays }, { 0.5 * step, steps.rays }, monitor);
+    pilot.compare(Patches::ToVerify, steps.with(step), steps.with(0.5 * step), monitor);
   Differences ofRays;
   double byRays = 0;
   if (!needsOneRay(pilot.bench()))
@@ -299,7 +301,7 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
     const auto compare = [&](int fewer, int more)
     {
       return pilot.compare(
-        Patches::ToVerify, { steps.longest, fewer }, { steps.longest, more }, monitor);
+        Patches::ToVerify, { steps.longest, fewer, fewer }, { steps.longest, more, more }, monitor);
     };
     const int samples = settings.samples;
     byRays = samples <= 4 ? errorByFourfold : errorByTwofold;
