@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Fixtures.h"
+#include "WatchedProgress.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkGasTable.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
@@ -328,12 +328,8 @@ TEST(Pipeline, AnyNumberOfThreadsGivesTheSameImage)
 TEST(Pipeline, ProgressRunsFromZeroToOne)
 {
   auto filter = bench(columnImage(64), 128);
-  std::vector<double> progress;
-  vtkNew<vtkCallbackCommand> watch;
-  watch->SetClientData(&progress);
-  watch->SetCallback([](vtkObject*, unsigned long, void* seen, void* value)
-    { static_cast<std::vector<double>*>(seen)->push_back(*static_cast<double*>(value)); });
-  filter->AddObserver(vtkCommand::ProgressEvent, watch);
+  const WatchedProgress watch(filter);
+  const std::vector<double>& progress = watch.seen;
   filter->Update();
   ASSERT_GT(progress.size(), 3u);
   EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
@@ -347,22 +343,12 @@ TEST(Pipeline, AbortLeavesAnEmptyImageAndTheNextUpdateAWholeOne)
   {
     auto filter = bench(columnImage(64), 256);
     Complaints* complaints = new Complaints(filter);
-    double stopAt = limit;
-    vtkNew<vtkCallbackCommand> watch;
-    watch->SetClientData(&stopAt);
-    watch->SetCallback(
-      [](vtkObject* caller, unsigned long, void* at, void* value)
-      {
-        if (*static_cast<double*>(value) >= *static_cast<double*>(at))
-        {
-          vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
-        }
-      });
-    const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, watch);
-    filter->Update();
+    {
+      const WatchedProgress watch(filter, limit);
+      filter->Update();
+    }
     EXPECT_TRUE(isEmpty(filter)) << limit;
     EXPECT_TRUE(complaints->Errors.empty()) << limit;
-    filter->RemoveObserver(tag);
     filter->Update();
     EXPECT_FALSE(isEmpty(filter)) << limit;
     EXPECT_EQ(filter->GetMediumBuilds(), 1) << limit;

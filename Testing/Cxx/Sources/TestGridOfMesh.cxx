@@ -5,8 +5,8 @@
 // are moved: that is the truth here.
 #include "CellMeshes.h"
 #include "Sources/MediumMaker.h"
+#include "WatchedProgress.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkDataSetTriangleFilter.h"
 
 namespace
@@ -213,19 +213,11 @@ TEST(GridOfMesh, StopsAndStartsAnew)
   auto filter = reader(64, 1);
   const Mesh mesh = tetrahedra();
   filter->SetInputData(mesh);
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback(
-    [](vtkObject* caller, unsigned long, void*, void* value)
-    {
-      if (*static_cast<double*>(value) > 0.3)
-      {
-        vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
-      }
-    });
-  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, stop);
-  filter->Update();
-  EXPECT_TRUE(isEmpty(filter));
-  filter->RemoveObserver(tag);
+  {
+    const WatchedProgress watch(filter, 0.3);
+    filter->Update();
+    EXPECT_TRUE(isEmpty(filter));
+  }
   filter->Modified();
   filter->Update();
   EXPECT_FALSE(isEmpty(filter));

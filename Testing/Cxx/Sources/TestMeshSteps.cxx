@@ -7,11 +7,11 @@
 #include "CutMesh.h"
 #include "Sources/MediumMaker.h"
 #include "Surfaces.h"
+#include "WatchedProgress.h"
 
 #include "Input/InputDescription.h"
 #include "Schlieren.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
@@ -425,25 +425,8 @@ TEST(MeshSteps, StopsAndStartsAnew)
     setTime(mesh, time);
     return mesh;
   };
-  struct Watch
-  {
-    double stopAt = 2;
-    std::vector<double> seen;
-  } watch;
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetClientData(&watch);
-  observer->SetCallback(
-    [](vtkObject* caller, unsigned long, void* data, void* value)
-    {
-      auto* self = static_cast<Watch*>(data);
-      self->seen.push_back(*static_cast<double*>(value));
-      if (self->seen.back() >= self->stopAt)
-      {
-        vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
-      }
-    });
   auto filter = bench(nullptr, 32);
-  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
+  WatchedProgress watch(filter);
   constexpr double ofSource = 0.2, ofVoxels = 0.44; // of the progress
   for (double time = 1; time < 3; ++time)
   {
@@ -451,7 +434,8 @@ TEST(MeshSteps, StopsAndStartsAnew)
     {
       SCOPED_TRACE(stopAt);
       filter->SetInputDataObject(atTime(time));
-      watch = { stopAt, {} };
+      watch.stopAt = stopAt;
+      watch.seen.clear();
       filter->Update();
       EXPECT_TRUE(isEmpty(filter));
       const auto past = std::count_if(watch.seen.begin(), watch.seen.end(),
@@ -470,7 +454,6 @@ TEST(MeshSteps, StopsAndStartsAnew)
     ASSERT_FALSE(isEmpty(filter));
     EXPECT_EQ(valuesOf(filter, "Intensity"), valuesOf(fresh, "Intensity"));
   }
-  filter->RemoveObserver(tag);
 }
 
 // A field with the values of N has them at all points of lattices, in this step and in those that know the lattices'

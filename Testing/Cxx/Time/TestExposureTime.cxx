@@ -6,8 +6,8 @@
 #include "BallOnLevels.h"
 #include "CellMeshes.h"
 #include "Changing.h"
+#include "WatchedProgress.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkExecutive.h"
 #include "vtkFloatArray.h"
@@ -775,29 +775,12 @@ TEST_F(ExposureTime, CanBeAborted)
 {
   this->source->steps = { 0, 0.5, 1, 1.5, 2 };
   this->filter->SetExposureTime(1);
-  struct Watch
-  {
-    double stopAt = 0.6;
-    std::vector<double> progress;
-  } watch;
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetClientData(&watch);
-  observer->SetCallback(
-    [](vtkObject* caller, unsigned long, void* data, void* value)
-    {
-      auto* self = static_cast<Watch*>(data);
-      self->progress.push_back(*static_cast<double*>(value));
-      if (self->progress.back() >= self->stopAt)
-      {
-        vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
-      }
-    });
-  this->filter->AddObserver(vtkCommand::ProgressEvent, observer);
+  WatchedProgress watch(this->filter, 0.6);
   this->filter->UpdateTimeStep(1);
   EXPECT_TRUE(isEmpty(this->filter));
-  EXPECT_TRUE(std::is_sorted(watch.progress.begin(), watch.progress.end()));
-  watch.progress.pop_back(); // VTK's, of the end
-  EXPECT_LT(watch.progress.back(), 0.8);
+  EXPECT_TRUE(std::is_sorted(watch.seen.begin(), watch.seen.end()));
+  watch.seen.pop_back(); // VTK's, of the end
+  EXPECT_LT(watch.seen.back(), 0.8);
 
   // As the window does, which lets it continue.
   this->filter->SetTimeLimit(1);

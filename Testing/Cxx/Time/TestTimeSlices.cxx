@@ -4,10 +4,12 @@
 // Time-sliced images, and what is shown in between.
 #include "Fixtures.h"
 #include "Series.h"
+#include "WatchedProgress.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <optional>
 
 namespace
 {
@@ -99,31 +101,9 @@ void expectSameInSlices(vtkDataObject* input, const SetUp& setUp)
 /// Progress of an update.
 std::vector<double> progressOf(vtkSchlierenFilter* filter)
 {
-  std::vector<double> progress;
-  vtkNew<vtkCallbackCommand> watch;
-  watch->SetClientData(&progress);
-  watch->SetCallback([](vtkObject*, unsigned long, void* seen, void* value)
-    { static_cast<std::vector<double>*>(seen)->push_back(*static_cast<double*>(value)); });
-  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, watch);
+  const WatchedProgress watch(filter);
   filter->Update();
-  filter->RemoveObserver(tag);
-  return progress;
-}
-
-/// Stops the filter once it has come so far. Removed with removeObserver(tag).
-unsigned long abortAt(vtkSchlierenFilter* filter, double* fraction)
-{
-  vtkNew<vtkCallbackCommand> watch;
-  watch->SetClientData(fraction);
-  watch->SetCallback(
-    [](vtkObject* caller, unsigned long, void* at, void* value)
-    {
-      if (*static_cast<double*>(value) >= *static_cast<double*>(at))
-      {
-        vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
-      }
-    });
-  return filter->AddObserver(vtkCommand::ProgressEvent, watch);
+  return watch.seen;
 }
 
 } // namespace
@@ -506,14 +486,14 @@ TEST(TimeSlices, AbortLeavesNothing)
       fraction = 0.01; // while the refractivity is found
       image->GetPointData()->GetArray("N")->Modified();
     }
-    const unsigned long tag = abortAt(filter, &fraction);
+    std::optional<WatchedProgress> watch(std::in_place, filter, fraction);
     filter->Refine();
     filter->Update();
     EXPECT_TRUE(isEmpty(filter)) << limit;
     EXPECT_TRUE(filter->GetFinished()) << limit;
     EXPECT_EQ(filter->GetStopped(), limit > 0) << limit;
     EXPECT_EQ(*filter->GetStatus() != 0, limit > 0) << limit; // what there is not, and why
-    filter->RemoveObserver(tag);
+    watch.reset();
     if (limit > 0)
     {
       filter->Update(); // further requests need not wait again
