@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Which arrays of a flow give its refractive index, by their names, units and ranges: see FlowDefaults.h.
+#pragma once
+
+#include "FlowDefaults.h"
+#include "Gas/ArrayNames.h"
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace filters
+{
+
+/// What arrays of a refractive index, and of a relative humidity, are called.
+extern const std::set<std::string> indexNames, humidityNames;
+
+/// The fraction of a gas of the table.
+struct Fraction
+{
+  std::string array;
+  std::string gas;
+  bool ofVolume;
+};
+
+/// Returns whether an array is one, by its name and range.
+bool isFraction(const FlowArray& array, Fraction& fraction);
+
+std::string quoted(const std::string& name);
+std::string rangeInWords(const FlowArray& array);
+bool isScalar(const FlowArray& array);
+
+constexpr FlowArray::Association associations[] = { FlowArray::Points, FlowArray::Cells };
+
+/// An array whose name is understood, with its factor to SI units; 0: unknown unit.
+struct Found
+{
+  const FlowArray* array = nullptr;
+  double scale = 1;
+};
+
+/// Chooses among the arrays of one component.
+class FlowChooser
+{
+public:
+  explicit FlowChooser(const std::vector<FlowArray>& all);
+
+  bool isEmpty() const { return this->Arrays.empty(); }
+
+  /// Chooses what gives the index; of a model, its arrays. Returns whether there are some.
+  bool choose();
+  bool choose(MediumSettings::Models model);
+  /// Chooses the fractions alone.
+  void chooseSpecies(FlowArray::Association association);
+
+  FlowDefaults Result;
+  std::string Note; ///< names that were not understood
+
+  bool has(Quantity quantity) const;
+
+private:
+  /// Finds the array that best matches a quantity, points before cells.
+  Found find(Quantity quantity, FlowArray::Association association);
+
+  /// Returns whether the unit belongs to another quantity.
+  static bool isOfAnother(const ArrayName& name, Quantity quantity);
+  const FlowArray* find(const std::set<std::string>& names) const;
+
+  bool refractivity();
+  bool refractiveIndex();
+  bool density(bool ofSpecies);
+  void species();
+  bool moistAir();
+  bool moistAir(FlowArray::Association association);
+  /// Chooses a relative humidity between 0 and 1, not one in percent.
+  void humidity(FlowArray::Association association);
+
+  void take(MediumSettings::Models model, FlowArray::Association association,
+    std::vector<std::pair<std::string, std::string>> arrays);
+
+  std::vector<FlowArray> Arrays;
+};
+
+} // namespace filters
