@@ -74,9 +74,9 @@ Mesh mirrored(vtkUnstructuredGrid* mesh)
 }
 
 /// Moves the point that is nearest to `from`.
-void move(vtkUnstructuredGrid* mesh, const Vec& from, const Vec& by)
+void move(vtkUnstructuredGrid* mesh, Vec from, const Vec& by)
 {
-  const vtkIdType point = mesh->FindPoint(from[0], from[1], from[2]);
+  const vtkIdType point = mesh->FindPoint(from.data());
   double x[3];
   mesh->GetPoint(point, x);
   mesh->GetPoints()->SetPoint(point, x[0] + by[0], x[1] + by[1], x[2] + by[2]);
