@@ -349,12 +349,9 @@ def sources_of(proxy):
     return found
 
 
-def versions():
-    manager = servermanager.vtkSMProxyManager.GetProxyManager()
-    plugins = manager.GetPluginManager().GetLocalInformation()
-    names = [plugins.GetPluginName(index) for index in range(plugins.GetNumberOfPlugins())]
-    return {"Schlieren": plugins.GetPluginVersion(names.index("Schlieren")),
-            "ParaView": manager.GetParaViewSourceVersion()}
+def versions(facts):
+    return {"Schlieren": facts["SchlierenVersion"][0],
+            "ParaView": servermanager.vtkSMProxyManager.GetProxyManager().GetParaViewSourceVersion()}
 
 
 def write_description(path, image, bench, title, files):
@@ -363,7 +360,7 @@ def write_description(path, image, bench, title, files):
     description = {
         "title": title or facts["LegendTitle"][0],
         "files": files,
-        "versions": versions(),
+        "versions": versions(facts),
         "time": simple.GetTimeKeeper().Time,
         "technique": facts["LegendTitle"][0],
         "legend": {"label": facts["LegendLabel"][0], "unit": facts["LegendLabel"][1], "range": facts["LegendRange"],

@@ -18,7 +18,9 @@ assert found == version, found
 
 plugins = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager().GetLocalInformation()
 numbers = {plugins.GetPluginName(i): plugins.GetPluginVersion(i) for i in range(plugins.GetNumberOfPlugins())}
-assert numbers["Schlieren"] == version, numbers
+# ParaView 6.1 knows the versions of plugins that its lists name, and no others.
+listed = "" if servermanager.vtkSMProxyManager.GetVersionMajor() >= 6 else version
+assert numbers["Schlieren"] in (version, listed), numbers
 
 
 def first(name, pattern):
