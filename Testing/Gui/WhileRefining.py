@@ -53,7 +53,11 @@ until(refines)
 user.python("""
 (action,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
 def confirm():
-    QApplication.activeModalWidget().button(QtWidgets.QMessageBox.StandardButton.Yes).click()
+    question = QApplication.activeModalWidget()
+    if question:
+        question.button(QtWidgets.QMessageBox.StandardButton.Yes).click()
+    else:
+        QTimer.singleShot(200, confirm)
 QTimer.singleShot(500, confirm)
 QTimer.singleShot(0, action.trigger)
 """)

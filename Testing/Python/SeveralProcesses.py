@@ -304,7 +304,7 @@ else:
     assert several.keys() == one.keys()
     for name, values in several.items():
         assert values.size > 0, name
-        difference = np.abs(one[name] - values).max() / max(np.abs(one[name]).max(), 1e-300)
+        difference = float(np.abs(one[name] - values).max()) / max(float(np.abs(one[name]).max()), 1e-300)
         print(f"{name}: {difference:.1e}")
         # Slabs of few cells do not reach all that values of cells, and splines, depend on. Filters divide pieces into
         # other cells than all.
