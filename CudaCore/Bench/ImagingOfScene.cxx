@@ -11,6 +11,7 @@
 #include <iomanip>
 #include <memory>
 #include <sstream>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -76,7 +77,7 @@ Mask maskOf(const Scene& scene, double k)
       return std::visit(
         [&ray](const auto& kind)
         {
-          double light[kind.channels];
+          double light[std::decay_t<decltype(kind)>::channels];
           kind.shade(ray, light);
           return luminanceOf(light);
         },

@@ -232,10 +232,11 @@ template <class Real>
 const typename Pilot<Real>::Exposed* Pilot<Real>::expose(
   Group& group, double step, int samples, const Monitor& monitor)
 {
-  const auto [found, isNew] = group.exposed.try_emplace({ step, samples });
-  if (!isNew)
+  const auto inserted = group.exposed.try_emplace({ step, samples });
+  Exposed& exposed = inserted.first->second;
+  if (!inserted.second)
   {
-    return &found->second;
+    return &exposed;
   }
   std::vector<const Traced*> passes;
   for (int number = 0; number < samples; ++number)
@@ -243,21 +244,21 @@ const typename Pilot<Real>::Exposed* Pilot<Real>::expose(
     passes.push_back(trace(group, step, number, monitor));
     if (!passes.back())
     {
-      group.exposed.erase(found);
+      group.exposed.erase(inserted.first);
       return nullptr;
     }
   }
   const PatchList& places = *group.patches;
-  found->second.resize(places.size());
+  exposed.resize(places.size());
   parallelFor(static_cast<std::int64_t>(places.size()), 1, bench_.scene.threads,
     [&](std::int64_t begin, std::int64_t end)
     {
       for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
       {
-        found->second[n] = expose(places[n], n, passes);
+        exposed[n] = expose(places[n], n, passes);
       }
     });
-  return &found->second;
+  return &exposed;
 }
 
 template <class Real>
