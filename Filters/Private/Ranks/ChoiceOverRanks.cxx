@@ -5,6 +5,7 @@
 #include "Sources/FieldTints.h"
 #include "Sources/MediumMaker.h"
 
+#include "vtkDataSet.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 
