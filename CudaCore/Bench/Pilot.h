@@ -59,6 +59,8 @@ class Pilot
 public:
   /// Looks at the view. `errors`: see strongDeflection().
   Pilot(PilotBench<Real> bench, const DeflectionErrors& errors);
+  Pilot(const Pilot&) = delete; // groups know where the patches are
+  Pilot& operator=(const Pilot&) = delete;
 
   const PilotBench<Real>& bench() const { return bench_; }
   const PilotView& view() const { return scouts_.view(); }

@@ -141,7 +141,7 @@ bool FlowChooser::has(Quantity quantity) const
 }
 
 //------------------------------------------------------------------------------
-Found FlowChooser::find(Quantity quantity, FlowArray::Association association)
+FlowChooser::Found FlowChooser::find(Quantity quantity, FlowArray::Association association)
 {
   Understood best = Understood::Not;
   Found found;

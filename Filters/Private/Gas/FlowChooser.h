@@ -35,13 +35,6 @@ bool isScalar(const FlowArray& array);
 
 constexpr FlowArray::Association associations[] = { FlowArray::Points, FlowArray::Cells };
 
-/// An array whose name is understood, with its factor to SI units; 0: unknown unit.
-struct Found
-{
-  const FlowArray* array = nullptr;
-  double scale = 1;
-};
-
 /// Chooses among the arrays of one component.
 class FlowChooser
 {
@@ -62,6 +55,13 @@ public:
   bool has(Quantity quantity) const;
 
 private:
+  /// An array whose name is understood, with its factor to SI units; 0: unknown unit.
+  struct Found
+  {
+    const FlowArray* array = nullptr;
+    double scale = 1;
+  };
+
   /// Finds the array that best matches a quantity, points before cells.
   Found find(Quantity quantity, FlowArray::Association association);
 

@@ -9,8 +9,6 @@
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <optional>
-
 namespace
 {
 
@@ -486,14 +484,15 @@ TEST(TimeSlices, AbortLeavesNothing)
       fraction = 0.01; // while the refractivity is found
       image->GetPointData()->GetArray("N")->Modified();
     }
-    std::optional<WatchedProgress> watch(std::in_place, filter, fraction);
-    filter->Refine();
-    filter->Update();
+    {
+      const WatchedProgress watch(filter, fraction);
+      filter->Refine();
+      filter->Update();
+    }
     EXPECT_TRUE(isEmpty(filter)) << limit;
     EXPECT_TRUE(filter->GetFinished()) << limit;
     EXPECT_EQ(filter->GetStopped(), limit > 0) << limit;
     EXPECT_EQ(*filter->GetStatus() != 0, limit > 0) << limit; // what there is not, and why
-    watch.reset();
     if (limit > 0)
     {
       filter->Update(); // further requests need not wait again
