@@ -176,12 +176,17 @@ struct Scene
   int samplesPerPixel = 4; ///< rays, 1 or more
   std::uint32_t seed = 1;  ///< of the rays' places in pixels and on the source
 
-  /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the settings below. It chooses
+  /// The error that the pixels whose light crosses the data shall keep; 0: that of the settings below. It chooses
   /// interpolation, stepSize, homogeneityTolerance, samplesPerPixel, mediumTolerance (no coarser than 0.01) and precision,
   /// and says in Image::accuracy what is reached. Its unit is that which the image is read in: of an interferogram fringes;
   /// of Cutoff::Background pixels of displacement; else the fraction of full scale, of a shadowgraph of undisturbed light,
   /// not counting what light displaced by 0.05 pixels explains.
   double targetError = 0;
+  /// Which of these pixels. For the largest error all of them are tried, which takes several times as long as the image.
+  ErrorNorm errorNorm = ErrorNorm::Percentile99;
+  bool estimatesErrors = false; ///< with a targetError: those of all pixels, in Accuracy::estimate
+  /// With a targetError, of fields without a source: Accuracy::ofData, the difference of Interpolation::Quadratic and Cubic.
+  bool estimatesDataError = false;
 
   PathModel pathModel = PathModel::Auto;                  ///< straight or refracted rays
   Integrator integrator = Integrator::Leapfrog;           ///< of refracted rays

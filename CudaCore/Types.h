@@ -52,6 +52,13 @@ enum class Integrator
   Euler ///< one gradient a step, first order: the paper's, kept so that it can be reproduced
 };
 
+/// Of which pixels an image's error is.
+enum class ErrorNorm
+{
+  Percentile99, ///< all but the worst of a hundred
+  Largest
+};
+
 enum class Precision
 {
   Single,

@@ -206,6 +206,9 @@ struct FilmSettings
   int HistogramSize = 256;
   int Seed = 1;
   int PreviewReduction = 1;
+  int TargetNorm = 0;
+  bool ErrorEstimate = false;
+  bool DataError = false;
   double FullWell = 0;
   double Exposure = 0.8;
   double ReadNoise = 10;
@@ -222,6 +225,9 @@ struct FilmSettings
     use("HistogramSize", this->HistogramSize);
     use("Seed", this->Seed);
     use("PreviewReduction", this->PreviewReduction);
+    use("TargetNorm", this->TargetNorm);
+    use("ErrorEstimate", this->ErrorEstimate);
+    use("DataError", this->DataError);
     use("FullWell", this->FullWell);
     use("Exposure", this->Exposure);
     use("ReadNoise", this->ReadNoise);

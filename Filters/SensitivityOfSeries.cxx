@@ -80,6 +80,8 @@ void vtkSchlierenFilter::FitKOverSeries()
   this->SamplesPerPixel = 1; // k is chosen from the first ray of each pixel
   this->TargetError = 0;
   this->AutoTargetError = false;
+  this->ErrorEstimate = false;
+  this->DataError = false;
   double k = 0;
   for (std::size_t i = 0; i < times.size(); ++i)
   {

@@ -964,7 +964,7 @@ public:
 
   ///@{
   /**
-   * Error that 99 % of the pixels whose light crosses the data shall keep, in the unit that the image
+   * Error that 99 % (see TargetNorm) of the pixels whose light crosses the data shall keep, in the unit that the image
    * is read in: of an interferogram fringes; with Background Oriented pixels of displacement; else a
    * fraction of full scale, of a shadowgraph of the undisturbed light (what light displaced by 0.05
    * pixels explains does not count). 0, the default: off. It chooses StepSize, SamplesPerPixel (up to
@@ -986,6 +986,43 @@ public:
   vtkSetMacro(AutoTargetError, bool);
   vtkGetMacro(AutoTargetError, bool);
   vtkBooleanMacro(AutoTargetError, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Of which pixels TargetError and ErrorReached are, one of TargetNorms. Default: Percentile99. LargestError tries the
+   * settings with all pixels, which takes several times as long as the image.
+   */
+  enum TargetNorms
+  {
+    Percentile99, ///< all but the worst of a hundred
+    LargestError  ///< all
+  };
+  vtkSetClampMacro(TargetNorm, int, Percentile99, LargestError);
+  vtkGetMacro(TargetNorm, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether an image with a TargetError (or AutoTargetError) has the array `ErrorEstimate` (float): the error of each pixel,
+   * in the unit of TargetError; 0 where its light does not cross the data. Default: off. All pixels are then made with
+   * finer settings, too, which takes several times as long as the image.
+   */
+  vtkSetMacro(ErrorEstimate, bool);
+  vtkGetMacro(ErrorEstimate, bool);
+  vtkBooleanMacro(ErrorEstimate, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether an image of a grid with a TargetError (or AutoTargetError) says what the data themselves leave open, as no
+   * setting changes that: the field data have DataError, the difference that quadratic splines between the samples make
+   * instead of cubic ones, in the unit and the norm of ErrorReached. Default: off. It costs another medium. Of meshes it is
+   * not known.
+   */
+  vtkSetMacro(DataError, bool);
+  vtkGetMacro(DataError, bool);
+  vtkBooleanMacro(DataError, bool);
   ///@}
 
   ///@{

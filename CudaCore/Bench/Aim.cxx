@@ -14,16 +14,17 @@ Pilot<Real>& Bench::Stages::pilotFor(MediumOnDevices<Real>& onDevices, const Lig
 {
   const Field& field = request.field;
   const Scene& scene = request.scene;
+  const bool wantsAllPixels = scene.estimatesErrors || scene.errorNorm == ErrorNorm::Largest;
   const BoundedRays bounded = boundRays(onDevices, light, request, image);
   const Projection projection = projectionFor(bounded.settings, light, request, image);
   return targets.pilotOf<Real>({ bounded.key, bounded.settings.kernel, field.lengthScale,
-                                 projection, scene.filmEstimator, scene.seed },
+                                 projection, scene.filmEstimator, scene.seed, wantsAllPixels },
     [&]
     {
       const PilotBench<Real> bench{ &onDevices.medium, light, scene, projection, bounded.settings,
         marginFor(bounded.bound, scene, image.frame, light) };
       return std::make_unique<Pilot<Real>>(
-        bench, deflectionErrors(onDevices.medium, light, field, image));
+        bench, deflectionErrors(onDevices.medium, light, field, image), wantsAllPixels);
     });
 }
 
@@ -48,15 +49,14 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   Pilot<Real>& pilot = pilotFor(inUse.onDevices(), light, request, image);
   const double k = scene.kScale.value_or(
     automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
-  CutoffMaker maker;
-  const Cutoffs cutoff = maker.cutoffOf(scene, k, pixelPlacesOf(image.frame, scene.view, light));
+  const PixelPlaces pixels = pixelPlacesOf(image.frame, scene.view, light);
   if (ofImage.isPaused)
   {
-    pilot.resume(cutoff);
+    pilot.resume();
   }
   else
   {
-    pilot.begin(scene, cutoff);
+    pilot.begin(scene, k, pixels);
   }
   const KnownErrors known = knownErrors(
     pilot.bench(), pilot.view(), deflectionErrors(medium, light, field, image).medium, k);
@@ -66,13 +66,16 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   }
   const bool hasWalls =
     !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
-  const AccurateSettings chosen =
+  AccurateSettings chosen =
     chooseFor(pilot, hasWalls, known, targets.lastFor(scene), watch.monitor());
   ofImage.isPaused = pilot.isPaused();
   if (watch.isAborted() || ofImage.isPaused)
   {
     return true;
   }
+  chosen.accuracy.ofData = scene.estimatesDataError && !field.source
+    ? errorOfData(pilot, field, chosen.step, k, pixels, watch.monitor())
+    : Accuracy().ofData;
   targets.keep(scene, chosen);
   Scene accurate = scene;
   accurate.stepSize = chosen.step;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace schlieren
@@ -11,7 +12,8 @@ namespace schlieren
 struct Difference
 {
   double value;
-  double pixels; ///< of the whole image that it stands for
+  double pixels;         ///< of the whole image that it stands for
+  std::size_t pixel = 0; ///< of its patch
 };
 using Differences = std::vector<Difference>;
 

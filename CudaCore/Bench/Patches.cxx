@@ -27,7 +27,7 @@ public:
   {
   }
 
-  PatchLayout layOut(std::int64_t margin);
+  PatchLayout layOut(std::int64_t margin, bool wantsAllPixels);
 
 private:
   /// A square of pixels that may be a patch.
@@ -38,10 +38,12 @@ private:
   };
   using Cells = std::vector<Cell>;
 
-  void spread(const Cells& cells, double pixels, PatchList PatchSet::*where);
+  /// By their direction from the middle, so that no side is left out.
+  static void sortAlongBorder(Cells& cells);
+  void spread(const Cells& cells, double pixels, PatchPlace where);
   /// Aims a patch at where the light comes from that lands on it. False if that is from all over the image.
   bool findOrigin(Patch& patch) const;
-  void takeWholeIfCheaper(std::int64_t margin);
+  void takeWholeIfCheaper(std::int64_t margin, bool isWanted);
 
   const Scouts& scouts_;
   const View& view_;
@@ -50,7 +52,7 @@ private:
 };
 
 /// Divides the view into cells, of one scout or as large as a patch, and these into strata.
-PatchLayout Planner::layOut(std::int64_t margin)
+PatchLayout Planner::layOut(std::int64_t margin, bool wantsAllPixels)
 {
   const std::int64_t stride = scouts_.stride();
   const std::int64_t size = (Patch::edge + stride - 1) / stride; // scouts
@@ -97,17 +99,35 @@ PatchLayout Planner::layOut(std::int64_t margin)
   const double least = sorted.empty() ? 0 : sorted[static_cast<std::size_t>(rank)].variation;
   const auto weak = std::stable_partition(
     within.begin(), within.end(), [&](const Cell& cell) { return cell.variation > least; });
-  spread(Cells(within.begin(), weak), 0.25 * pixelsOfSet, &PatchSet::elsewhere);
-  spread(Cells(weak, within.end()), 0.375 * pixelsOfSet, &PatchSet::elsewhere);
-  spread(atBodies, 0.25 * pixelsOfSet, &PatchSet::atBodies);
-  spread(atBorders, 0.125 * pixelsOfSet, &PatchSet::elsewhere);
+  spread(Cells(within.begin(), weak), 0.25 * pixelsOfSet, PatchPlace::Elsewhere);
+  spread(Cells(weak, within.end()), 0.375 * pixelsOfSet, PatchPlace::Elsewhere);
+  spread(atBodies, 0.25 * pixelsOfSet, PatchPlace::Body);
+  sortAlongBorder(atBorders);
+  spread(atBorders, 0.25 * pixelsOfSet, PatchPlace::Border);
 
-  takeWholeIfCheaper(margin);
+  takeWholeIfCheaper(margin, wantsAllPixels);
   return std::move(layout_);
 }
 
-/// Makes the image the only patch where others miss their light, or where the rays around them are more than that takes.
-void Planner::takeWholeIfCheaper(std::int64_t margin)
+void Planner::sortAlongBorder(Cells& cells)
+{
+  double middle[2] = { 0, 0 };
+  for (const Cell& cell : cells)
+  {
+    middle[0] += static_cast<double>(cell.column) / static_cast<double>(cells.size());
+    middle[1] += static_cast<double>(cell.row) / static_cast<double>(cells.size());
+  }
+  const auto directionOf = [&](const Cell& cell)
+  {
+    return std::atan2(
+      static_cast<double>(cell.row) - middle[1], static_cast<double>(cell.column) - middle[0]);
+  };
+  std::stable_sort(cells.begin(), cells.end(),
+    [&](const Cell& a, const Cell& b) { return directionOf(a) < directionOf(b); });
+}
+
+/// Makes the image the only patch where that is wanted, where others miss their light, or where the rays around them are more than that takes.
+void Planner::takeWholeIfCheaper(std::int64_t margin, bool isWanted)
 {
   double moved = 0;
   for (const Scout& scout : scouts_.all())
@@ -130,9 +150,9 @@ void Planner::takeWholeIfCheaper(std::int64_t margin)
   double rays = 0, patches = 0;
   for (const PatchSet& set : layout_.sets)
   {
-    for (const PatchList* list : { &set.atBodies, &set.elsewhere })
+    for (const PatchList& list : set)
     {
-      for (const Patch& patch : *list)
+      for (const Patch& patch : list)
       {
         rays += raysOf(patch);
         ++patches;
@@ -140,17 +160,18 @@ void Planner::takeWholeIfCheaper(std::int64_t margin)
     }
   }
   constexpr double mostLost = 0.02, mostRays = 4; // of both sets
-  if (static_cast<double>(lost_) > mostLost * patches || rays > mostRays * raysOf(whole))
+  if (isWanted || static_cast<double>(lost_) > mostLost * patches ||
+    rays > mostRays * raysOf(whole))
   {
     layout_.isWhole = true;
-    layout_.sets[0] = { { whole }, {} };
+    layout_.sets[0] = { { { whole }, {}, {} } };
     layout_.sets[1] = {};
   }
 }
 
 /// Puts patches with so many pixels into each set, in some of these cells: one of each few, in the order of rows, so that no
 /// column is left out.
-void Planner::spread(const Cells& cells, double pixels, PatchList PatchSet::*where)
+void Planner::spread(const Cells& cells, double pixels, PatchPlace where)
 {
   constexpr std::int64_t edge = Patch::edge;
   const std::int64_t size =
@@ -172,7 +193,7 @@ void Planner::spread(const Cells& cells, double pixels, PatchList PatchSet::*whe
                        row = within(cell.row, view_.height);
     Patch patch{ column, row, weight, column, row };
     lost_ += findOrigin(patch) ? 0 : 1;
-    (layout_.sets[n % 2].*where).push_back(patch);
+    layout_.sets[n % 2][static_cast<std::size_t>(where)].push_back(patch);
   }
 }
 
@@ -241,9 +262,10 @@ bool Planner::findOrigin(Patch& patch) const
 
 } // namespace
 
-PatchLayout layOutPatches(const Scouts& scouts, const View& view, std::int64_t margin)
+PatchLayout layOutPatches(
+  const Scouts& scouts, const View& view, std::int64_t margin, bool wantsAllPixels)
 {
-  return Planner(scouts, view).layOut(margin);
+  return Planner(scouts, view).layOut(margin, wantsAllPixels);
 }
 
 } // namespace schlieren

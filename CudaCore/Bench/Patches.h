@@ -5,6 +5,8 @@
 #include "Bench/Scouts.h"
 #include "Schlieren.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,11 +26,17 @@ struct Patch
 };
 using PatchList = std::vector<Patch>;
 
-/// Some thousand pixels.
-struct PatchSet
+/// Where a patch lies.
+enum class PatchPlace
 {
-  PatchList atBodies, elsewhere;
+  Body,
+  Border, ///< of the data
+  Elsewhere
 };
+constexpr std::size_t patchPlaces = 3;
+
+/// Some thousand pixels, by place.
+using PatchSet = std::array<PatchList, patchPlaces>;
 
 /// Two sets of patches that have no pixel in common. They are closer together where the few pixels are that have the largest
 /// errors: beside bodies, and where rays differ most from their neighbours. Where light is displaced all over the image there
@@ -36,10 +44,11 @@ struct PatchSet
 struct PatchLayout
 {
   PatchSet sets[2];
-  bool isWhole = false; ///< set 0 is the image, and set 1 is empty
+  bool isWhole = false; ///< both sets are the image, set 0
 };
 
-/// `margin`: pixels around the image from which light may be bent into it.
-PatchLayout layOutPatches(const Scouts& scouts, const View& view, std::int64_t margin);
+/// `margin`: pixels around the image from which light may be bent into it; `wantsAllPixels`: the image is the patch.
+PatchLayout layOutPatches(
+  const Scouts& scouts, const View& view, std::int64_t margin, bool wantsAllPixels);
 
 } // namespace schlieren

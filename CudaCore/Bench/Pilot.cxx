@@ -17,31 +17,37 @@
 namespace schlieren
 {
 
-namespace
-{
-
-/// Caustics: light that is displaced by no more than this is where it should be, pixels.
-constexpr double invisibleShift = 0.05;
-
-Projection projectionOfPart(const Projection& projection, double column, double row)
-{
-  Projection part = projection;
-  part.inclination.atOrigin[0] += column * projection.inclination.perPixel;
-  part.inclination.atOrigin[1] += row * projection.inclination.perPixel;
-  return part;
-}
-
-} // namespace
-
 template <class Real>
-Pilot<Real>::Pilot(PilotBench<Real> bench, const DeflectionErrors& errors)
+Pilot<Real>::Pilot(PilotBench<Real> bench, const DeflectionErrors& errors, bool wantsAllPixels)
   : bench_(std::move(bench))
   , scouts_(taskFor(longestStep), bench_.light, bench_.settings.lengthScale, bench_.scene,
       bench_.projection, errors)
-  , layout_(layOutPatches(scouts_, bench_.scene.view, bench_.margin))
-  , groups_{ { { &layout_.sets[0].atBodies, {}, {} }, { &layout_.sets[0].elsewhere, {}, {} } },
-    { { &layout_.sets[1].atBodies, {}, {} }, { &layout_.sets[1].elsewhere, {}, {} } } }
+  , layout_(layOutPatches(scouts_, bench_.scene.view, bench_.margin, wantsAllPixels))
 {
+  begin();
+}
+
+template <class Real>
+Pilot<Real>::Pilot(const Pilot& other, const Medium<Real>& medium, Interpolation interpolation)
+  : bench_(other.bench_)
+  , scouts_(other.scouts_)
+  , layout_(other.layout_)
+{
+  bench_.medium = &medium;
+  bench_.settings.kernel.interpolation = interpolation;
+  begin();
+}
+
+template <class Real>
+void Pilot<Real>::begin()
+{
+  for (std::size_t set = 0; set < 2; ++set)
+  {
+    for (std::size_t place = 0; place < patchPlaces; ++place)
+    {
+      groups_[set][place].patches = &layout_.sets[set][place];
+    }
+  }
 }
 
 template <class Real>
@@ -64,9 +70,9 @@ Pass Pilot<Real>::passOf(const Patch& patch, std::int64_t number) const
 
 template <class Real>
 const typename Pilot<Real>::Traced* Pilot<Real>::trace(
-  Group& group, double step, int number, const Monitor& monitor)
+  Group& group, const PassNumber& pass, const Monitor& monitor)
 {
-  Traced& traced = group.traced[{ step, number }];
+  Traced& traced = group.traced[keyOf(pass)];
   const PatchList& places = *group.patches;
   const auto count = static_cast<std::int64_t>(places.size());
   if (isPaused_)
@@ -74,17 +80,17 @@ const typename Pilot<Real>::Traced* Pilot<Real>::trace(
     return nullptr;
   }
   traced.rays.resize(places.size());
-  const RayTask<Real> whole = taskFor(step);
+  const RayTask<Real> whole = taskFor(pass.set->step);
   const auto traceOne = [&](std::size_t n)
   {
     const Patch& patch = places[n];
     RayTask<Real> task = whole;
     task.light = lightOfPart(
       bench_.light, static_cast<double>(patch.fromColumn), static_cast<double>(patch.fromRow), 1);
-    const Pass pass = passOf(patch, number);
+    const Pass rays = passOf(patch, pass.in(n));
     TracedPass& ofPatch = traced.rays[n];
-    ofPatch.resize(pass, 0);
-    traceOnCpu(task, pass, ofPatch, layout_.isWhole ? bench_.scene.threads : 1, {});
+    ofPatch.resize(rays, 0);
+    traceOnCpu(task, rays, ofPatch, layout_.isWhole ? bench_.scene.threads : 1, {});
     const double shift[2] = { static_cast<double>(patch.fromColumn - patch.column),
       static_cast<double>(patch.fromRow - patch.row) };
     for (RayExit& exit : ofPatch.exits)
@@ -112,153 +118,51 @@ const typename Pilot<Real>::Traced* Pilot<Real>::trace(
 }
 
 template <class Real>
-typename Pilot<Real>::Values Pilot<Real>::expose(
-  const Patch& patch, std::size_t index, const std::vector<const Traced*>& passes) const
+const std::vector<PatchPixels>* Pilot<Real>::expose(
+  Group& group, const RaySet& set, const Monitor& monitor)
 {
-  const Projection projection = projectionOfPart(
-    bench_.projection, static_cast<double>(patch.fromColumn), static_cast<double>(patch.fromRow));
-  FilmSettings settings = filmSettingsOf(bench_.scene);
-  settings.width = static_cast<int>(patch.columns);
-  settings.height = static_cast<int>(patch.rows);
-  settings.samplesPerPixel = static_cast<int>(passes.size());
-  settings.noiseFilter = NoiseFilter::None;
-  settings.isOfCamera = false;
-  settings.threads = layout_.isWhole ? bench_.scene.threads : 1;
-  ProgressiveImage film(settings);
-  const std::int64_t columns = patch.columns + 2 * patch.margin;
-  const std::int64_t rays = columns * (patch.rows + 2 * patch.margin);
-  film.begin(
-    { *cutoff_, projection, patch.margin, rays * passesToHold(settings.samplesPerPixel) }, {});
-  for (std::size_t number = 0; number < passes.size(); ++number)
+  const PatchList& places = *group.patches;
+  Exposed& exposed = group.exposed[set];
+  for (std::size_t n = exposed.films.size(); n < places.size() && exposed.pixels.empty(); ++n)
   {
-    film.add(passes[number]->rays[index], passOf(patch, static_cast<std::int64_t>(number)),
-      schlieren::Rays::Go, {});
+    exposed.films.emplace_back(places[n], bench_.scene, cutoff_, bench_.projection, set.samples,
+      layout_.isWhole ? bench_.scene.threads : 1);
   }
-  Image image;
-  image.width = settings.width;
-  image.height = settings.height;
-  film.develop(image);
-
-  Values values;
-  const PixelArray<float>& light = image.color.empty() ? image.intensity : image.color;
-  values.light.assign(light.begin(), light.end());
-  values.path.assign(image.opticalPathDifference.begin(), image.opticalPathDifference.end());
-  const PixelArray<float> moved = backgroundDisplacement(image, projection);
-  values.moved.assign(moved.begin(), moved.end());
-  // Also of pixels whose centre is dark. What lands on a patch from elsewhere counts as a whole.
-  const bool isOfPlace = patch.fromColumn == patch.column && patch.fromRow == patch.row;
-  for (std::int64_t row = patch.margin; row < patch.margin + patch.rows; ++row)
+  const auto withEach = [&](const auto& work)
   {
-    for (std::int64_t column = patch.margin; column < patch.margin + patch.columns; ++column)
-    {
-      const auto ray = static_cast<std::size_t>(row * columns + column);
-      values.hasCrossed.push_back(!isOfPlace ||
-        std::any_of(passes.begin(), passes.end(),
-          [&](const Traced* pass) { return pass->rays[index].exits[ray].fate == RayFate::Left; }));
-      values.isClear.push_back(passes.front()->rays[index].exits[ray].reachesFilm());
-    }
-  }
-  return values;
-}
-
-/// Compares as the technique's reader does: see Scene::targetError.
-template <class Real>
-void Pilot<Real>::addDifferences(
-  const Values& a, const Values& b, const Patch& patch, Differences& differences) const
-{
-  const std::size_t pixels = b.hasCrossed.size();
-  const std::size_t channels = a.light.size() / pixels;
-  const Technique& technique = techniqueOf(bench_.scene.cutoff);
-  const double weight = patch.weight;
-  const auto columns = static_cast<std::size_t>(patch.columns);
-  const auto rows = static_cast<std::size_t>(patch.rows);
-  const auto slopeAt = [&](std::size_t pixel)
-  {
-    // What a shift by a pixel would change, at the most.
-    double slope = 0;
-    const std::size_t column = pixel % columns, row = pixel / columns;
-    const auto look = [&](bool isThere, std::size_t other)
-    {
-      slope = isThere
-        ? std::max(slope, std::abs(static_cast<double>(b.light[other] - b.light[pixel])))
-        : slope;
-    };
-    look(column > 0, pixel - 1);
-    look(column + 1 < columns, pixel + 1);
-    look(row > 0, pixel - columns);
-    look(row + 1 < rows, pixel + columns);
-    return slope;
+    parallelFor(static_cast<std::int64_t>(exposed.films.size()), 1, bench_.scene.threads,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+        {
+          work(n, exposed.films[n]);
+        }
+      });
   };
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+  while (!exposed.films.empty() && exposed.films.front().passes() < set.samples)
   {
-    if (!b.hasCrossed[pixel])
+    const PassNumber number{ &set, exposed.films.front().passes() };
+    const Traced* traced = trace(group, number, monitor);
+    if (!traced)
     {
-      continue;
-    }
-    double ofLight = 0;
-    for (std::size_t channel = 0; channel < channels; ++channel)
-    {
-      const std::size_t at = channels * pixel + channel;
-      ofLight = std::max(
-        ofLight, std::abs(static_cast<double>(a.light[at]) - static_cast<double>(b.light[at])));
-    }
-    switch (technique.plane)
-    {
-      case RecordedPlane::Background:
-        differences.push_back({ bench_.projection.perDataUnit *
-            std::hypot(static_cast<double>(a.moved[2 * pixel] - b.moved[2 * pixel]),
-              static_cast<double>(a.moved[2 * pixel + 1] - b.moved[2 * pixel + 1])),
-          weight });
-        continue;
-      case RecordedPlane::Screen:
-        differences.push_back({ std::max(0., ofLight - invisibleShift * slopeAt(pixel)), weight });
-        continue;
-      case RecordedPlane::Focus:
-        break;
-    }
-    if (technique.hasFringes)
-    {
-      // The light of a fringe changes by pi of its range in a fringe, at the most.
-      const double ofPath =
-        b.isClear[pixel] ? std::abs(a.path[pixel] - b.path[pixel]) / bench_.scene.wavelength : 0;
-      differences.push_back({ std::max(ofLight / pi, ofPath), weight });
-      continue;
-    }
-    differences.push_back({ ofLight, weight });
-  }
-}
-
-template <class Real>
-const typename Pilot<Real>::Exposed* Pilot<Real>::expose(
-  Group& group, double step, int samples, const Monitor& monitor)
-{
-  const auto inserted = group.exposed.try_emplace({ step, samples });
-  Exposed& exposed = inserted.first->second;
-  if (!inserted.second)
-  {
-    return &exposed;
-  }
-  std::vector<const Traced*> passes;
-  for (int number = 0; number < samples; ++number)
-  {
-    passes.push_back(trace(group, step, number, monitor));
-    if (!passes.back())
-    {
-      group.exposed.erase(inserted.first);
       return nullptr;
     }
-  }
-  const PatchList& places = *group.patches;
-  exposed.resize(places.size());
-  parallelFor(static_cast<std::int64_t>(places.size()), 1, bench_.scene.threads,
-    [&](std::int64_t begin, std::int64_t end)
+    withEach([&](std::size_t n, PatchFilm& film)
+      { film.add(traced->rays[n], passOf(places[n], number.in(n))); });
+    if (layout_.isWhole &&
+      static_cast<std::size_t>(set.samples) * traced->rays.front().bytes() >
+        bench_.scene.memoryBudget)
     {
-      for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
-      {
-        exposed[n] = expose(places[n], n, passes);
-      }
-    });
-  return &exposed;
+      group.traced.erase(keyOf(number));
+    }
+  }
+  if (!exposed.films.empty())
+  {
+    exposed.pixels.resize(places.size());
+    withEach([&](std::size_t n, PatchFilm& film) { exposed.pixels[n] = film.develop(); });
+    exposed.films.clear();
+  }
+  return &exposed.pixels;
 }
 
 template <class Real>
@@ -267,23 +171,67 @@ Differences Pilot<Real>::compare(
 {
   Differences all;
   const std::size_t set = layout_.isWhole ? 0 : static_cast<std::size_t>(patches);
-  for (std::size_t place = 0; place < 2; ++place)
+  for (std::size_t n = 0; n < patchPlaces; ++n)
   {
-    Group& group = groups_[set][place];
-    const auto expose = [&](const PatchSettings& settings)
+    Group& group = groups_[set][n];
+    const auto place = static_cast<PatchPlace>(n);
+    const auto raysOf = [&](const PatchSettings& settings)
     {
-      return this->expose(
-        group, settings.step, place == 0 ? settings.samplesAtBodies : settings.samples, monitor);
+      return RaySet{ settings.step,
+        place == PatchPlace::Body ? settings.samplesAtBodies : settings.samples };
     };
-    const Exposed* ofA = expose(a);
-    const Exposed* ofB = ofA ? expose(b) : nullptr;
+    const RaySet raysOfA = raysOf(a);
+    RaySet raysOfB = raysOf(b);
+    const bool isOfRays = raysOfB.samples > raysOfA.samples;
+    if (isOfRays &&
+      !(bench_.light.pupilTilt > 0)) // of an aperture's points there are as many as rays
+    {
+      constexpr int moreAtBodies = 4, most = 16; // what steps are compared with, too
+      raysOfB.areOthers = place == PatchPlace::Border;
+      if (place == PatchPlace::Body && !layout_.isWhole)
+      {
+        raysOfB.samples = std::max(raysOfB.samples, std::min(moreAtBodies * raysOfB.samples, most));
+      }
+    }
+    // The error falls as one over the number of rays, about.
+    constexpr double partOfOthers = 0.85; // they err, too, and some see nothing of an edge
+    const double part = raysOfB.areOthers ? partOfOthers
+      : isOfRays ? 1 - static_cast<double>(raysOfA.samples) / raysOfB.samples
+                 : 1;
+    const std::vector<PatchPixels>* ofA = expose(group, raysOfA, monitor);
+    const std::vector<PatchPixels>* ofB = ofA ? expose(group, raysOfB, monitor) : nullptr;
     if (!ofB)
     {
       return {};
     }
-    for (std::size_t n = 0; n < ofB->size(); ++n)
+    for (std::size_t patch = 0; patch < ofB->size(); ++patch)
     {
-      addDifferences((*ofA)[n], (*ofB)[n], (*group.patches)[n], all);
+      addDifferences((*ofA)[patch], (*ofB)[patch], (*group.patches)[patch], 1 / part, bench_.scene,
+        bench_.projection, all);
+    }
+  }
+  return all;
+}
+
+template <class Real>
+Differences Pilot<Real>::compareWith(Pilot& other, double step, const Monitor& monitor)
+{
+  Differences all;
+  const RaySet rays{ step, 1 };
+  for (std::size_t n = 0; n < 2 * patchPlaces; ++n)
+  {
+    Group& group = groups_[n / patchPlaces][n % patchPlaces];
+    const std::vector<PatchPixels>* here = expose(group, rays, monitor);
+    const std::vector<PatchPixels>* there =
+      here ? other.expose(other.groups_[n / patchPlaces][n % patchPlaces], rays, monitor) : nullptr;
+    if (!there)
+    {
+      return {};
+    }
+    for (std::size_t patch = 0; patch < here->size(); ++patch)
+    {
+      addDifferences((*there)[patch], (*here)[patch], (*group.patches)[patch], 1, bench_.scene,
+        bench_.projection, all);
     }
   }
   return all;

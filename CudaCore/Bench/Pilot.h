@@ -4,7 +4,9 @@
 // Small patches of an image, made with other settings than the image, to find out how much these change it.
 #pragma once
 
+#include "Bench/CutoffMaker.h"
 #include "Bench/Differences.h"
+#include "Bench/PatchFilm.h"
 #include "Bench/Patches.h"
 #include "Bench/Scouts.h"
 #include "Film/Shading.h"
@@ -16,7 +18,9 @@
 #include "Schlieren.h"
 
 #include <cstdint>
+#include <deque>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -57,18 +61,21 @@ template <class Real>
 class Pilot
 {
 public:
-  /// Looks at the view. `errors`: see strongDeflection().
-  Pilot(PilotBench<Real> bench, const DeflectionErrors& errors);
+  /// Looks at the view. `errors`: see strongDeflection(); `wantsAllPixels`: the image is the only patch.
+  Pilot(PilotBench<Real> bench, const DeflectionErrors& errors, bool wantsAllPixels);
+  /// Has the patches of another one, but in this medium, which stays with its owner.
+  Pilot(const Pilot& other, const Medium<Real>& medium, Interpolation interpolation);
   Pilot(const Pilot&) = delete; // groups know where the patches are
   Pilot& operator=(const Pilot&) = delete;
 
   const PilotBench<Real>& bench() const { return bench_; }
   const PilotView& view() const { return scouts_.view(); }
 
-  /// Exposes patches by another cutoff of a scene with the same rays from now on.
-  void begin(const Scene& scene, const Cutoffs& cutoff)
+  /// Exposes patches by another cutoff of a scene with the same rays from now on. `k`: see Scene::kScale.
+  void begin(const Scene& scene, double k, const PixelPlaces& pixels)
   {
-    resume(cutoff);
+    cutoff_ = cutoffs_.cutoffOf(scene, k, pixels);
+    resume();
     bench_.scene = scene;
     for (auto& set : groups_)
     {
@@ -78,12 +85,8 @@ public:
       }
     }
   }
-  /// Continues after a pause, with the same cutoff, whose table stays with its owner.
-  void resume(const Cutoffs& cutoff)
-  {
-    cutoff_ = &cutoff;
-    isPaused_ = false;
-  }
+  /// Continues after a pause.
+  void resume() { isPaused_ = false; }
 
   /// Two sets of patches that have no pixel in common: one to choose by, one to verify the choice with.
   enum class Patches
@@ -92,54 +95,86 @@ public:
     ToVerify
   };
 
-  /// Compares the images of two settings. Aborted or paused: empty.
+  /// Compares the images of two settings. Aborted or paused: empty. Where `b` has more rays than `a`, the error of these
+  /// follows from the differences. Those of `b` at borders are others: a border along rows or columns of pixels can lie so
+  /// that no ray of either would be behind it. At bodies there are more of them.
   Differences compare(
     Patches patches, const PatchSettings& a, const PatchSettings& b, const Monitor& monitor);
+
+  /// Compares the images of all patches, of one ray per pixel, with those of another medium. Aborted or paused: empty.
+  Differences compareWith(Pilot& other, double step, const Monitor& monitor);
 
   /// Whether the monitor has paused it since then. What it has done is kept.
   bool isPaused() const { return isPaused_; }
 
 private:
-  /// What of a patch's image is compared.
-  struct Values
-  {
-    std::vector<float> light; ///< a value for each channel of each pixel
-    std::vector<double> path; ///< metres
-    std::vector<float> moved; ///< two for each pixel, data units: of the background
-    std::vector<bool> hasCrossed;
-    std::vector<bool> isClear; ///< at the pixel's centre, whose path it has
-  };
   struct Traced
   {
     std::vector<TracedPass> rays; ///< of each patch
     std::int64_t done = 0;        ///< patches
   };
-  using Exposed = std::vector<Values>; ///< of each patch
+  struct Exposed
+  {
+    std::deque<PatchFilm> films; ///< of each patch, until they have all rays
+    std::vector<PatchPixels> pixels;
+  };
 
-  /// Patches that are made in one way, and what has been made of them.
+  /// Rays through a patch's pixels.
+  struct RaySet
+  {
+    double step; ///< voxels
+    int samples; ///< per pixel
+    bool areOthers =
+      false; ///< those of the image, or through other points of the pixels in each patch
+
+    bool operator<(const RaySet& other) const
+    {
+      return std::tie(step, samples, areOthers) <
+        std::tie(other.step, other.samples, other.areOthers);
+    }
+  };
+  /// The pass of a patch that has this number in a set of rays.
+  struct PassNumber
+  {
+    const RaySet* set;
+    int number;
+    std::int64_t in(std::size_t patch) const
+    {
+      return set->areOthers && number > 0
+        ? set->samples * (static_cast<std::int64_t>(patch) + 1) + number
+        : number;
+    }
+  };
+
+  using PassKey = std::tuple<double, int, int>; ///< step, pass, and how many rays others are of
+  static PassKey keyOf(const PassNumber& pass)
+  {
+    const RaySet& set = *pass.set;
+    return { set.step, pass.number, set.areOthers && pass.number > 0 ? set.samples : 0 };
+  }
+
+  /// Patches of a place, and what has been made of them.
   struct Group
   {
     const PatchList* patches;
-    std::map<std::pair<double, int>, Traced> traced;   ///< by step and pass
-    std::map<std::pair<double, int>, Exposed> exposed; ///< by step and rays per pixel
+    std::map<PassKey, Traced> traced;
+    std::map<RaySet, Exposed> exposed;
   };
 
+  void begin();
   RayTask<Real> taskFor(double step) const;
   Pass passOf(const Patch& patch, std::int64_t number) const;
   /// The rays of all patches of a group; null if aborted or paused.
-  const Traced* trace(Group& group, double step, int number, const Monitor& monitor);
+  const Traced* trace(Group& group, const PassNumber& pass, const Monitor& monitor);
   /// The images of all patches of a group; null if aborted or paused.
-  const Exposed* expose(Group& group, double step, int samples, const Monitor& monitor);
-  Values expose(
-    const Patch& patch, std::size_t index, const std::vector<const Traced*>& passes) const;
-  void addDifferences(
-    const Values& a, const Values& b, const Patch& patch, Differences& differences) const;
+  const std::vector<PatchPixels>* expose(Group& group, const RaySet& rays, const Monitor& monitor);
 
   PilotBench<Real> bench_;
-  const Cutoffs* cutoff_ = nullptr;
+  CutoffMaker cutoffs_;
+  Cutoffs cutoff_{};
   Scouts scouts_;
   PatchLayout layout_;
-  Group groups_[2][2]; ///< of each set: at bodies, and elsewhere
+  Group groups_[2][patchPlaces]; ///< of each set
   bool isPaused_ = false;
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace schlieren
 {
@@ -18,10 +20,6 @@ constexpr double longestStepAtWalls = 1, shortestStep = 0.25; // voxels
 
 /// The error of a step by its difference to half of it: 4/3 of it for an order of 2. Beside walls the order is below 1.
 constexpr double errorByHalving = 1.5;
-/// The error of n rays by their difference to 4 n, and to 2 n: it falls as 1 / n, about. That of the first half of n
-/// rays would not do: both halves of an extended source can err to the same side.
-constexpr double errorByFourfold = 1.33;
-constexpr double errorByTwofold = 2;
 /// By how much it falls from n to 4 n, at least.
 constexpr double leastGain = 3.5;
 /// For what the patches have not seen.
@@ -30,6 +28,12 @@ constexpr double margin = 1.2;
 double sumOf(double a, double b, double c = 0, double d = 0)
 {
   return std::sqrt(a * a + b * b + c * c + d * d);
+}
+
+/// What of differences shall keep a target.
+double errorOf(const Scene& scene, const Differences& differences)
+{
+  return scene.errorNorm == ErrorNorm::Largest ? largestOf(differences) : percentile99(differences);
 }
 
 /// How steps are compared.
@@ -111,17 +115,16 @@ public:
         return before / gain;
       }
     }
-    return errorByFourfold *
-      differenceOf({ longest(), samples, samples }, { longest(), 4 * samples, 4 * samples });
+    return differenceOf({ longest(), samples, samples }, { longest(), 4 * samples, 4 * samples });
   }
 
 private:
   double differenceOf(const PatchSettings& a, const PatchSettings& b)
   {
-    const double difference = percentile99(pilot_.compare(Patches::ToChoose, a, b, monitor_));
-    return looksAtAll_
-      ? std::max(difference, percentile99(pilot_.compare(Patches::ToVerify, a, b, monitor_)))
-      : difference;
+    const auto differenceIn = [&](Patches patches)
+    { return errorOf(pilot_.bench().scene, pilot_.compare(patches, a, b, monitor_)); };
+    const double difference = differenceIn(Patches::ToChoose);
+    return looksAtAll_ ? std::max(difference, differenceIn(Patches::ToVerify)) : difference;
   }
 
   Pilot<Real>& pilot_;
@@ -295,7 +298,6 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   const Differences ofSteps =
     pilot.compare(Patches::ToVerify, steps.with(step), steps.with(0.5 * step), monitor);
   Differences ofRays;
-  double byRays = 0;
   if (!needsOneRay(pilot.bench()))
   {
     const auto compare = [&](int fewer, int more)
@@ -304,17 +306,34 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
         Patches::ToVerify, { steps.longest, fewer, fewer }, { steps.longest, more, more }, monitor);
     };
     const int samples = settings.samples;
-    byRays = samples <= 4 ? errorByFourfold : errorByTwofold;
     ofRays = compare(samples, samples <= 4 ? 4 * samples : 2 * samples);
   }
   const auto sum = [&](const auto& statistic)
-  {
-    return sumOf(
-      bySteps * statistic(ofSteps), byRays * statistic(ofRays), known.voxels, known.rounding);
-  };
+  { return sumOf(bySteps * statistic(ofSteps), statistic(ofRays), known.voxels, known.rounding); };
   settings.accuracy.target = scene.targetError;
-  settings.accuracy.reached = sum(percentile99);
+  settings.accuracy.reached =
+    sum([&](const Differences& differences) { return errorOf(scene, differences); });
   settings.accuracy.largest = sum(largestOf);
+  if (scene.estimatesErrors) // of the image, which is the patch
+  {
+    const auto pixels =
+      static_cast<std::size_t>(scene.view.width) * static_cast<std::size_t>(scene.view.height);
+    PixelArray<float> estimate(pixels);
+    std::fill(estimate.begin(), estimate.end(), 0.F);
+    std::vector<double> all(pixels, 0.);
+    const auto add = [&](const Differences& differences, double factor)
+    {
+      for (const Difference& one : differences)
+      {
+        all[one.pixel] = sumOf(all[one.pixel], factor * one.value);
+        estimate[one.pixel] =
+          static_cast<float>(sumOf(all[one.pixel], known.voxels, known.rounding));
+      }
+    };
+    add(ofSteps, bySteps);
+    add(ofRays, 1);
+    settings.accuracy.estimate = std::move(estimate);
+  }
 }
 
 template <class Real>
@@ -363,6 +382,20 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
   return settings;
 }
 
+template <class Real>
+double errorOfData(Pilot<Real>& pilot, const Field& field, double step, double k,
+  const PixelPlaces& pixels, const Monitor& monitor)
+{
+  const Scene& scene = pilot.bench().scene;
+  constexpr Interpolation other = Interpolation::Quadratic;
+  const Medium<Real> medium = buildMedium<Real>(field, other, scene.threads);
+  Pilot<Real> inOther(pilot, medium, other);
+  inOther.begin(scene, k, pixels);
+  Monitor untilDone; // as little is to be done
+  untilDone.aborted = monitor.aborted;
+  return errorOf(scene, pilot.compareWith(inOther, step, untilDone));
+}
+
 template KnownErrors knownErrors(
   const PilotBench<float>&, const PilotView&, double deflectionError, double k);
 template KnownErrors knownErrors(
@@ -371,5 +404,9 @@ template AccurateSettings chooseFor(
   Pilot<float>&, bool hasWalls, const KnownErrors&, const AccurateSettings* before, const Monitor&);
 template AccurateSettings chooseFor(Pilot<double>&, bool hasWalls, const KnownErrors&,
   const AccurateSettings* before, const Monitor&);
+template double errorOfData(
+  Pilot<float>&, const Field&, double step, double k, const PixelPlaces&, const Monitor&);
+template double errorOfData(
+  Pilot<double>&, const Field&, double step, double k, const PixelPlaces&, const Monitor&);
 
 } // namespace schlieren

@@ -79,6 +79,36 @@ fin = simple.PLOT3DReader(FileName=[os.path.join(DATA, "bluntfin_plot3d", "blunt
                           FunctionFileName="", Functions=[100])
 check(fin, 0.05, Density=["POINTS", "Density"])
 
+# Errors of all pixels: as an array, and the largest of them kept.
+for source, settings in ((jet, {"LengthScale": 0.001}), (fin, {"Density": ["POINTS", "Density"]})):
+    bench = Schlieren(source, TargetError=0.02, ErrorEstimate=1, **SETTINGS, **settings)
+    image = output(bench)
+    estimate = vtk_to_numpy(image.GetPointData().GetArray("ErrorEstimate")).astype(float)
+    path = vtk_to_numpy(image.GetPointData().GetArray("OpticalPathDifference"))
+    crossed = (path != 0) & (estimate > 0)
+    reached, largest = fact(image, "ErrorReached"), fact(image, "ErrorLargest")
+    # Those of steps and rays are added in each pixel here, and as quantiles there.
+    assert 0.5 * reached < np.quantile(estimate[crossed], 0.99) < 1.5 * reached, (reached, np.quantile(estimate, 0.99))
+    assert 0.5 * largest < estimate.max() <= 1.001 * largest, (largest, estimate.max())
+    bench.TargetNorm, bench.ErrorEstimate = "Largest", 0
+    image = output(bench)
+    assert not image.GetPointData().HasArray("ErrorEstimate")
+    strict = fact(image, "ErrorReached")
+    print("99 %", reached, "of all", largest, "kept", strict, "by", fact(image, "SamplesPerPixel"), flush=True)
+    assert strict == fact(image, "ErrorLargest")
+    bench.UpdatePropertyInformation()
+    assert (strict <= 0.02) != ("target error not kept" in bench.Status), bench.Status
+    simple.Delete(bench)
+
+# What the samples leave open: of grids, apart from the rest.
+bench = Schlieren(jet, TargetError=0.004, DataError=1, LengthScale=0.001, **SETTINGS)
+image = output(bench)
+bench.UpdatePropertyInformation()
+assert fact(image, "DataError") > 0 and "the data leave 0.0" in bench.Status, bench.Status
+bench.Input = fin
+bench.Density = ["POINTS", "Density"]
+assert not output(bench).GetFieldData().HasArray("DataError")
+
 # What cannot be kept is said.
 bench = Schlieren(jet, TargetError=1e-9, ImageSize=[16, 16])
 image = output(bench)

@@ -173,6 +173,10 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
   {
     arrays->AddArray(newVectors("BackgroundDisplacement", image.backgroundDisplacement, dataUnits));
   }
+  if (!image.accuracy.estimate.empty())
+  {
+    arrays->AddArray(newArray<vtkFloatArray>("ErrorEstimate", image.accuracy.estimate, 1, "1"));
+  }
 
   addFieldValue<vtkStringArray>(output, "SchlierenVersion", schlieren::version());
   addFieldValue<vtkStringArray>(
@@ -209,6 +213,10 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
     addFieldValue<vtkDoubleArray>(output, "ErrorReached", image.accuracy.reached);
     addFieldValue<vtkDoubleArray>(output, "ErrorLargest", image.accuracy.largest);
     addFieldValue<vtkStringArray>(output, "ErrorLimit", limitInWords(image.accuracy));
+    if (!std::isnan(image.accuracy.ofData))
+    {
+      addFieldValue<vtkDoubleArray>(output, "DataError", image.accuracy.ofData);
+    }
     addFieldValue<vtkDoubleArray>(output, "StepSize", image.stepSize);
     addFieldValue<vtkIntArray>(output, "SamplesPerPixel", image.samplesPerPixel);
   }

@@ -7,6 +7,7 @@
 #include "Schlieren.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace filters
 {
@@ -147,7 +148,10 @@ std::string statusInWords(
   return words + deviceInWords(image) + ", " + accuracyInWords(image, scene) +
     (waves.empty() ? "" : ", " + waves) +
     (image.accuracy.target > 0 ? ", " + errorInWords(image.accuracy, scene) + ", limited by " +
-          limitInWords(image.accuracy)
+          limitInWords(image.accuracy) +
+          (std::isnan(image.accuracy.ofData)
+              ? ""
+              : ", the data leave " + textOf(image.accuracy.ofData, 2) + " open")
         : scene.targetError > 0 ? ", error not known yet"
                                 : "");
 }

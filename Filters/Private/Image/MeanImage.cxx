@@ -30,6 +30,14 @@ void approach(
   }
 }
 
+void keepLarger(schlieren::PixelArray<float>& kept, const schlieren::PixelArray<float>& others)
+{
+  for (std::size_t i = 0; i < std::min(kept.size(), others.size()); ++i)
+  {
+    kept[i] = std::max(kept[i], others[i]);
+  }
+}
+
 /// Adds histograms with the same number of bins, in the bins of the larger range, which is the
 /// other times a power of two. Bins that overlap two others go to the one at their centre.
 void add(schlieren::Histogram& sum, schlieren::Histogram&& histogram)
@@ -102,8 +110,9 @@ void MeanImage::Add(schlieren::Image&& image)
   mean.momentumDrift = std::max(mean.momentumDrift, image.momentumDrift);
   if (image.accuracy.reached > mean.accuracy.reached)
   {
-    mean.accuracy = image.accuracy;
+    std::swap(mean.accuracy, image.accuracy);
   }
+  keepLarger(mean.accuracy.estimate, image.accuracy.estimate);
   if (image.steepestChange > mean.steepestChange)
   {
     mean.steepestChange = image.steepestChange;

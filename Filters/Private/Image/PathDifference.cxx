@@ -41,6 +41,13 @@ schlieren::Image differenceOf(
   addRays(image, straight);
   image.accuracy.reached = 0.5 * std::hypot(image.accuracy.reached, straight.accuracy.reached);
   image.accuracy.largest = 0.5 * std::hypot(image.accuracy.largest, straight.accuracy.largest);
+  image.accuracy.ofData = 0.5 * std::hypot(image.accuracy.ofData, straight.accuracy.ofData);
+  schlieren::PixelArray<float>& estimate = image.accuracy.estimate;
+  const schlieren::PixelArray<float>& ofStraight = straight.accuracy.estimate;
+  for (std::size_t i = 0; i < std::min(estimate.size(), ofStraight.size()); ++i)
+  {
+    estimate[i] = 0.5F * std::hypot(estimate[i], ofStraight[i]);
+  }
   image.samples = std::min(image.samples, straight.samples);
   image.finished = image.finished && straight.finished;
   return image;

@@ -236,6 +236,9 @@ schlieren::Scene sceneFrom(
   scene.targetError = settings.AutoTargetError
     ? schlieren::unseenError(schlieren::techniqueOf(scene.cutoff))
     : settings.TargetError;
+  scene.errorNorm = static_cast<schlieren::ErrorNorm>(settings.TargetNorm);
+  scene.estimatesErrors = settings.ErrorEstimate;
+  scene.estimatesDataError = settings.DataError;
   scene.mediumMemory = static_cast<std::size_t>(settings.MediumMemory) << 20;
   scene.device = static_cast<schlieren::Device>(settings.Device);
   scene.threads = threadsFrom(settings.NumberOfThreads);

@@ -6,6 +6,7 @@
 #include "TrueError.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace schlieren
@@ -123,6 +124,105 @@ TEST_P(TargetError, IsKeptInATree)
 {
   expectKept(fieldOf(
     std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.4, 1e-3 } }, 1., 0.1)));
+}
+
+/// The error of each pixel is stated, and the largest of all is kept.
+TEST_P(TargetError, OfAllPixelsIsKept)
+{
+  const SampledField<float> field(cube(48, 1), shock);
+  Scene scene = sceneOf(GetParam());
+  scene.targetError = 4 * GetParam().target;
+  scene.errorNorm = ErrorNorm::Largest;
+  scene.estimatesErrors = true;
+  const Image image = Bench().render(field.field, scene);
+  const Image truth = finest(field.field, scene, image.kScale);
+  ASSERT_EQ(image.accuracy.estimate.size(), truth.intensity.size());
+  ASSERT_TRUE(image.accuracy.isKept());
+  double largest = 0, largestEstimate = 0;
+  std::int64_t crossed = 0, isBelow = 0;
+  for (std::size_t pixel = 0; pixel < truth.intensity.size(); ++pixel)
+  {
+    const double estimate = static_cast<double>(image.accuracy.estimate[pixel]);
+    largestEstimate = std::max(largestEstimate, estimate);
+    if (truth.opticalPathDifference[pixel] != 0)
+    {
+      const double error = trueErrorAt(image, truth, scene, pixel);
+      largest = std::max(largest, error);
+      ++crossed;
+      isBelow += error <= 2 * estimate + 0.05 * scene.targetError ? 1 : 0;
+    }
+  }
+  EXPECT_LE(largest, scene.targetError);
+  EXPECT_GT(image.accuracy.reached, 0.5 * largest);
+  EXPECT_LT(image.accuracy.reached, 4 * largest);
+  EXPECT_EQ(image.accuracy.reached, image.accuracy.largest);
+  EXPECT_GT(largestEstimate,
+    0.5 * image.accuracy.reached); // the largest of steps may be elsewhere than that of rays
+  EXPECT_LE(largestEstimate, 1.0001 * image.accuracy.reached);
+  EXPECT_GT(isBelow, 0.95 * static_cast<double>(crossed));
+}
+
+/// What samples leave open is what finer samples of the same formula change: at a shock within a factor of 2.5. In smooth
+/// flow, where it is small, cubic splines are more exact than the quadratic ones that they are compared with.
+TEST_P(TargetError, OfDataIsSaid)
+{
+  for (const auto& formula : { ball, shock })
+  {
+    for (const std::int64_t points : { 48, 24 })
+    {
+      SCOPED_TRACE(points);
+      const SampledField<float> field(cube(points, 1), formula);
+      const SampledField<float> finer(cube(4 * points, 1), formula);
+      Scene scene = sceneOf(GetParam());
+      scene.targetError = GetParam().target;
+      scene.estimatesDataError = true;
+      const Image image = Bench().render(field.field, scene);
+      scene.kScale = image.kScale > 0 ? std::optional<double>(image.kScale) : std::nullopt;
+      const Image truth = Bench().render(finer.field, scene);
+      const double error = trueError(image, truth, scene,
+        [&](std::size_t pixel) { return image.opticalPathDifference[pixel] != 0; });
+      EXPECT_GT(image.accuracy.ofData, 0.4 * error - 0.05 * scene.targetError);
+      EXPECT_LT(image.accuracy.ofData, 2.5 * error + 0.4 * scene.targetError);
+    }
+  }
+}
+
+TEST(TargetErrors, OfDataAreUnknownUnlessTheyAreWanted)
+{
+  const SampledField<float> field(cube(24, 1), shock);
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  scene.targetError = 1. / 256;
+  Bench bench;
+  scene.estimatesDataError = true;
+  EXPECT_GT(bench.render(field.field, scene).accuracy.ofData, 0);
+  scene.estimatesDataError = false;
+  EXPECT_TRUE(std::isnan(bench.render(field.field, scene).accuracy.ofData));
+  scene.estimatesDataError = true;
+  const Field mesh = fieldOf(
+    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.4, 1e-3 } }, 1., 0.1));
+  EXPECT_TRUE(std::isnan(bench.render(mesh, scene).accuracy.ofData));
+}
+
+/// However few rays fit into memory, and however often it pauses.
+TEST(TargetErrors, OfAllPixelsNeedNoMemory)
+{
+  const SampledField<float> field(cube(32, 1), shock);
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  scene.targetError = 1. / 256;
+  scene.estimatesErrors = true;
+  const Image image = Bench().render(field.field, scene);
+  EXPECT_FALSE(image.accuracy.estimate.empty());
+  scene.memoryBudget = 1;
+  Monitor always;
+  always.paused = [] { return true; };
+  Bench bench;
+  Image again = bench.render(field.field, scene, always);
+  for (int calls = 0; bench.isUnfinished() && calls < 3000; ++calls)
+  {
+    again = bench.resume(always);
+  }
+  EXPECT_EQ(again.accuracy.estimate, image.accuracy.estimate);
+  EXPECT_EQ(again.accuracy.reached, image.accuracy.reached);
 }
 
 /// What nothing can keep is said.

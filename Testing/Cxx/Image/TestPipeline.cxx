@@ -419,7 +419,8 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
       "LensDiffraction", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth", "FilmEstimator",
       "NoiseFilter", "NoiseFilterRadius", "HistogramSize", "MemoryBudget", "Quality", "PathModel",
       "Integrator", "StepSize", "HomogeneityTolerance", "Interpolation", "SamplesPerPixel",
-      "Precision", "AdaptiveTolerance", "PathTolerance", "Seed", "Device", "NumberOfThreads" })
+      "Precision", "AdaptiveTolerance", "PathTolerance", "TargetError", "TargetNorm",
+      "ErrorEstimate", "DataError", "Seed", "Device", "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bench/PatchFilm.h"
+
+#include "Bench/StageSettings.h"
+#include "Math/Units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace schlieren
+{
+
+namespace
+{
+
+/// Caustics: light that is displaced by no more than this is where it should be, pixels.
+constexpr double invisibleShift = 0.05;
+
+Projection projectionOfPart(const Projection& projection, double column, double row)
+{
+  Projection part = projection;
+  part.inclination.atOrigin[0] += column * projection.inclination.perPixel;
+  part.inclination.atOrigin[1] += row * projection.inclination.perPixel;
+  return part;
+}
+
+FilmSettings settingsOf(const Patch& patch, const Scene& scene, int samples, int threads)
+{
+  FilmSettings settings = filmSettingsOf(scene);
+  settings.width = static_cast<int>(patch.columns);
+  settings.height = static_cast<int>(patch.rows);
+  settings.samplesPerPixel = samples;
+  settings.noiseFilter = NoiseFilter::None;
+  settings.isOfCamera = false;
+  settings.threads = threads;
+  return settings;
+}
+
+/// What a shift by a pixel would change, at the most.
+double slopeAt(std::size_t pixel, const std::vector<float>& light, const Patch& patch)
+{
+  const auto columns = static_cast<std::size_t>(patch.columns);
+  const auto rows = static_cast<std::size_t>(patch.rows);
+  const std::size_t column = pixel % columns, row = pixel / columns;
+  double slope = 0;
+  const auto look = [&](bool isThere, std::size_t other)
+  {
+    slope =
+      isThere ? std::max(slope, std::abs(static_cast<double>(light[other] - light[pixel]))) : slope;
+  };
+  look(column > 0, pixel - 1);
+  look(column + 1 < columns, pixel + 1);
+  look(row > 0, pixel - columns);
+  look(row + 1 < rows, pixel + columns);
+  return slope;
+}
+
+double differenceAt(std::size_t pixel, const PatchPixels& a, const PatchPixels& b,
+  const Patch& patch, const Scene& scene, const Projection& projection)
+{
+  const Technique& technique = techniqueOf(scene.cutoff);
+  if (technique.plane == RecordedPlane::Background)
+  {
+    const auto movedBy = [&](std::size_t axis)
+    { return static_cast<double>(a.moved[2 * pixel + axis] - b.moved[2 * pixel + axis]); };
+    return projection.perDataUnit * std::hypot(movedBy(0), movedBy(1));
+  }
+  const std::size_t channels = a.light.size() / b.hasCrossed.size();
+  double ofLight = 0;
+  for (std::size_t at = channels * pixel; at < channels * (pixel + 1); ++at)
+  {
+    ofLight = std::max(
+      ofLight, std::abs(static_cast<double>(a.light[at]) - static_cast<double>(b.light[at])));
+  }
+  if (technique.plane == RecordedPlane::Screen)
+  {
+    return std::max(0., ofLight - invisibleShift * slopeAt(pixel, b.light, patch));
+  }
+  if (technique.hasFringes)
+  {
+    // The light of a fringe changes by pi of its range in a fringe, at the most.
+    const double ofPath =
+      b.isClear[pixel] ? std::abs(a.path[pixel] - b.path[pixel]) / scene.wavelength : 0;
+    return std::max(ofLight / pi, ofPath);
+  }
+  return ofLight;
+}
+
+} // namespace
+
+PatchFilm::PatchFilm(const Patch& patch, const Scene& scene, const Cutoffs& cutoff,
+  const Projection& projection, int samples, int threads)
+  : patch_(patch)
+  , projection_(projectionOfPart(
+      projection, static_cast<double>(patch.fromColumn), static_cast<double>(patch.fromRow)))
+  , settings_(settingsOf(patch, scene, samples, threads))
+  , film_(settings_)
+{
+  const std::int64_t rays = (patch.columns + 2 * patch.margin) * (patch.rows + 2 * patch.margin);
+  film_.begin({ cutoff, projection_, patch.margin, rays * passesToHold(samples) }, {});
+  // What lands on a patch from elsewhere counts as a whole.
+  const bool isOfPlace = patch.fromColumn == patch.column && patch.fromRow == patch.row;
+  pixels_.hasCrossed.assign(static_cast<std::size_t>(patch.columns * patch.rows), !isOfPlace);
+}
+
+void PatchFilm::add(const TracedPass& traced, const Pass& pass)
+{
+  const bool isFirst = film_.passes() == 0;
+  film_.add(traced, pass, schlieren::Rays::Go, {});
+  const std::int64_t columns = patch_.columns + 2 * patch_.margin;
+  std::size_t pixel = 0;
+  for (std::int64_t row = patch_.margin; row < patch_.margin + patch_.rows; ++row)
+  {
+    for (std::int64_t column = patch_.margin; column < patch_.margin + patch_.columns; ++column)
+    {
+      const RayExit& exit = traced.exits[static_cast<std::size_t>(row * columns + column)];
+      // Also of pixels whose centre is dark.
+      pixels_.hasCrossed[pixel] = pixels_.hasCrossed[pixel] || exit.fate == RayFate::Left;
+      if (isFirst)
+      {
+        pixels_.isClear.push_back(exit.reachesFilm());
+      }
+      ++pixel;
+    }
+  }
+}
+
+PatchPixels PatchFilm::develop()
+{
+  Image image;
+  image.width = settings_.width;
+  image.height = settings_.height;
+  film_.develop(image);
+  const PixelArray<float>& light = image.color.empty() ? image.intensity : image.color;
+  pixels_.light.assign(light.begin(), light.end());
+  pixels_.path.assign(image.opticalPathDifference.begin(), image.opticalPathDifference.end());
+  const PixelArray<float> moved = backgroundDisplacement(image, projection_);
+  pixels_.moved.assign(moved.begin(), moved.end());
+  return std::move(pixels_);
+}
+
+void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& patch, double factor,
+  const Scene& scene, const Projection& projection, Differences& differences)
+{
+  for (std::size_t pixel = 0; pixel < b.hasCrossed.size(); ++pixel)
+  {
+    if (b.hasCrossed[pixel])
+    {
+      const double difference = differenceAt(pixel, a, b, patch, scene, projection);
+      differences.push_back({ factor * difference, patch.weight, pixel });
+    }
+  }
+}
+
+} // namespace schlieren

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Bench/Differences.h"
+#include "Bench/Patches.h"
+#include "Film/ProgressiveImage.h"
+#include "Schlieren.h"
+
+#include <vector>
+
+namespace schlieren
+{
+
+/// What of a patch's image is compared.
+struct PatchPixels
+{
+  std::vector<float> light; ///< a value for each channel of each pixel
+  std::vector<double> path; ///< metres
+  std::vector<float> moved; ///< two for each pixel, data units: of the background
+  std::vector<bool> hasCrossed;
+  std::vector<bool> isClear; ///< at the pixel's centre, whose path it has
+};
+
+/// Exposes a patch.
+class PatchFilm
+{
+public:
+  /// Of so many rays per pixel. `projection`: of the image; `cutoff`: its table stays with its owner.
+  PatchFilm(const Patch& patch, const Scene& scene, const Cutoffs& cutoff,
+    const Projection& projection, int samples, int threads);
+
+  void add(const TracedPass& traced, const Pass& pass);
+  int passes() const { return static_cast<int>(film_.passes()); }
+  PatchPixels develop();
+
+private:
+  Patch patch_;
+  Projection projection_;
+  FilmSettings settings_;
+  ProgressiveImage film_;
+  PatchPixels pixels_; ///< what of them the passes have shown
+};
+
+/// Adds the differences of pixels, times a factor, as the technique's reader sees them: see Scene::targetError.
+void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& patch, double factor,
+  const Scene& scene, const Projection& projection, Differences& differences);
+
+} // namespace schlieren
