@@ -67,7 +67,7 @@ double differenceAt(std::size_t pixel, const PatchPixels& a, const PatchPixels& 
     { return static_cast<double>(a.moved[2 * pixel + axis] - b.moved[2 * pixel + axis]); };
     return projection.perDataUnit * std::hypot(movedBy(0), movedBy(1));
   }
-  const std::size_t channels = a.light.size() / b.hasCrossed.size();
+  const std::size_t channels = a.light.size() / b.isLit.size();
   double ofLight = 0;
   for (std::size_t at = channels * pixel; at < channels * (pixel + 1); ++at)
   {
@@ -102,7 +102,9 @@ PatchFilm::PatchFilm(const Patch& patch, const Scene& scene, const Cutoffs& cuto
   film_.begin({ cutoff, projection_, patch.margin, rays * passesToHold(samples) }, {});
   // What lands on a patch from elsewhere counts as a whole.
   const bool isOfPlace = patch.fromColumn == patch.column && patch.fromRow == patch.row;
-  pixels_.hasCrossed.assign(static_cast<std::size_t>(patch.columns * patch.rows), !isOfPlace);
+  const auto pixels = static_cast<std::size_t>(patch.columns * patch.rows);
+  pixels_.hasMet.assign(pixels, !isOfPlace);
+  pixels_.isLit.assign(pixels, !isOfPlace);
 }
 
 void PatchFilm::add(const TracedPass& traced, const Pass& pass)
@@ -116,8 +118,8 @@ void PatchFilm::add(const TracedPass& traced, const Pass& pass)
     for (std::int64_t column = patch_.margin; column < patch_.margin + patch_.columns; ++column)
     {
       const RayExit& exit = traced.exits[static_cast<std::size_t>(row * columns + column)];
-      // Also of pixels whose centre is dark.
-      pixels_.hasCrossed[pixel] = pixels_.hasCrossed[pixel] || exit.fate == RayFate::Left;
+      pixels_.hasMet[pixel] = pixels_.hasMet[pixel] || exit.fate != RayFate::Missed;
+      pixels_.isLit[pixel] = pixels_.isLit[pixel] || exit.reachesFilm();
       if (isFirst)
       {
         pixels_.isClear.push_back(exit.reachesFilm());
@@ -144,9 +146,9 @@ PatchPixels PatchFilm::develop()
 void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& patch, double factor,
   const Scene& scene, const Projection& projection, Differences& differences)
 {
-  for (std::size_t pixel = 0; pixel < b.hasCrossed.size(); ++pixel)
+  for (std::size_t pixel = 0; pixel < b.isLit.size(); ++pixel)
   {
-    if (b.hasCrossed[pixel])
+    if (b.hasMet[pixel] && b.isLit[pixel])
     {
       const double difference = differenceAt(pixel, a, b, patch, scene, projection);
       differences.push_back({ factor * difference, patch.weight, pixel });

@@ -18,7 +18,10 @@ struct PatchPixels
   std::vector<float> light; ///< a value for each channel of each pixel
   std::vector<double> path; ///< metres
   std::vector<float> moved; ///< two for each pixel, data units: of the background
-  std::vector<bool> hasCrossed;
+  ///@{
+  /// Whether any of its rays has met the data, or a body in it; whether any gives light.
+  std::vector<bool> hasMet, isLit;
+  ///@}
   std::vector<bool> isClear; ///< at the pixel's centre, whose path it has
 };
 

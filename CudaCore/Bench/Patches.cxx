@@ -75,7 +75,8 @@ PatchLayout Planner::layOut(std::int64_t margin, bool wantsAllPixels)
             continue;
           }
           const bool isCrossing = scout->fate == RayFate::Left;
-          hasCrossing = hasCrossing || isCrossing;
+          hasCrossing = hasCrossing || isCrossing ||
+            (scouts_.areOfExtendedSource() && scout->fate != RayFate::Missed);
           hasBorder = hasBorder || scout->fate == RayFate::Missed;
           hasBody = hasBody || (!isCrossing && scout->fate != RayFate::Missed);
           variation =

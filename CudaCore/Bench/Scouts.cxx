@@ -37,6 +37,7 @@ Scouts::Scouts(RayTask<Real> task, const Light& light, double lengthScale, const
   const Projection& projection, const DeflectionErrors& errors)
   : technique_(&techniqueOf(scene.cutoff))
   , isOfCamera_(projection.isOfCamera)
+  , isExtended_(scene.source.shape != SourceShape::Point || light.pupilTilt > 0)
 {
   const View& view = scene.view;
   const double pixels = static_cast<double>(view.width) * view.height;

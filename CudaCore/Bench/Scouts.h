@@ -60,6 +60,8 @@ public:
   /// Whether pixels receive light from elsewhere. Fringes need the paths of their own pixels, and are in focus.
   bool areShifted() const { return !isOfCamera_ && !technique_->hasFringes; }
   bool areOfCamera() const { return isOfCamera_; }
+  /// Whether some light may pass a body that stops that of the source's middle.
+  bool areOfExtendedSource() const { return isExtended_; }
 
   /// By how much the light of rays differs from that of their neighbours, where they land: for each square.
   std::vector<double> variationsOnFilm() const;
@@ -69,6 +71,7 @@ private:
 
   const Technique* technique_;
   bool isOfCamera_;
+  bool isExtended_;
   PilotView view_;
   std::vector<Scout> scouts_;
   std::int64_t columns_ = 0, rows_ = 0, stride_ = 1;
