@@ -21,6 +21,7 @@
  * - `OpticalPathDifference` (double): metres, relative to undisturbed light;
  * - `Displacement` (3 floats): lateral, in the plane where light leaves the data, data units;
  * - `BlockedFraction` (float): fraction of the pixel's rays that a solid stopped;
+ * - `ErrorEstimate` (float), with ErrorEstimate: the pixel's error;
  * - `Background` (float) and `BackgroundDisplacement` (3 floats, data units), with
  *   BACKGROUND_ORIENTED only: the image without the flow, and the point of the pattern that is
  *   seen, less that without the flow (the image has moved in the opposite direction); with an
