@@ -183,15 +183,14 @@ Differences Pilot<Real>::compare(
     const RaySet raysOfA = raysOf(a);
     RaySet raysOfB = raysOf(b);
     const bool isOfRays = raysOfB.samples > raysOfA.samples;
-    if (isOfRays &&
-      !(bench_.light.pupilTilt > 0)) // of an aperture's points there are as many as rays
+    const bool isOfAperture = bench_.light.pupilTilt > 0; // whose points are as many as the rays
+    if (isOfRays && !isOfAperture && !layout_.isWhole)
     {
       constexpr int moreAtBodies = 4, most = 16; // what steps are compared with, too
       raysOfB.areOthers = place == PatchPlace::Border;
-      if (place == PatchPlace::Body && !layout_.isWhole)
-      {
-        raysOfB.samples = std::max(raysOfB.samples, std::min(moreAtBodies * raysOfB.samples, most));
-      }
+      raysOfB.samples = place == PatchPlace::Body
+        ? std::max(raysOfB.samples, std::min(moreAtBodies * raysOfB.samples, most))
+        : raysOfB.samples;
     }
     // The error falls as one over the number of rays, about.
     constexpr double partOfOthers = 0.85; // they err, too, and some see nothing of an edge
