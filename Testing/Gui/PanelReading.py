@@ -132,17 +132,16 @@ def texts(row):
     found = row.findChildren(QtWidgets.QLabel) + row.findChildren(QtWidgets.QAbstractButton)
     return [one for one in found if one.isVisible() and one.isEnabled() and one.text() and not one.size().isEmpty()]
 panel = widget("propertiesPanel", "PropertiesFrame", "ProxyPanel")
-checked = set()
 def check(name, places):
-    for one in places:
-        assert contrast(one) >= 4.5, (name, one.objectName(), contrast(one))
-        checked.add(name)
+    assert places and all(contrast(one) >= 4.5 for one in places), (name, [contrast(one) for one in places])
 usual = QApplication.palette()
 for palette in usual, dark:
     QApplication.setPalette(palette)
-    widget("propertiesPanel", "Cutoff", "ComboBox").setCurrentText("Color Filter")
-    plane = panel.findChild(QWidget, "Plane")
-    until(lambda: plane.isVisible() and plane.isEnabled() and plane.property("side") > 100)
+    for name, value in (("Cutoff", "Color Filter"), ("IndexModel", "Auto")):
+        widget("propertiesPanel", name, "ComboBox").setCurrentText(value)
+    plane, gas = panel.findChild(QWidget, "Plane"), panel.findChild(QWidget, "Gas")
+    until(lambda: plane.isVisible() and plane.isEnabled() and plane.property("side") > 100 and gas.isVisible())
+    pause(0.1)
     assert (luminance(panel.grab().toImage().pixelColor(0, 0)) < 0.1) == (palette is dark)
     for name in ("Gas", "LengthScale", "Cutoff", "LockK", "Sensitivity", "ColorFilterImage", "SchlierenCutoff", "Status"):
         check(name, texts(panel.findChild(QWidget, name)))
@@ -154,7 +153,7 @@ for palette in usual, dark:
         check(name, [one for one in panel.findChild(QWidget, name).findChildren(QtWidgets.QHeaderView) if one.isVisible()])
 QApplication.setPalette(usual)
 with open({REPORT!r}, "a", encoding="utf-8") as file:
-    file.write(f"{{len(checked)}} rows\\n")
+    file.write("readable\\n")
 """)
 user.reset()
 user.play(INSIDE + OPEN_JET)
@@ -166,7 +165,7 @@ assert lines == ["Interactive – errors up to 10 %, fastest",
                  "Publication – errors up to 0.2 %, 20 times as long",
                  "Reference – to compare with, hundreds of times as long",
                  "Automatic – errors that cannot be seen", "Custom – as set below",
-                 "Grid True True", "Status True True", "10 rows"], lines
+                 "Grid True True", "Status True True", "readable"], lines
 
 for state, point in (("point", [0.01, 0.0025, 0]), ("none", [])):
     simple.ResetSession()
