@@ -24,7 +24,7 @@ user.save_state("undone.pvsm")
 user.redo()
 user.save_state("redone.pvsm")
 has_help = (simple.GetParaViewVersion().major, simple.GetParaViewVersion().minor) != (5, 13)  # with Qt 6, none of plugins
-user.python(f"assert widget().findChild(QAction, 'actionGuide').isVisible() is {has_help}")
+user.python(f"assert widget('menuSchlieren').findChild(QAction, 'actionGuide').isVisible() is {has_help}")
 if has_help:
     user.menu("menuSchlieren", "actionGuide")
     user.python(f"""
