@@ -320,6 +320,7 @@ void vtkSchlierenActor::NoteTimes()
 {
   this->KnownTime = this->Bench->GetMTime();
   this->FailedTime = this->Bench->GetHasImage() ? 0 : this->KnownTime;
+  this->HasMore = false;
 }
 
 //------------------------------------------------------------------------------
@@ -405,6 +406,10 @@ bool vtkSchlierenActor::Refine()
   {
     return false;
   }
+  if (this->HasMore)
+  {
+    return true; // drawing takes time, too, and has a turn of its own
+  }
   const Silent silent(this->Silence);
   this->Reduction = 1;
   this->Bench->SetPreviewReduction(1);
@@ -412,7 +417,8 @@ bool vtkSchlierenActor::Refine()
   const vtkTypeInt64 before = this->Bench->GetPictureCount();
   this->Bench->Refine();
   this->KnownTime = this->Bench->GetMTime();
-  return this->Bench->GetPictureCount() != before || this->Bench->GetFinished();
+  this->HasMore = this->Bench->GetPictureCount() != before || this->Bench->GetFinished();
+  return false;
 }
 
 //------------------------------------------------------------------------------

@@ -125,7 +125,7 @@ public:
   bool IsChanged() const;
 
   /**
-   * Traces for TimeSlice. Returns whether there is more to show.
+   * Traces for TimeSlice, or returns true where there is more to show since the last call.
    */
   bool Refine();
 
@@ -196,6 +196,7 @@ private:
   bool HasDrawnScene = false;
   bool HasData = false;
   bool Finished = true;
+  bool HasMore = false; // than was drawn
   bool IsForScreenshot = false;
   bool HasOtherRanks = false;
   double TimeSlice = 0;

@@ -169,6 +169,7 @@ void pqSchlierenToolBar::addMenu()
     menu->addAction("&Guide", []() { pqHelpReaction::showProxyHelp("filters", "Schlieren"); });
   guide->setObjectName("actionGuide");
   guide->setToolTip("Show what the settings mean in ParaView's help");
+  guide->setVisible(SCHLIEREN_HAS_HELP); // ParaView would show its own first page
   const QList<QAction*> menus = window->menuBar()->actions();
   window->menuBar()->insertMenu(menus.empty() ? nullptr : menus.last(), menu);
 }

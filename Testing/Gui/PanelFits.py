@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The properties panel of each cutoff is no wider than ParaView's, the widgets of which the keyboard reaches; a phase
-contrast that is chosen by hand is made of waves, in one step of undo; and k from optics is that of the optics."""
+"""The properties panel of each cutoff is no wider than ParaView's, with advanced properties, too; the keyboard reaches
+its widgets; a phase contrast that is chosen by hand is made of waves, in one step of undo; and k from optics is that of
+the optics."""
 
 import os
 
@@ -23,14 +24,16 @@ names = widget("propertiesPanel", "Cutoff", "ComboBox")
 settings = [dict(Cutoff=names.itemText(i)) for i in range(names.count())]
 settings += [dict(IndexModel=model, Cutoff="Knife Edge") for model in ("Ciddor", "Gladstone-Dale Mixture", "Transfer Functions")]
 settings += [dict(IndexModel="Auto", KFromOptics=True), dict(KFromOptics=False, AutoKScale=False), dict(AutoKScale=True)]
-for change in settings:
-    for name, value in change.items():
-        if isinstance(value, bool):
-            widget("propertiesPanel", name, "CheckBox").setChecked(value)
-        else:
-            widget("propertiesPanel", name, "ComboBox").setCurrentText(value)
-    process_events()
-    assert panel.minimumSizeHint().width() <= room, (change, panel.minimumSizeHint().width(), room)
+for _ in "usual", "advanced":
+    for change in settings:
+        for name, value in change.items():
+            if isinstance(value, bool):
+                widget("propertiesPanel", name, "CheckBox").setChecked(value)
+            else:
+                widget("propertiesPanel", name, "ComboBox").setCurrentText(value)
+        process_events()
+        assert panel.minimumSizeHint().width() <= room, (change, panel.minimumSizeHint().width(), room)
+    click(widget("propertiesPanel", "SearchBox", "AdvancedButton"))
 
 def reached(name, most):
     QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Tab)

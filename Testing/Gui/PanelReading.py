@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """The properties panel as it is read: units behind names, what is there without asking for advanced properties, which
-gas a constant is of, the point at the image's centre, which presets are faster, and notes that look like notes."""
+gas a constant is of, the point at the image's centre, which presets are faster, notes that look like notes,
+and texts that can be read with dark colours."""
 
 import os
 
@@ -110,6 +111,51 @@ with open({REPORT!r}, "w", encoding="utf-8") as file:
         behind = note.grab().toImage().pixelColor(note.width() - 1, 0)
         file.write(f"{{name}} {{note.isEnabled()}} {{behind == around}}\\n")
 """)
+
+# With dark colours, too, the plugin's own texts have the contrast of WCAG 2 to what is behind them, 4.5.
+user.python(f"""
+from collections import Counter
+dark = QtGui.QPalette(QtGui.QColor("#353535"), QtGui.QColor("#303030"))
+def luminance(color):
+    linear = [value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055)**2.4
+              for value in (color.redF(), color.greenF(), color.blueF())]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+def contrast(one, top=0):
+    "Of what stands out most from the colour that most of a widget has, from this row on."
+    image = one.grab(one.rect().adjusted(0, top, 0, 0)).toImage()
+    counts = Counter(image.pixel(x, y) for x in range(image.width()) for y in range(image.height()))
+    values = {{color: luminance(QtGui.QColor(color)) for color in counts}}
+    behind = values[max(counts, key=counts.get)]
+    return max((max(value, behind) + 0.05) / (min(value, behind) + 0.05) for value in values.values())
+def texts(row):
+    "The labels and buttons of a property."
+    found = row.findChildren(QtWidgets.QLabel) + row.findChildren(QtWidgets.QAbstractButton)
+    return [one for one in found if one.isVisible() and one.isEnabled() and one.text() and not one.size().isEmpty()]
+panel = widget("propertiesPanel", "PropertiesFrame", "ProxyPanel")
+def check(name, places):
+    assert places and all(contrast(one) >= 4.5 for one in places), (name, [contrast(one) for one in places])
+usual = QApplication.palette()
+for palette in usual, dark:
+    QApplication.setPalette(palette)
+    for name, value in (("Cutoff", "Color Filter"), ("IndexModel", "Auto")):
+        widget("propertiesPanel", name, "ComboBox").setCurrentText(value)
+    plane, gas = panel.findChild(QWidget, "Plane"), panel.findChild(QWidget, "Gas")
+    until(lambda: plane.isVisible() and plane.isEnabled() and plane.property("side") > 100 and gas.isVisible())
+    pause(0.1)
+    assert (luminance(panel.grab().toImage().pixelColor(0, 0)) < 0.1) == (palette is dark)
+    for name in ("Gas", "LengthScale", "Cutoff", "LockK", "Sensitivity", "ColorFilterImage", "SchlierenCutoff", "Status"):
+        check(name, texts(panel.findChild(QWidget, name)))
+    assert contrast(plane, top=round(plane.property("side")) + 5) >= 4.5
+    for model, name in (("Gladstone-Dale Mixture", "SchlierenGasMixture"), ("Transfer Functions", "SchlierenFields")):
+        widget("propertiesPanel", "IndexModel", "ComboBox").setCurrentText(model)
+        until(panel.findChild(QWidget, name).isVisible)
+        check(name, texts(panel.findChild(QWidget, name)))
+        check(name, [one for one in panel.findChild(QWidget, name).findChildren(QtWidgets.QHeaderView) if one.isVisible()])
+QApplication.setPalette(usual)
+with open({REPORT!r}, "a", encoding="utf-8") as file:
+    file.write("readable\\n")
+""")
+user.reset()
 user.play(INSIDE + OPEN_JET)
 
 with open(REPORT, encoding="utf-8") as file:
@@ -119,7 +165,7 @@ assert lines == ["Interactive – errors up to 10 %, fastest",
                  "Publication – errors up to 0.2 %, 20 times as long",
                  "Reference – to compare with, hundreds of times as long",
                  "Automatic – errors that cannot be seen", "Custom – as set below",
-                 "Grid True True", "Status True True"], lines
+                 "Grid True True", "Status True True", "readable"], lines
 
 for state, point in (("point", [0.01, 0.0025, 0]), ("none", [])):
     simple.ResetSession()

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """What interrupts a view whose image is far from complete: another time step, and Edit > Reset Session, after which a
-new session works as the first one did."""
+new session works as the first one did. The key of the latter does nothing while a refractive index is computed."""
 
 import os
 
 import numpy as np
-from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession
+from views_testing import FOLDER, INSIDE, MESH, OPEN_JET, ViewsSession
 from series_testing import write_series
 
 TIMES = [0, 1, 2]
@@ -50,8 +50,7 @@ for step, ratio in ((1, 2), (2, 3), (0, 1)):
 report("steps")
 until(refines)
 """)
-user.python("""
-(action,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
+CONFIRM = """
 def confirm():
     question = QApplication.activeModalWidget()
     if question:
@@ -59,10 +58,44 @@ def confirm():
     else:
         QTimer.singleShot(200, confirm)
 QTimer.singleShot(500, confirm)
+"""
+GONE = "until(lambda: not GetSources() and not displays(), 20)\n"
+user.python(CONFIRM + """
+(action,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
 QTimer.singleShot(0, action.trigger)
 """)
 user.idle()
-user.python("until(lambda: not GetSources() and not displays(), 20)\n" + OPEN_JET)
+user.python(GONE + MESH)
+user.press("OneImage")
+user.python(HELPERS + """
+until(lambda: information(bench, "PictureCount") > 0 and path() > 0)
+report("reset")
+""")
+
+# While the refractive index is computed, its key does nothing; afterwards it does.
+user.python(HELPERS + CONFIRM.replace("QTimer.singleShot(500, confirm)", "") + """
+settle_views()
+algorithm, pressed = bench.GetClientSideObject(), []
+def press():
+    pressed.append(algorithm.GetProgress())
+    QTest.keyClick(widget(), Qt.Key.Key_R, Qt.KeyboardModifier.ControlModifier)
+def watch(*_):
+    if not pressed and algorithm.GetProgress() > 0.05:
+        QTimer.singleShot(0, press)
+QApplication.setActiveWindow(widget())
+tag, builds = algorithm.AddObserver("ProgressEvent", watch), information(bench, "MediumBuilds")
+bench.SamplingDimensions = 3 * [250]
+Render(FindView("Schlieren View"))
+algorithm.RemoveObserver(tag)
+assert pressed and all(0 < progress < 1 for progress in pressed), pressed
+settle_views()
+assert GetSources() and information(bench, "MediumBuilds") > builds and not QApplication.activeModalWidget()
+report("dropped")
+QTimer.singleShot(0, press)
+QTimer.singleShot(500, confirm)
+""")
+user.idle()
+user.python(GONE + OPEN_JET)
 user.press("OneImage")
 user.python(HELPERS + """
 until(lambda: information(bench, "PictureCount") > 0 and path() > 0)
@@ -79,4 +112,4 @@ SetActiveSource(flow)
 """)
 
 with open(REPORT, encoding="utf-8") as file:
-    assert file.read().split() == ["steps", "reset"]
+    assert file.read().split() == ["steps", "reset", "dropped", "reset"]

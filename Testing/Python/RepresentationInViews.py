@@ -58,6 +58,28 @@ for z in (-20, 0, 20):
 simple.ResetCamera(view)
 assert math.isclose(view.CameraParallelScale, bounds), (view.CameraParallelScale, bounds)
 
+# Streaming updates trace or draw, never both, so that none takes the time of both.
+bench, drawn, updates = display.SchlierenBench, [], set()
+display.SchlierenTimeSlice = 0.01
+bench.SamplesPerPixel = 300
+simple.Render(view)
+
+
+def information(name):
+    bench.UpdatePropertyInformation()
+    return bench.GetProperty(name).GetData()
+
+
+tag = view.GetRenderWindow().AddObserver("EndEvent", lambda *_: drawn.append(None))
+while information("Finished") == 0:
+    count = information("PictureCount")
+    drawn.clear()
+    view.SMProxy.StreamingUpdate(True)
+    updates.add((information("PictureCount") > count, len(drawn) > 0))
+view.GetRenderWindow().RemoveObserver(tag)
+assert {(True, False), (False, True)} <= updates and (True, True) not in updates, updates
+display.SchlierenTimeSlice, bench.SamplesPerPixel = 0, 1
+
 # With a perspective camera it agrees with surfaces everywhere: of bodies before, beside and behind the focal point, what
 # their surfaces hide is where they block light.
 camera = view.GetActiveCamera()

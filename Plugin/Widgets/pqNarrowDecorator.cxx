@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pqNarrowListDecorator.h"
+#include "pqNarrowDecorator.h"
 
 #include "WidgetRows.h"
 #include "pqPropertyWidget.h"
 
 //------------------------------------------------------------------------------
-pqNarrowListDecorator::pqNarrowListDecorator(
-  vtkPVXMLElement* element, pqPropertyWidget* parentObject)
+pqNarrowDecorator::pqNarrowDecorator(vtkPVXMLElement* element, pqPropertyWidget* parentObject)
   : pqPropertyWidgetDecorator(element, parentObject)
 {
   narrowLists(parentObject);
+  if (QLayout* layout = parentObject->layout())
+  {
+    layout->setContentsMargins(0, 0, 0, 0);
+  }
 }
 
 //------------------------------------------------------------------------------
-pqNarrowListDecorator::~pqNarrowListDecorator() = default;
+pqNarrowDecorator::~pqNarrowDecorator() = default;
