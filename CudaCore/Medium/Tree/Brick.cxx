@@ -22,9 +22,6 @@ namespace
 /// voxel.
 constexpr double errorByThirdDifference = 1. / 12;
 
-/// Edges are linear in their distances: finer voxels than this part of a cell show nothing new.
-constexpr double edgeVoxelByCell = 0.5;
-
 /// Layers around the samples of a brick with edges that continued values may depend on.
 constexpr int marginOfEdges = 2;
 
@@ -258,11 +255,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   facts.normals = bend > 0 ? normals : facts.normals;
   facts.edgeError =
     static_cast<double>(bend) * *std::max_element(voxel.begin(), voxel.begin() + axes());
-  for (std::size_t axis = 0; axis < axes(); ++axis)
-  {
-    facts.areEdgesFine =
-      facts.areEdgesFine && !(voxel[axis] > edgeVoxelByCell * content.cellSize[axis]);
-  }
+  facts.areEdgesFine = areEdgesFine(place.level, content);
   if (!facts.hasWallEdge && facts.besideWindow <= negligible && samples.fields.n == 0)
   {
     facts.neglected = std::max(facts.neglected, facts.besideWindow);
@@ -464,9 +457,11 @@ void BrickMaker<Real>::findSlopes(Brick<Real>& brick) const
 }
 
 template <class Real>
-Brick<Real> BrickMaker<Real>::make(const NodePlace& place, const Negligible& negligible) const
+Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
 {
-  Outline outline = outlineOf(place, negligible);
+  const NodePlace& place = request.place;
+  const Negligible& negligible = request.negligible;
+  Outline outline = outlineOf(request);
   Brick<Real> brick = std::move(outline.brick);
   if (!outline.isSampled)
   {

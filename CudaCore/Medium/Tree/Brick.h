@@ -99,6 +99,9 @@ struct BrickRequest
 {
   NodePlace place;
   Negligible negligible;
+  /// Whether it is to be divided, and its children again, where it has walls that are not flat and finer than its
+  /// voxels. Then it needs no samples.
+  bool dividesAtWalls = false;
 };
 
 /// What bricks depend on besides their source.
@@ -120,7 +123,7 @@ public:
 
   BrickMaker(const MediumSource& source, const BrickRules& rules);
 
-  Brick<Real> make(const NodePlace& place, const Negligible& negligible) const;
+  Brick<Real> make(const BrickRequest& request) const;
 
   /// Where the source has makers, the bricks that they make; otherwise none.
   std::vector<Brick<Real>> makeTogether(const std::vector<BrickRequest>& requests) const;
@@ -141,7 +144,8 @@ private:
   struct Outline;
 
   Box boxWithApron(const NodePlace& place) const;
-  Outline outlineOf(const NodePlace& place, const Negligible& negligible) const;
+  Outline outlineOf(const BrickRequest& request) const;
+  bool areEdgesFine(int level, const MediumSource::Content& content) const;
   Lattice latticeOf(const NodePlace& place, int margin) const;
   int marginOf(bool hasEdges, bool hasFields) const;
   int preparedMarginOf(bool hasEdges, bool hasFields) const;

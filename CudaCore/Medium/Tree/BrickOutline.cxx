@@ -15,10 +15,24 @@
 namespace schlieren
 {
 
+/// Whether voxels are much finer than cells, so that edges, which are linear in their distances, show nothing new.
 template <class Real>
-typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(
-  const NodePlace& place, const Negligible& negligible) const
+bool BrickMaker<Real>::areEdgesFine(int level, const MediumSource::Content& content) const
 {
+  constexpr double edgeVoxelByCell = 0.5;
+  const std::array<double, 3> voxel = voxelOf(level);
+  bool areFine = true;
+  for (std::size_t axis = 0; axis < axes(); ++axis)
+  {
+    areFine = areFine && !(voxel[axis] > edgeVoxelByCell * content.cellSize[axis]);
+  }
+  return areFine;
+}
+
+template <class Real>
+typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(const BrickRequest& request) const
+{
+  const auto& [place, negligible, dividesAtWalls] = request;
   Outline outline{ boxWithApron(place), {}, 0, 0, false, false, false, {} };
   Brick<Real>& brick = outline.brick;
   outline.content = source_.contentOf(outline.box);
@@ -48,7 +62,9 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(
       return outline;
     }
   }
-  if (place.level < 0)
+  const bool isDivided = dividesAtWalls && content.hasWall && !content.hasWindow &&
+    !content.areWallsFlat && !outline.hasFields && !areEdgesFine(place.level, content);
+  if (place.level < 0 || isDivided)
   {
     brick.facts.isTooLarge = true;
     return outline;
@@ -97,8 +113,7 @@ std::vector<std::vector<char>> BrickMaker<Real>::makeShare(
   }
   source_.prepareContents(boxes);
   std::vector<Outline> outlines(requests.size());
-  forEach(requests.size(),
-    [&](std::size_t n) { outlines[n] = outlineOf(requests[n].place, requests[n].negligible); });
+  forEach(requests.size(), [&](std::size_t n) { outlines[n] = outlineOf(requests[n]); });
   std::vector<Lattice> lattices;
   std::vector<std::size_t> own;
   for (std::size_t n = 0; n < requests.size(); ++n)
@@ -116,19 +131,14 @@ std::vector<std::vector<char>> BrickMaker<Real>::makeShare(
   }
   source_.prepareSamples(lattices);
   std::vector<std::vector<char>> made(requests.size());
-  forEach(own.size(),
-    [&](std::size_t i)
-    {
-      const BrickRequest& request = requests[own[i]];
-      made[own[i]] = make(request.place, request.negligible).toBytes();
-    });
+  forEach(own.size(), [&](std::size_t i) { made[own[i]] = make(requests[own[i]]).toBytes(); });
   return made;
 }
 
-template BrickMaker<float>::Outline BrickMaker<float>::outlineOf(
-  const NodePlace&, const Negligible&) const;
-template BrickMaker<double>::Outline BrickMaker<double>::outlineOf(
-  const NodePlace&, const Negligible&) const;
+template bool BrickMaker<float>::areEdgesFine(int, const MediumSource::Content&) const;
+template bool BrickMaker<double>::areEdgesFine(int, const MediumSource::Content&) const;
+template BrickMaker<float>::Outline BrickMaker<float>::outlineOf(const BrickRequest&) const;
+template BrickMaker<double>::Outline BrickMaker<double>::outlineOf(const BrickRequest&) const;
 template std::vector<Brick<float>> BrickMaker<float>::makeTogether(
   const std::vector<BrickRequest>&) const;
 template std::vector<std::vector<char>> BrickMaker<float>::makeShare(

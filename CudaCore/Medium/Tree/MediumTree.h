@@ -161,6 +161,7 @@ private:
   void makeBrick(std::size_t request);
   void makeRoots();
   void findBlockedLight();
+  void assumeDeflection(const View& view);
   RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);
   std::vector<Task> tasksOf(const View& view) const;

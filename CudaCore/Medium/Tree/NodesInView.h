@@ -21,6 +21,9 @@ class MediumTree<Real>::View
   /// Layers between samples that are no further apart than this do not matter.
   static constexpr double pixelsOfLayer = 4;
 
+  /// Of the largest voxels that show walls that are not flat.
+  static constexpr double pixelsOfVoxel = 4;
+
   /// Estimates how many levels a medium has, for the progress that is reported.
   static constexpr int usualLevels = 10;
 
@@ -146,13 +149,22 @@ public:
   /// pixels for that to be known; between planes and distances from them there is only the rounding of these.
   bool showsWalls(const Node& node, double pixels) const
   {
-    constexpr double pixelsOfVoxel = 4, pixelsOfVoxelAtPlanes = 400; // at most
+    constexpr double pixelsOfVoxelAtPlanes = 400; // at most
     const std::array<double, 3> voxel = tree_.maker_.voxelOf(node.place.level);
     const double pixel = pixelAt(node.place);
     const bool isFlat = node.facts.areWallsFlat;
     return (isFlat || node.facts.edgeError <= pixels * pixel) &&
       *std::max_element(voxel.begin(), voxel.begin() + tree_.maker_.axes()) <=
       (isFlat ? pixelsOfVoxelAtPlanes : pixelsOfVoxel) * pixel;
+  }
+
+  /// Whether a leaf is divided, and its children again, because of any walls that are not flat: see showsWalls().
+  bool dividesAtWalls(const NodePlace& place) const
+  {
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(place.level);
+    return !work_.isMemoryShort && allows(place.level, 2 * pixelAt(place)) &&
+      *std::max_element(voxel.begin(), voxel.begin() + tree_.maker_.axes()) >
+      2 * pixelsOfVoxel * pixelAt(place);
   }
 
   /// Whether walls are seen edge-on in a leaf, or would be after a small turn.
@@ -191,12 +203,18 @@ public:
     return { isNeeded ? 0 : usual.deflection, areFieldsNeeded ? 0 : usual.gathered };
   }
 
+  /// Whether a leaf has no samples because it is divided at walls.
+  bool awaitsWalls(const Node& node) const
+  {
+    return node.facts.isTooLarge && node.place.level >= 0;
+  }
+
   /// Whether a leaf lacks something that is not negligible.
   bool lacks(const Node& node, const NodeFields& fields) const
   {
     const Negligible usual = negligible(node.place.level);
     return node.isCoarse || fields.isCoarse || node.facts.neglected > usual.deflection ||
-      fields.facts.neglected > usual.gathered;
+      fields.facts.neglected > usual.gathered || (awaitsWalls(node) && !dividesAtWalls(node.place));
   }
 
   /// How far refining has come, when so much of this round is done. Each level takes some four times as long as

@@ -71,6 +71,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
         measure(view, found); // what is negligible leaf by leaf may not be so along a ray
       }
       findBlockedLight();
+      assumeDeflection(view);
       hasChanged = plan(view) || hasChanged;
       work_.isFinished = work_.tasks.empty();
     }
@@ -176,6 +177,22 @@ void MediumTree<Real>::findBlockedLight()
   work_.blocked.finish();
 }
 
+/// Where the view has leaves without samples because of their walls, rays have not met all of the medium. What is too
+/// coarse because of an assumption is found when they have.
+template <class Real>
+void MediumTree<Real>::assumeDeflection(const View& view)
+{
+  constexpr double leastByRange =
+    0.1; // of the largest deflection: a gradient over a tenth of its length
+  const bool areMissed = std::any_of(leafNodes_.begin(), leafNodes_.end(),
+    [&](std::int32_t at)
+    {
+      const Node& node = nodes_[static_cast<std::size_t>(at)];
+      return view.awaitsWalls(node) && view.sees(node.place) && !view.isDark(node.place);
+    });
+  work_.largest = areMissed ? std::max(work_.largest, leastByRange * rangeOfNu_) : work_.largest;
+}
+
 /// What there is to do: leaves to be made, and leaves to be divided.
 template <class Real>
 std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const View& view) const
@@ -258,6 +275,10 @@ bool MediumTree<Real>::plan(const View& view)
       hasThrownAway = true;
       makeRoots();
     }
+    else if (!work_.isMemoryShort)
+    {
+      work_.isMemoryShort = true; // leaves that may not be divided lack samples
+    }
     else
     {
       chooseWhatFits(available);
@@ -272,7 +293,6 @@ bool MediumTree<Real>::plan(const View& view)
 template <class Real>
 void MediumTree<Real>::chooseWhatFits(std::size_t available)
 {
-  work_.isMemoryShort = true;
   std::vector<Task>& tasks = work_.tasks;
   const auto levelOf = [&](const Task& task)
   { return nodes_[static_cast<std::size_t>(task.node)].place.level; };
@@ -321,7 +341,7 @@ void MediumTree<Real>::findBricks(const View& view)
       const NodePlace ofOne = task.divides ? childOf(place, child) : place;
       if (!task.divides || view.sees(ofOne))
       {
-        requests.push_back({ ofOne, negligible });
+        requests.push_back({ ofOne, negligible, view.dividesAtWalls(ofOne) });
         work_.boxes.push_back(task.divides ? task.node : -1);
       }
     }
@@ -336,11 +356,11 @@ void MediumTree<Real>::findBricks(const View& view)
 template <class Real>
 void MediumTree<Real>::makeBrick(std::size_t request)
 {
-  const auto& [place, negligible] = work_.requests[request];
+  const NodePlace& place = work_.requests[request].place;
   Brick<Real>& brick = work_.bricks[request];
   if (!work_.areMade)
   {
-    brick = maker_.make(place, negligible);
+    brick = maker_.make(work_.requests[request]);
   }
   if (apron() != 1)
   {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -583,6 +584,62 @@ TEST(MediumTree, WallsAreSharp)
   }
 }
 
+/// Remembers the largest voxels of lattices with distances to walls, and none to windows.
+class WatchedSphere : public SphereSource
+{
+public:
+  void sample(
+    const Lattice& lattice, double* refractivity, Place* places, float* distances) const override
+  {
+    SphereSource::sample(lattice, refractivity, places, distances);
+    if (distances &&
+      std::find(places, places + lattice.size(), Place::Window) == places + lattice.size())
+    {
+      const std::lock_guard<std::mutex> lock(one_);
+      coarsest_ = std::max(coarsest_, lattice.spacing[0]);
+    }
+  }
+  double coarsest() const { return coarsest_; }
+
+private:
+  mutable std::mutex one_;
+  mutable double coarsest_ = 0;
+};
+
+TEST(MediumTree, WallsAreNotSampledWhereVoxelsAreTooLarge)
+{
+  const auto source = std::make_shared<WatchedSphere>();
+  constexpr double finest = 0.01;
+  Tree tree(source, 0, settingsOf(1e-2));
+  tree.refine(around(0, 0, 1.5, finest));
+  EXPECT_GT(source->coarsest(), finest);
+  EXPECT_LE(source->coarsest(), 8 * finest);
+}
+
+TEST(MediumTree, WallsAreThereWhereMemoryIsShort)
+{
+  const auto source = std::make_shared<SphereSource>();
+  Tree enough(source, 0, settingsOf(1e-2));
+  enough.refine(around(0, 0, 1.5, 0.01));
+  for (const double part : { 0.02, 0.08, 0.1, 0.3 })
+  {
+    TreeSettings settings = settingsOf(1e-2);
+    settings.memory =
+      static_cast<std::size_t>(part * static_cast<double>(enough.statistics().bytes));
+    Tree tree(source, 0, settings);
+    tree.refine(around(0, 0, 1.5, 0.01));
+    EXPECT_TRUE(tree.statistics().isMemoryShort);
+    std::mt19937 random(3);
+    std::normal_distribution<double> any(0, 1);
+    for (int n = 0; n < 1000; ++n)
+    {
+      const Vec3<double> at{ any(random), any(random), any(random) };
+      const std::int32_t leaf = leafAt(tree, (1 / length(at)) * at);
+      ASSERT_EQ(tree.leaves()[static_cast<std::size_t>(leaf)].kind, Leaf<float>::Mixed);
+    }
+  }
+}
+
 /// Gas that becomes denser towards an oblique wall.
 class ObliqueWallSource : public AnalyticSource
 {
@@ -1127,7 +1184,7 @@ TEST(MediumTree, BricksArriveAsTheyWereSent)
   int mixed = 0;
   for (std::int32_t at = 0; at < 8; ++at)
   {
-    const Brick<float> brick = maker.make({ 1, { at, 3, 4 } }, { 0 });
+    const Brick<float> brick = maker.make({ { 1, { at, 3, 4 } }, { 0 } });
     mixed += brick.gasDistances.empty() ? 0 : 1;
     const std::vector<char> bytes = brick.toBytes();
     const auto samples = static_cast<std::size_t>(maker.samplesPerBrick());
