@@ -34,6 +34,8 @@ def check(properties, *headings):
 
 def check_schlieren():
     check(OURS, "Schlieren")
+    bench = widget("propertiesPanel", "DisplayFrame", "ProxyPanel", "SchlierenBench", "ProxySelectionWidget")
+    assert [bench.findChild(QWidget, name).isVisibleTo(bench) for name in ("label", "comboBox", "frame")] == [0, 0, 1]
 
 def check_other(*more):
     properties, headings = seen()
