@@ -38,17 +38,21 @@ FilmSettings settingsOf(const Patch& patch, const Scene& scene, int samples, int
   return settings;
 }
 
-/// What a shift by a pixel would change, at the most.
+/// What a shift by a pixel would change of the light, at the most, in any of its channels.
 double slopeAt(std::size_t pixel, const std::vector<float>& light, const Patch& patch)
 {
   const auto columns = static_cast<std::size_t>(patch.columns);
   const auto rows = static_cast<std::size_t>(patch.rows);
   const std::size_t column = pixel % columns, row = pixel / columns;
+  const std::size_t channels = light.size() / (columns * rows);
   double slope = 0;
   const auto look = [&](bool isThere, std::size_t other)
   {
-    slope =
-      isThere ? std::max(slope, std::abs(static_cast<double>(light[other] - light[pixel]))) : slope;
+    for (std::size_t channel = 0; channel < channels && isThere; ++channel)
+    {
+      const float change = light[channels * other + channel] - light[channels * pixel + channel];
+      slope = std::max(slope, std::abs(static_cast<double>(change)));
+    }
   };
   look(column > 0, pixel - 1);
   look(column + 1 < columns, pixel + 1);
@@ -105,6 +109,7 @@ PatchFilm::PatchFilm(const Patch& patch, const Scene& scene, const Cutoffs& cuto
   const auto pixels = static_cast<std::size_t>(patch.columns * patch.rows);
   pixels_.hasMet.assign(pixels, !isOfPlace);
   pixels_.isLit.assign(pixels, !isOfPlace);
+  pixels_.isStopped.assign(pixels, false);
 }
 
 void PatchFilm::add(const TracedPass& traced, const Pass& pass)
@@ -120,6 +125,7 @@ void PatchFilm::add(const TracedPass& traced, const Pass& pass)
       const RayExit& exit = traced.exits[static_cast<std::size_t>(row * columns + column)];
       pixels_.hasMet[pixel] = pixels_.hasMet[pixel] || exit.fate != RayFate::Missed;
       pixels_.isLit[pixel] = pixels_.isLit[pixel] || exit.reachesFilm();
+      pixels_.isStopped[pixel] = pixels_.isStopped[pixel] || exit.fate == RayFate::Blocked;
       if (isFirst)
       {
         pixels_.isClear.push_back(exit.reachesFilm());
@@ -152,6 +158,20 @@ void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& pat
     {
       const double difference = differenceAt(pixel, a, b, patch, scene, projection);
       differences.push_back({ factor * difference, patch.weight, pixel });
+    }
+  }
+}
+
+void addSlopesAtEdges(
+  const PatchPixels& pixels, const Patch& patch, const Scene& scene, Differences& differences)
+{
+  const double unit = techniqueOf(scene.cutoff).hasFringes ? 1 / pi : 1;
+  for (std::size_t pixel = 0; pixel < pixels.isLit.size(); ++pixel)
+  {
+    if (pixels.hasMet[pixel] && pixels.isLit[pixel])
+    {
+      const double slope = pixels.isStopped[pixel] ? unit * slopeAt(pixel, pixels.light, patch) : 0;
+      differences.push_back({ slope, patch.weight, pixel });
     }
   }
 }

@@ -19,8 +19,8 @@ struct PatchPixels
   std::vector<double> path; ///< metres
   std::vector<float> moved; ///< two for each pixel, data units: of the background
   ///@{
-  /// Whether any of its rays has met the data, or a body in it; whether any gives light.
-  std::vector<bool> hasMet, isLit;
+  /// Whether any of its rays has met the data, or a body in it; whether any gives light; whether a body stops any.
+  std::vector<bool> hasMet, isLit, isStopped;
   ///@}
   std::vector<bool> isClear; ///< at the pixel's centre, whose path it has
 };
@@ -48,5 +48,9 @@ private:
 /// Adds the differences of pixels, times a factor, as the technique's reader sees them: see Scene::targetError.
 void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& patch, double factor,
   const Scene& scene, const Projection& projection, Differences& differences);
+
+/// Adds what a shift of the light by a pixel would change where edges of bodies are, and nothing elsewhere.
+void addSlopesAtEdges(
+  const PatchPixels& pixels, const Patch& patch, const Scene& scene, Differences& differences);
 
 } // namespace schlieren

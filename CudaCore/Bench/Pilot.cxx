@@ -213,6 +213,30 @@ Differences Pilot<Real>::compare(
 }
 
 template <class Real>
+Differences Pilot<Real>::slopesAtEdges(
+  Patches patches, const PatchSettings& settings, const Monitor& monitor)
+{
+  Differences all;
+  const std::size_t set = layout_.isWhole ? 0 : static_cast<std::size_t>(patches);
+  for (std::size_t n = 0; n < patchPlaces; ++n)
+  {
+    Group& group = groups_[set][n];
+    const bool isAtBodies = static_cast<PatchPlace>(n) == PatchPlace::Body;
+    const std::vector<PatchPixels>* exposed = expose(
+      group, { settings.step, isAtBodies ? settings.samplesAtBodies : settings.samples }, monitor);
+    if (!exposed)
+    {
+      return {};
+    }
+    for (std::size_t patch = 0; patch < exposed->size(); ++patch)
+    {
+      addSlopesAtEdges((*exposed)[patch], (*group.patches)[patch], bench_.scene, all);
+    }
+  }
+  return all;
+}
+
+template <class Real>
 Differences Pilot<Real>::compareWith(Pilot& other, double step, const Monitor& monitor)
 {
   Differences all;

@@ -101,6 +101,9 @@ public:
   Differences compare(
     Patches patches, const PatchSettings& a, const PatchSettings& b, const Monitor& monitor);
 
+  /// What a shift of the light by a pixel would change at edges of bodies. Aborted or paused: empty.
+  Differences slopesAtEdges(Patches patches, const PatchSettings& settings, const Monitor& monitor);
+
   /// Compares the images of all patches, of one ray per pixel, with those of another medium. Aborted or paused: empty.
   Differences compareWith(Pilot& other, double step, const Monitor& monitor);
 

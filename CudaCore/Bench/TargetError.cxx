@@ -337,7 +337,7 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
 }
 
 template <class Real>
-AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors& known,
+AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors& ofMedium,
   const AccurateSettings* before, const Monitor& monitor)
 {
   const Scene& scene = pilot.bench().scene;
@@ -345,6 +345,16 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
   const bool hasFilm = !needsOneRay(pilot.bench());
   const StepRange steps = stepsFor(*pilot.bench().medium, hasWalls, hasFilm);
   const auto isAborted = [&] { return monitor.aborted && monitor.aborted(); };
+  KnownErrors known = ofMedium;
+  if (hasWalls && pilot.bench().medium->tree &&
+    techniqueOf(scene.cutoff).plane == RecordedPlane::Focus)
+  {
+    constexpr double shiftOfEdges = 0.04; // pixels: how far voxels move edges, typically
+    known.voxels = sumOf(known.voxels,
+      shiftOfEdges *
+        errorOf(scene,
+          pilot.slopesAtEdges(Pilot<Real>::Patches::ToChoose, steps.with(steps.longest), monitor)));
+  }
   AccurateSettings settings{};
   if (before)
   {
