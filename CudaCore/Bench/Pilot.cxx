@@ -139,6 +139,12 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
         }
       });
   };
+  const auto isTooMuch = [&](const Traced& traced)
+  {
+    return layout_.isWhole &&
+      static_cast<std::size_t>(set.samples) * traced.rays.front().bytes() >
+      bench_.scene.memoryBudget;
+  };
   while (!exposed.films.empty() && exposed.films.front().passes() < set.samples)
   {
     const PassNumber number{ &set, exposed.films.front().passes() };
@@ -149,9 +155,7 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
     }
     withEach([&](std::size_t n, PatchFilm& film)
       { film.add(traced->rays[n], passOf(places[n], number.in(n))); });
-    if (layout_.isWhole &&
-      static_cast<std::size_t>(set.samples) * traced->rays.front().bytes() >
-        bench_.scene.memoryBudget)
+    if (isTooMuch(*traced) && number.number + 1 < set.samples)
     {
       group.traced.erase(keyOf(number));
     }
@@ -161,6 +165,12 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
     exposed.pixels.resize(places.size());
     withEach([&](std::size_t n, PatchFilm& film) { exposed.pixels[n] = film.develop(); });
     exposed.films.clear();
+    const auto last =
+      group.traced.find(keyOf({ &set, set.samples - 1 })); // until now its film needed it
+    if (isTooMuch(last->second))
+    {
+      group.traced.erase(last);
+    }
   }
   return &exposed.pixels;
 }
