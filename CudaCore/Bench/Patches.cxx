@@ -127,7 +127,8 @@ void Planner::sortAlongBorder(Cells& cells)
     [&](const Cell& a, const Cell& b) { return directionOf(a) < directionOf(b); });
 }
 
-/// Makes the image the only patch where that is wanted, where others miss their light, or where the rays around them are more than that takes.
+/// Makes the image the only patch where that is wanted, where others miss their light, or where the rays around them are
+/// more than that takes.
 void Planner::takeWholeIfCheaper(std::int64_t margin, bool isWanted)
 {
   double moved = 0;

@@ -350,10 +350,10 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
     techniqueOf(scene.cutoff).plane == RecordedPlane::Focus)
   {
     constexpr double shiftOfEdges = 0.04; // pixels: how far voxels move edges, typically
-    known.voxels = sumOf(known.voxels,
-      shiftOfEdges *
-        errorOf(scene,
-          pilot.slopesAtEdges(Pilot<Real>::Patches::ToChoose, steps.with(steps.longest), monitor)));
+    // Of the patches that are looked at in each view, whatever is chosen.
+    const Differences slopes =
+      pilot.slopesAtEdges(Pilot<Real>::Patches::ToVerify, steps.with(steps.longest), monitor);
+    known.voxels = sumOf(known.voxels, shiftOfEdges * errorOf(scene, slopes));
   }
   AccurateSettings settings{};
   if (before)
