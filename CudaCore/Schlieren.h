@@ -185,7 +185,7 @@ struct Scene
   /// Which of these pixels. For the largest error all of them are tried, which takes several times as long as the image.
   ErrorNorm errorNorm = ErrorNorm::Percentile99;
   bool estimatesErrors = false; ///< with a targetError: those of all pixels, in Accuracy::estimate
-  /// With a targetError, of fields without a source: Accuracy::ofData, the difference of Interpolation::Quadratic and Cubic.
+  /// With a targetError: Accuracy::ofData, the difference that Interpolation::Quadratic makes, or Field::makeOtherSource.
   bool estimatesDataError = false;
 
   PathModel pathModel = PathModel::Auto;                  ///< straight or refracted rays

@@ -307,6 +307,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
     field.gradients = { static_cast<int>(fields),
       inside.Refractivity->Source ? nullptr : inside.FieldGradients.data(), field.version };
   }
+  field.makeOtherSource = this->OtherSource();
   if (isPreview)
   {
     makePreview(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));

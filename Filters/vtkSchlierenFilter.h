@@ -92,6 +92,7 @@ struct TimeStep;
 
 namespace schlieren
 {
+class MediumSource;
 struct Image;
 struct Monitor;
 struct Scene;
@@ -1016,10 +1017,11 @@ public:
 
   ///@{
   /**
-   * Whether an image of a grid with a TargetError (or AutoTargetError) says what the data themselves leave open, as no
-   * setting changes that: the field data have DataError, the difference that quadratic splines between the samples make
-   * instead of cubic ones, in the unit and the norm of ErrorReached. Default: off. It costs another medium. Of meshes it is
-   * not known.
+   * Whether an image with a TargetError (or AutoTargetError) says what the data themselves leave open, as no setting
+   * changes that: the field data have DataError, in the unit and the norm of ErrorReached. Of grids it is the difference
+   * that quadratic splines between the samples make instead of cubic ones, of meshes that of the other Reconstruction.
+   * Default: off. It costs another medium. It is not known of AMR, of data that stay on their ranks, and of an exposure
+   * over time.
    */
   vtkSetMacro(DataError, bool);
   vtkGetMacro(DataError, bool);
@@ -1259,6 +1261,8 @@ private:
   /// Returns null if aborted.
   std::shared_ptr<const MadeRefractivity> MakeRefractivity(
     vtkDataObject* input, vtkDataObject* bodies);
+  /// Returns Field::makeOtherSource; empty where it is not wanted or not known.
+  std::function<std::shared_ptr<const schlieren::MediumSource>()> OtherSource();
   /// Makes the ranks work for this filter's refractivity, which another filter may have used.
   /// Returns false where they cannot.
   bool UseOwnRanks();

@@ -73,9 +73,12 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   {
     return true;
   }
-  chosen.accuracy.ofData = scene.estimatesDataError && !field.source
-    ? errorOfData(pilot, field, chosen.step, k, pixels, watch.monitor())
-    : Accuracy().ofData;
+  if (scene.estimatesDataError)
+  {
+    const Column column = columnOf(scene, light, image.frame, 0);
+    chosen.accuracy.ofData =
+      errorOfData(pilot, field, column, chosen.step, k, pixels, watch.monitor());
+  }
   targets.keep(scene, chosen);
   Scene accurate = scene;
   accurate.stepSize = chosen.step;

@@ -33,6 +33,15 @@ MediumKey MediumKey::of(const Field& field, const Scene& scene)
 }
 
 template <class Real>
+Medium<Real> mediumFor(const Field& field, const Scene& scene)
+{
+  return field.source
+    ? buildTree<Real>(
+        field, { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads })
+    : buildMedium<Real>(field, scene.interpolation, scene.threads);
+}
+
+template <class Real>
 CudaTracer<Real>& MediumOnDevices<Real>::cudaTracer()
 {
   if (!cuda_)
@@ -172,10 +181,7 @@ template <class Real>
 std::shared_ptr<MediumOnDevices<Real>> MediumCache::make(const Field& field, const Scene& scene)
 {
   ++work_.mediumBuilds;
-  return std::make_shared<MediumOnDevices<Real>>(field.source
-      ? buildTree<Real>(
-          field, { scene.mediumTolerance, scene.mediumMemory, scene.interpolation, scene.threads })
-      : buildMedium<Real>(field, scene.interpolation, scene.threads));
+  return std::make_shared<MediumOnDevices<Real>>(mediumFor<Real>(field, scene));
 }
 
 template <class Real>
@@ -301,6 +307,8 @@ bool MediumInUse<Real>::seesChange()
   return std::exchange(current_.changesSeen, onDevices().changes) != onDevices().changes;
 }
 
+template Medium<float> mediumFor(const Field&, const Scene&);
+template Medium<double> mediumFor(const Field&, const Scene&);
 template class MediumOnDevices<float>;
 template class MediumOnDevices<double>;
 template class MediumInUse<float>;

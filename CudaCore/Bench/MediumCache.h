@@ -49,6 +49,10 @@ struct MediumKey
   }
 };
 
+/// The medium of a field, on its grid, or within the scene's tolerance without any voxels yet.
+template <class Real>
+Medium<Real> mediumFor(const Field& field, const Scene& scene);
+
 /// A medium, and what has been made of it to trace rays.
 template <class Real>
 class MediumOnDevices

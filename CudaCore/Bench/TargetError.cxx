@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/TargetError.h"
 
+#include "Bench/MediumCache.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -393,16 +395,33 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
 }
 
 template <class Real>
-double errorOfData(Pilot<Real>& pilot, const Field& field, double step, double k,
-  const PixelPlaces& pixels, const Monitor& monitor)
+double errorOfData(Pilot<Real>& pilot, const Field& field, const Column& column, double step,
+  double k, const PixelPlaces& pixels, const Monitor& monitor)
 {
   const Scene& scene = pilot.bench().scene;
-  constexpr Interpolation other = Interpolation::Quadratic;
-  const Medium<Real> medium = buildMedium<Real>(field, other, scene.threads);
-  Pilot<Real> inOther(pilot, medium, other);
-  inOther.begin(scene, k, pixels);
+  Field otherwise = field;
+  Scene other = scene;
+  if (field.source)
+  {
+    otherwise.source = field.makeOtherSource ? field.makeOtherSource() : nullptr;
+    if (!otherwise.source)
+    {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  else
+  {
+    other.interpolation = Interpolation::Quadratic;
+  }
   Monitor untilDone; // as little is to be done
   untilDone.aborted = monitor.aborted;
+  Medium<Real> medium = mediumFor<Real>(otherwise, other);
+  if (medium.tree)
+  {
+    refine(medium, column, untilDone);
+  }
+  Pilot<Real> inOther(pilot, medium, other.interpolation);
+  inOther.begin(scene, k, pixels);
   return errorOf(scene, pilot.compareWith(inOther, step, untilDone));
 }
 
@@ -414,9 +433,9 @@ template AccurateSettings chooseFor(
   Pilot<float>&, bool hasWalls, const KnownErrors&, const AccurateSettings* before, const Monitor&);
 template AccurateSettings chooseFor(Pilot<double>&, bool hasWalls, const KnownErrors&,
   const AccurateSettings* before, const Monitor&);
-template double errorOfData(
-  Pilot<float>&, const Field&, double step, double k, const PixelPlaces&, const Monitor&);
-template double errorOfData(
-  Pilot<double>&, const Field&, double step, double k, const PixelPlaces&, const Monitor&);
+template double errorOfData(Pilot<float>&, const Field&, const Column&, double step, double k,
+  const PixelPlaces&, const Monitor&);
+template double errorOfData(Pilot<double>&, const Field&, const Column&, double step, double k,
+  const PixelPlaces&, const Monitor&);
 
 } // namespace schlieren

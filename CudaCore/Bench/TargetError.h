@@ -59,10 +59,11 @@ template <class Real>
 AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors& known,
   const AccurateSettings* before, const Monitor& monitor);
 
-/// What the samples of the pilot's medium leave open: the difference to quadratic splines. 0 if aborted.
+/// What the samples of the pilot's medium leave open: the difference to quadratic splines, or to the field's other source
+/// with the voxels that `column` needs. NaN if it has none, 0 if aborted.
 template <class Real>
-double errorOfData(Pilot<Real>& pilot, const Field& field, double step, double k,
-  const PixelPlaces& pixels, const Monitor& monitor);
+double errorOfData(Pilot<Real>& pilot, const Field& field, const Column& column, double step,
+  double k, const PixelPlaces& pixels, const Monitor& monitor);
 
 /// What a pilot's rays and patches are of.
 struct PilotKey

@@ -451,6 +451,23 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSource(
 }
 
 //------------------------------------------------------------------------------
+std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOtherwise(
+  vtkDataObject* input, vtkDataObject* bodies, Progress progress)
+{
+  MediumMaker other(std::move(progress));
+  other.settings = this->choiceFor(input).settings;
+  other.settings.Reconstruction = other.settings.isSmooth() ? 1 : 0;
+  other.numberOfThreads = this->numberOfThreads;
+  const Source source = other.choose(input);
+  if (other.keepsGrid(source) || other.wantsGrid() || findLevels(source.leaves))
+  {
+    return nullptr;
+  }
+  std::string warning; // as that of the settings
+  return other.makeSourceOfCells(source, input, bodies, warning, false);
+}
+
+//------------------------------------------------------------------------------
 std::shared_ptr<const PieceSource> MediumMaker::makeOf(
   Source source, std::vector<Source> fields, vtkDataObject* bodies, double depth, Tally& tally)
 {
