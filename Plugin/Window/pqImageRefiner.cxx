@@ -34,7 +34,7 @@ namespace
 {
 
 // Tracing time of a turn, seconds; the rendering adds to it.
-constexpr double timeSlice = 0.040;
+constexpr double timeSlice = 0.030;
 
 // Milliseconds: shorter work is not reported, and neither are changes within that time.
 constexpr qint64 unreported = 500;

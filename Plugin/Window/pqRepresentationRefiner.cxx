@@ -30,7 +30,7 @@ namespace
 {
 
 /// Tracing time between responses of the window, seconds.
-constexpr double timeSlice = 0.04;
+constexpr double timeSlice = 0.03;
 constexpr int pauseMilliseconds = 1;
 
 constexpr auto isSchlieren = &pqRepresentationRefiner::isSchlieren;
