@@ -109,7 +109,8 @@ struct MediumSettings
   int SymmetryAxis = 0; ///< 0: chosen; 1 to 3: x, y, z
   double SymmetryOrigin[3] = { 0, 0, 0 };
   int Outside = 0;
-  int Reconstruction = 0; ///< 0: smooth, 1: linear in cells
+  int Reconstruction = Smooth; ///< one of these, of which Coarser is for MediumMaker alone
+  static constexpr int Smooth = 0, LinearInCells = 1, Coarser = 2;
   bool DoublePrecision = false;
 
   /// Returns whether the model needs a pressure that no array has.
@@ -124,7 +125,6 @@ struct MediumSettings
       !this->hasUniformPressure();
   }
   bool isAxisymmetric() const { return this->Symmetry == 1; }
-  bool isSmooth() const { return this->Reconstruction == 0; }
   std::array<double, 3> symmetryOrigin() const
   {
     return { this->SymmetryOrigin[0], this->SymmetryOrigin[1], this->SymmetryOrigin[2] };

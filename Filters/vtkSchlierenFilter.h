@@ -1019,9 +1019,9 @@ public:
   /**
    * Whether an image with a TargetError (or AutoTargetError) says what the data themselves leave open, as no setting
    * changes that: the field data have DataError, in the unit and the norm of ErrorReached. Of grids it is the difference
-   * that quadratic splines between the samples make instead of cubic ones, of meshes that of the other Reconstruction.
-   * Default: off. It costs another medium. It is not known of AMR, of data that stay on their ranks, and of an exposure
-   * over time.
+   * that quadratic splines between the samples make instead of cubic ones, of meshes that which smoother gradients at the
+   * points make, or a smooth Reconstruction instead of one that is linear in cells. Default: off. It costs another medium.
+   * It is not known of AMR, of data that stay on their ranks, and of an exposure over time.
    */
   vtkSetMacro(DataError, bool);
   vtkGetMacro(DataError, bool);

@@ -73,12 +73,10 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   {
     return true;
   }
-  if (scene.estimatesDataError)
-  {
-    const Column column = columnOf(scene, light, image.frame, 0);
-    chosen.accuracy.ofData =
-      errorOfData(pilot, field, column, chosen.step, k, pixels, watch.monitor());
-  }
+  chosen.accuracy.ofData = scene.estimatesDataError
+    ? errorOfData(pilot, field, columnOf(scene, light, image.frame, 0), chosen.step, k, pixels,
+        watch.monitor())
+    : Accuracy().ofData;
   targets.keep(scene, chosen);
   Scene accurate = scene;
   accurate.stepSize = chosen.step;

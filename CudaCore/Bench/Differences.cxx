@@ -7,7 +7,7 @@
 namespace schlieren
 {
 
-double percentile99(Differences differences)
+double exceededBy(double part, Differences differences)
 {
   std::sort(differences.begin(), differences.end(),
     [](const Difference& a, const Difference& b) { return a.value > b.value; });
@@ -20,7 +20,7 @@ double percentile99(Differences differences)
   for (const Difference& one : differences)
   {
     above += one.pixels;
-    if (above > 0.01 * all)
+    if (above > part * all)
     {
       return one.value;
     }

@@ -17,8 +17,10 @@ struct Difference
 };
 using Differences = std::vector<Difference>;
 
-/// The value that 99 % of the pixels do not exceed; 0 if there are none.
-double percentile99(Differences differences);
+/// What 99 % of the pixels keep may be exceeded in this part of them.
+constexpr double mayExceed = 0.01;
+/// The value that no more than a part of the pixels exceeds; 0 if there are none.
+double exceededBy(double part, Differences differences);
 double largestOf(const Differences& differences);
 
 } // namespace schlieren

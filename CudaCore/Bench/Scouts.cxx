@@ -81,7 +81,7 @@ Scouts::Scouts(RayTask<Real> task, const Light& light, double lengthScale, const
     }
   }
   view_.path = view_.crossed > 0 ? highest - lowest : 0;
-  view_.steepestPath = percentile99(slopes) * lengthScale / projection.perDataUnit;
+  view_.steepestPath = exceededBy(mayExceed, slopes) * lengthScale / projection.perDataUnit;
   view_.strongDeflection = strongDeflection({ pass, traced.exits.data(), nullptr },
     static_cast<int>(pass.columns), static_cast<int>(pass.rows), errors, threads);
 }

@@ -35,7 +35,16 @@ double sumOf(double a, double b, double c = 0, double d = 0)
 /// What of differences shall keep a target.
 double errorOf(const Scene& scene, const Differences& differences)
 {
-  return scene.errorNorm == ErrorNorm::Largest ? largestOf(differences) : percentile99(differences);
+  return scene.errorNorm == ErrorNorm::Largest ? largestOf(differences)
+                                               : exceededBy(mayExceed, differences);
+}
+
+/// The same of pixels with so many rays, from differences of single rays. Few that go astray, as in glass, are in many
+/// pixels then.
+double errorOfMeans(const Scene& scene, const Differences& ofRays, int samples)
+{
+  const double astray = exceededBy(mayExceed / samples, ofRays) / samples;
+  return std::max(errorOf(scene, ofRays), astray);
 }
 
 /// How steps are compared.
@@ -46,6 +55,11 @@ struct StepRange
 
   /// How patches are made to compare a step with others.
   PatchSettings with(double step) const { return { step, 1, raysAtBodies }; }
+  /// The error of steps in pixels with so many rays, from such patches.
+  double errorOf(const Scene& scene, const Differences& differences, int samples) const
+  {
+    return errorOfMeans(scene, differences, std::max(1, samples / raysAtBodies));
+  }
 };
 
 /// Steps move the edges of bodies by fractions of a pixel, which single rays do not see in nearly all pixels. Those that are
@@ -85,13 +99,16 @@ public:
   /// Looks at all patches from now on.
   void lookAtAll() { looksAtAll_ = true; }
 
-  double ofStep(double step)
+  /// In pixels with so many rays.
+  double ofStep(double step, int samples)
   {
     if (step <= shortestStep) // not traced any finer
     {
-      return 0.5 * ofStep(2 * step);
+      return 0.5 * ofStep(2 * step, samples);
     }
-    return errorByHalving * differenceOf(steps_.with(step), steps_.with(0.5 * step));
+    const auto errorIn = [&](const Differences& differences)
+    { return steps_.errorOf(pilot_.bench().scene, differences, samples); };
+    return errorByHalving * differenceOf(steps_.with(step), steps_.with(0.5 * step), errorIn);
   }
 
   /// `allowed`: where the error of 16 rays is less than that by what 4 gain, it is not measured.
@@ -117,14 +134,18 @@ public:
         return before / gain;
       }
     }
-    return differenceOf({ longest(), samples, samples }, { longest(), 4 * samples, 4 * samples });
+    const auto errorIn = [&](const Differences& differences)
+    { return errorOf(pilot_.bench().scene, differences); };
+    return differenceOf(
+      { longest(), samples, samples }, { longest(), 4 * samples, 4 * samples }, errorIn);
   }
 
 private:
-  double differenceOf(const PatchSettings& a, const PatchSettings& b)
+  template <class ErrorIn>
+  double differenceOf(const PatchSettings& a, const PatchSettings& b, const ErrorIn& errorIn)
   {
     const auto differenceIn = [&](Patches patches)
-    { return errorOf(pilot_.bench().scene, pilot_.compare(patches, a, b, monitor_)); };
+    { return errorIn(pilot_.compare(patches, a, b, monitor_)); };
     const double difference = differenceIn(Patches::ToChoose);
     return looksAtAll_ ? std::max(difference, differenceIn(Patches::ToVerify)) : difference;
   }
@@ -179,7 +200,7 @@ AccurateSettings cheapest(double target, Ladder<Real>& ladder, const KnownErrors
   for (double step = ladder.longest(); step >= shortestStep; step *= 0.5)
   {
     settings.step = step;
-    ofSteps = ladder.ofStep(step);
+    ofSteps = ladder.ofStep(step, settings.samples);
     if (ofSteps * ofSteps <= rest)
     {
       break;
@@ -310,12 +331,12 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
     const int samples = settings.samples;
     ofRays = compare(samples, samples <= 4 ? 4 * samples : 2 * samples);
   }
-  const auto sum = [&](const auto& statistic)
-  { return sumOf(bySteps * statistic(ofSteps), statistic(ofRays), known.voxels, known.rounding); };
+  const auto sum = [&](double errorOfSteps, double errorOfRays)
+  { return sumOf(bySteps * errorOfSteps, errorOfRays, known.voxels, known.rounding); };
   settings.accuracy.target = scene.targetError;
   settings.accuracy.reached =
-    sum([&](const Differences& differences) { return errorOf(scene, differences); });
-  settings.accuracy.largest = sum(largestOf);
+    sum(steps.errorOf(scene, ofSteps, settings.samples), errorOf(scene, ofRays));
+  settings.accuracy.largest = sum(largestOf(ofSteps), largestOf(ofRays));
   if (scene.estimatesErrors) // of the image, which is the patch
   {
     const auto pixels =

@@ -101,9 +101,10 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
   mesh->firstNumbers.push_back(static_cast<Number>(cells));
   this->addBlocks(blocks);
   this->findCells(*mesh, copies, progress.part(0, 0.1));
-  if (reconstruction == Reconstruction::Smooth)
+  if (reconstruction != Reconstruction::Linear)
   {
     this->findNeighbours(*mesh, progress.part(0.1, 0.4));
+    mesh->areTrendsCoarser = reconstruction == Reconstruction::Coarser;
   }
   this->sortCells(*mesh, progress.part(0.4, 0.6));
   this->makeGroups(*mesh, progress.part(0.6, 0.7));
@@ -191,7 +192,9 @@ void CellTree::setValues(const WorkProgress& progress)
     {
       arrays.setValues(neighbours.valuesFromCells(arrays, part.part(0, 0.5)));
     }
-    arrays.setTrends(neighbours.trends(arrays, part.part(0.5, 1)));
+    std::vector<PointTrend> trends = neighbours.trends(arrays, part.part(0.5, 1));
+    arrays.setTrends(
+      mesh.areTrendsCoarser ? neighbours.coarser(arrays, trends, part) : std::move(trends));
   }
   if (mesh.levels.empty())
   {

@@ -456,7 +456,9 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOtherwise(
 {
   MediumMaker other(std::move(progress));
   other.settings = this->choiceFor(input).settings;
-  other.settings.Reconstruction = other.settings.isSmooth() ? 1 : 0;
+  other.settings.Reconstruction = other.settings.Reconstruction == MediumSettings::Smooth
+    ? MediumSettings::Coarser
+    : MediumSettings::Smooth;
   other.numberOfThreads = this->numberOfThreads;
   const Source source = other.choose(input);
   if (other.keepsGrid(source) || other.wantsGrid() || findLevels(source.leaves))

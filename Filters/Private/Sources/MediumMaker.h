@@ -98,8 +98,8 @@ public:
   /// chosen from `input`.
   std::shared_ptr<const schlieren::MediumSource> makeSourceOfCells(Source source,
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields);
-  /// Makes the source of meshes with the other Reconstruction than that of the settings; null for other data. `progress`:
-  /// may cancel.
+  /// Makes the source of meshes that are continued otherwise between their points: smoothly with gradients of a lower
+  /// order, or smoothly where the settings have them linear in cells. Null for other data. `progress`: may cancel.
   std::shared_ptr<const schlieren::MediumSource> makeSourceOtherwise(
     vtkDataObject* input, vtkDataObject* bodies, Progress progress);
   /// Makes the piece of an image, or of a rank's piece of it, on whose grid `refractivity` has been

@@ -128,7 +128,7 @@ MeshLeaves leavesOf(const Source& source, const std::vector<Source>& others,
   {
     if (leaf->GetCellData()->GetScalars())
     {
-      bringToPoints(leaf, reconstruction == CellTree::Reconstruction::Smooth);
+      bringToPoints(leaf, reconstruction != CellTree::Reconstruction::Linear);
     }
     leaf = withoutPolyhedra(leaf);
   }
@@ -169,7 +169,15 @@ PreparedLeaves preparedLeaves(const Source& source, const std::vector<Source>& f
 
 CellTree::Reconstruction reconstructionOf(const MediumSettings& settings)
 {
-  return settings.isSmooth() ? CellTree::Reconstruction::Smooth : CellTree::Reconstruction::Linear;
+  switch (settings.Reconstruction)
+  {
+    case MediumSettings::Smooth:
+      return CellTree::Reconstruction::Smooth;
+    case MediumSettings::Coarser:
+      return CellTree::Reconstruction::Coarser;
+    default:
+      return CellTree::Reconstruction::Linear;
+  }
 }
 
 } // namespace filters

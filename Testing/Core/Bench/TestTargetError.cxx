@@ -194,9 +194,33 @@ TEST(TargetErrors, OfDataAreUnknownUnlessTheyAreWanted)
   EXPECT_GT(bench.render(field.field, scene).accuracy.ofData, 0);
   scene.estimatesDataError = false;
   EXPECT_TRUE(std::isnan(bench.render(field.field, scene).accuracy.ofData));
+}
+
+/// Of a source it is what its other one changes.
+TEST(TargetErrors, OfDataOfSourcesIsThatOfTheirOtherOne)
+{
+  const auto ofWidth = [](double width)
+  {
+    return std::make_shared<const BallsSource>(
+      std::vector<Ball>{ { { 0, 0, 0 }, width, 1e-3 } }, 1., 0.1);
+  };
+  Field mesh = fieldOf(ofWidth(0.4));
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  scene.targetError = 1. / 256;
   scene.estimatesDataError = true;
-  const Field mesh = fieldOf(
-    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.4, 1e-3 } }, 1., 0.1));
+  Bench bench;
+  EXPECT_TRUE(std::isnan(bench.render(mesh, scene).accuracy.ofData));
+  mesh.makeOtherSource = [] { return nullptr; };
+  EXPECT_TRUE(std::isnan(bench.render(mesh, scene).accuracy.ofData));
+  mesh.makeOtherSource = [&] { return ofWidth(0.41); };
+  const Image image = bench.render(mesh, scene);
+  scene.kScale = image.kScale;
+  const Image other = Bench().render(fieldOf(ofWidth(0.41)), scene);
+  const double difference = trueError(image, other, scene,
+    [&](std::size_t pixel) { return image.opticalPathDifference[pixel] != 0; });
+  EXPECT_GT(difference, 2 * scene.targetError);
+  EXPECT_NEAR(image.accuracy.ofData, difference, 0.15 * difference);
+  scene.estimatesDataError = false;
   EXPECT_TRUE(std::isnan(bench.render(mesh, scene).accuracy.ofData));
 }
 

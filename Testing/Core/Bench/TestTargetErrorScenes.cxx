@@ -49,7 +49,7 @@ struct Trial
   bool isMissed() const { return isKept() && error > target; }
 };
 
-/// What the settings of an image leave out: bent rays, steps of a quarter, other rays through other points of the
+/// What the settings of an image leave out: bent rays, steps of a quarter (of grids, by an integrator of fourth order), other rays through other points of the
 /// pixels, eight times as many (of trees, which take long, four), finer voxels, double precision.
 Image truthOf(const Field& field, Scene scene, const Image& image)
 {
@@ -66,6 +66,7 @@ Image truthOf(const Field& field, Scene scene, const Image& image)
   scene.adaptiveTolerance = 1e-8;
   scene.homogeneityTolerance = 0;
   scene.pathModel = PathModel::Refracted;
+  scene.integrator = field.source ? scene.integrator : Integrator::Rk4;
   scene.samplesPerPixel =
     isOfCamera(scene.cutoff) ? 1 : std::max(more * image.samplesPerPixel, fewestRays);
   scene.seed += 1;
