@@ -460,7 +460,9 @@ void addCells(const MeshArrays& mesh, std::uint32_t leaf, const std::vector<Stat
       vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type));
   }
   std::vector<vtkIdType> plain, curved;
-  for (std::size_t i = 0; i < states.size(); ++i)
+  const auto count = std::count(states.begin(), states.end(), state);
+  plain.reserve(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < states.size() && count > 0; ++i)
   {
     if (states[i] == state)
     {
