@@ -132,22 +132,6 @@ Lattice BrickMaker<Real>::latticeOf(const NodePlace& place, int margin) const
   return lattice;
 }
 
-/// Samples a node, and gives values to all points.
-template <class Real>
-BrickSamples BrickMaker<Real>::sample(
-  const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
-{
-  const int prepared = source_.dependsOnLattice() ? preparedMarginOf(hasEdges, hasFields) : margin;
-  BrickSamples samples = valuesAt(place, prepared, hasEdges, hasFields);
-  for (int layers = margin; layers < prepared; ++layers)
-  {
-    samples.takeOffLayer();
-  }
-  samples.findGas();
-  samples.continueGas();
-  return samples;
-}
-
 /// What the source says of a lattice.
 template <class Real>
 BrickSamples BrickMaker<Real>::valuesAt(
@@ -469,7 +453,12 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
   }
   const MediumSource::Content& content = outline.content;
   const bool hasEdges = outline.hasEdges, hasFields = outline.hasFields;
-  BrickSamples samples = sample(place, marginOf(hasEdges, hasFields), hasEdges, hasFields);
+  const int margin = marginOf(hasEdges, hasFields);
+  const int prepared = preparedMarginOf(hasEdges, hasFields);
+  BrickSamples all =
+    valuesAt(place, source_.dependsOnLattice() ? prepared : margin, hasEdges, hasFields);
+  BrickSamples samples = all;
+  samples.fill(margin);
   brick.kind = Leaf<Real>::Samples;
   const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible.deflection, brick);
   BrickFacts& facts = brick.facts;
@@ -509,7 +498,9 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
       apron_, axes(), overshoot_ };
     if (support_ > 0 && !makeCoefficients(samples, rule))
     {
-      samples = sample(place, preparedMarginOf(hasEdges, hasFields), hasEdges, hasFields);
+      samples =
+        all.margin == prepared ? std::move(all) : valuesAt(place, prepared, hasEdges, hasFields);
+      samples.fill(prepared);
       makeCoefficients(samples, rule);
     }
     storeCoefficients(samples, brick);

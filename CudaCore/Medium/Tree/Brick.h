@@ -149,7 +149,6 @@ private:
   Lattice latticeOf(const NodePlace& place, int margin) const;
   int marginOf(bool hasEdges, bool hasFields) const;
   int preparedMarginOf(bool hasEdges, bool hasFields) const;
-  BrickSamples sample(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
   BrickSamples valuesAt(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
   bool findEdges(const NodePlace& place, const MediumSource::Content& content,
     BrickSamples& samples, double negligible, Brick<Real>& brick) const;

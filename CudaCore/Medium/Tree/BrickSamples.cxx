@@ -51,6 +51,16 @@ Range rangeOf(const std::vector<double>& values)
 
 } // namespace
 
+void BrickSamples::fill(int wantedMargin)
+{
+  while (margin > wantedMargin)
+  {
+    takeOffLayer();
+  }
+  findGas();
+  continueGas();
+}
+
 void BrickSamples::takeOffLayer()
 {
   const int first = layers > 1 ? 1 : 0;

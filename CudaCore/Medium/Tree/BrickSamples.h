@@ -91,6 +91,10 @@ struct BrickSamples
     }
   }
 
+  /// Takes off layers down to a margin, and gives values to all points that are left.
+  void fill(int wantedMargin);
+
+private:
   /// The outermost points of the lattice go.
   void takeOffLayer();
   /// Which points have a value that counts, and the range of these.

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <mutex>
 #include <vector>
 
@@ -39,17 +38,26 @@ using Edges = std::array<int, 3>;
 
 const std::vector<Edges>& edgesFrom(CellShape shape)
 {
-  static const std::map<CellShape, std::vector<Edges>> all{
-    { CellShape::Tetrahedron, { { 1, 2, 3 } } }, // each corner has the same volume
-    { CellShape::Wedge,
-      { { 1, 2, 3 }, { 2, 0, 4 }, { 0, 1, 5 }, { 5, 4, 0 }, { 3, 5, 1 }, { 4, 3, 2 } } },
-    { CellShape::Pyramid, { { 1, 3, 4 }, { 2, 0, 4 }, { 3, 1, 4 }, { 0, 2, 4 } } },
-    { CellShape::Hexahedron,
-      { { 1, 3, 4 }, { 2, 0, 5 }, { 3, 1, 6 }, { 0, 2, 7 }, { 7, 5, 0 }, { 4, 6, 1 }, { 5, 7, 2 },
-        { 6, 4, 3 } } },
-    { CellShape::Voxel, {} } // boxes
-  };
-  return all.at(shape);
+  static const std::vector<Edges> ofTetrahedron{ { 1, 2, 3 } }; // each corner has the same volume
+  static const std::vector<Edges> ofWedge{ { 1, 2, 3 }, { 2, 0, 4 }, { 0, 1, 5 }, { 5, 4, 0 },
+    { 3, 5, 1 }, { 4, 3, 2 } };
+  static const std::vector<Edges> ofPyramid{ { 1, 3, 4 }, { 2, 0, 4 }, { 3, 1, 4 }, { 0, 2, 4 } };
+  static const std::vector<Edges> ofHexahedron{ { 1, 3, 4 }, { 2, 0, 5 }, { 3, 1, 6 }, { 0, 2, 7 },
+    { 7, 5, 0 }, { 4, 6, 1 }, { 5, 7, 2 }, { 6, 4, 3 } };
+  static const std::vector<Edges> ofVoxel; // boxes
+  switch (shape)
+  {
+    case CellShape::Tetrahedron:
+      return ofTetrahedron;
+    case CellShape::Wedge:
+      return ofWedge;
+    case CellShape::Pyramid:
+      return ofPyramid;
+    case CellShape::Hexahedron:
+      return ofHexahedron;
+    default:
+      return ofVoxel;
+  }
 }
 
 Orientation orientationOf(const CellTree::Cell& cell, CellShape shape)

@@ -44,7 +44,7 @@ MeshArrays::MeshArrays(vtkDataSet* data)
   , CellCount(data->GetNumberOfCells())
   , PointCount(data->GetNumberOfPoints())
 {
-  this->Values = vtkDoubleArray::SafeDownCast(data->GetPointData()->GetScalars())->GetPointer(0);
+  this->Values = numbersOf<double>(data->GetPointData()->GetScalars());
   if (const float* around = numbersOf<float>(data->GetPointData()->GetArray(cellsAroundName)))
   {
     this->Around = reinterpret_cast<const CellsAround*>(around); // written by arrayOf()

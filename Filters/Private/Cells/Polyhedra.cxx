@@ -3,6 +3,7 @@
 #include "Cells/Polyhedra.h"
 
 #include "Cells/CellMeans.h"
+#include "Common/CellTypes.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -76,12 +77,9 @@ bool isCut(int type) { return type == VTK_POLYHEDRON || cornersOfPrism(type) > 0
 /// Returns whether there is a cell to cut. VTK would compute a list of distinct types for each dataset.
 bool hasAnyToCut(vtkUnstructuredGrid* mesh)
 {
-  vtkIdType cell = 0;
-  while (cell < mesh->GetNumberOfCells() && !isCut(mesh->GetCellType(cell)))
-  {
-    ++cell;
-  }
-  return cell < mesh->GetNumberOfCells();
+  auto* types = vtkUnsignedCharArray::SafeDownCast(cellTypesOf(mesh));
+  const unsigned char* first = types ? types->GetPointer(0) : nullptr;
+  return std::any_of(first, first + (types ? types->GetNumberOfValues() : 0), isCut);
 }
 
 /// Cuts a prism with so many corners at each end from its lowest one, by add(type, corners).

@@ -215,6 +215,10 @@ void addCandidates(
 std::vector<unsigned char> maySheetsMeet(const MeshArrays& mesh)
 {
   const auto points = static_cast<std::size_t>(mesh.points());
+  if (mesh.isStructured() && !hasHiddenCells(mesh)) // all of them hang together
+  {
+    return std::vector<unsigned char>(points, 1);
+  }
   Classes parts(points);
   std::vector<std::size_t> cells(points, 0);
   std::size_t all = 0;

@@ -8,6 +8,7 @@
 #include "Cells/MeshArrays.h"
 #include "Input/RefractivitySource.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
@@ -15,6 +16,7 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkTypeInt32Array.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -317,8 +319,24 @@ void SharedPoints::addGroup(const Leaves& leaves, Group group)
   places->SetDataTypeToDouble();
   places->SetNumberOfPoints(group.points);
   group.mesh->SetPoints(places);
-  group.mesh->AllocateEstimate(group.cells, 8);
-  group.mesh->GetCells()->Use32BitStorage();
+  const bool hasPolyhedra = std::any_of(meshes.begin(), meshes.end(),
+    [](const MeshArrays& mesh)
+    {
+      const std::vector<int> types = mesh.types();
+      return std::find(types.begin(), types.end(), VTK_POLYHEDRON) != types.end();
+    });
+  if (hasPolyhedra)
+  {
+    group.mesh->AllocateEstimate(group.cells, 8);
+    group.mesh->GetCells()->Use32BitStorage();
+  }
+  // Others go directly into the arrays, because InsertNextCell() takes several times as long.
+  vtkNew<vtkUnsignedCharArray> types;
+  vtkNew<vtkTypeInt32Array> starts, corners;
+  types->Allocate(hasPolyhedra ? 0 : group.cells);
+  starts->Allocate(hasPolyhedra ? 0 : group.cells + 1);
+  corners->Allocate(hasPolyhedra ? 0 : 8 * group.cells);
+  starts->InsertNextValue(0);
   std::vector<unsigned char> isKnown(points.size(), 0);
   std::vector<unsigned char> cellsOfPoints; // of a leaf's points: at most two
   std::size_t used = 0, alone = 0;
@@ -351,9 +369,15 @@ void SharedPoints::addGroup(const Leaves& leaves, Group group)
         [&](vtkIdType point)
         {
           const auto at = static_cast<std::size_t>(point);
-          ids->InsertNextId(numbers[at]);
+          hasPolyhedra ? ids->InsertNextId(numbers[at]) : corners->InsertNextValue(numbers[at]);
           cellsOfPoints[at] = static_cast<unsigned char>(std::min(cellsOfPoints[at] + 1, 2));
         });
+      if (!hasPolyhedra)
+      {
+        types->InsertNextValue(static_cast<unsigned char>(mesh.type(cell)));
+        starts->InsertNextValue(static_cast<vtkTypeInt32>(corners->GetNumberOfValues()));
+        continue;
+      }
       if (mesh.type(cell) == VTK_POLYHEDRON)
       {
         polyhedra->GetFaceStream(cell, ids); // for each face the number of points, and the points
@@ -374,6 +398,12 @@ void SharedPoints::addGroup(const Leaves& leaves, Group group)
       used += cellsOfPoints[point] > 0 ? 1 : 0;
       alone += cellsOfPoints[point] == 1 && points[static_cast<std::size_t>(numbers[point])] > 1;
     }
+  }
+  if (!hasPolyhedra)
+  {
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(starts, corners);
+    group.mesh->SetCells(types, cells);
   }
   group.areAllApart = 2 * alone > used;
   this->Groups.push_back(std::move(group));

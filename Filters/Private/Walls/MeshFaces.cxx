@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Walls/MeshFaces.h"
 
+#include "Cells/CellShape.h"
 #include "Common/CellTypes.h"
 #include "Input/CoincidentPoints.h"
 #include "Input/FlatData.h"
 #include "Input/RefractivityValues.h"
+#include "Walls/UnsharedFaces.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -41,22 +43,21 @@ constexpr const char* ownersName = "OwnerOfFace";
 constexpr const char* originsName = "PointOfLeaf";
 
 /// Returns the state of cells with each point.
-std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress)
+std::vector<State> statesOfPoints(const MeshArrays& mesh, const WorkProgress& progress)
 {
-  std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfPoints()), State::Visible);
-  vtkDataArray* scalars = data->GetPointData()->GetScalars();
-  forChunks(data->GetNumberOfPoints(), progress,
+  std::vector<State> states(static_cast<std::size_t>(mesh.points()), State::Visible);
+  forChunks(mesh.points(), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType i = begin; i < end; ++i)
       {
         Point x;
-        data->GetPoint(i, x.data());
+        mesh.coordinates(i, x.data());
         if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
         {
           states[static_cast<std::size_t>(i)] = State::None; // its position is not finite
         }
-        else if (scalars && !std::isfinite(scalars->GetComponent(i, 0)))
+        else if (mesh.values() && !std::isfinite(mesh.values()[i]))
         {
           states[static_cast<std::size_t>(i)] = State::Hidden;
         }
@@ -65,36 +66,28 @@ std::vector<State> statesOfPoints(vtkDataSet* data, const WorkProgress& progress
   return states;
 }
 
-/// Returns whether all cells are those of a 3-D grid.
-bool isStructured(vtkDataSet* data)
+std::vector<State> statesOf(const MeshArrays& mesh, const WorkProgress& progress)
 {
-  const std::array<int, 3> points = structureOf(data);
-  return std::min({ points[0], points[1], points[2] }) > 1;
-}
-
-std::vector<State> statesOf(vtkDataSet* data, const WorkProgress& progress)
-{
-  const bool is3d = isStructured(data); // VTK says that hidden cells of a grid have no dimension
-  const std::vector<State> ofPoints = statesOfPoints(data, progress.part(0, 0.3));
-  std::vector<State> states(static_cast<std::size_t>(data->GetNumberOfCells()));
-  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  forChunks(data->GetNumberOfCells(), progress.part(0.3, 1),
+  const std::vector<State> ofPoints = statesOfPoints(mesh, progress.part(0, 0.3));
+  std::vector<State> states(static_cast<std::size_t>(mesh.cells()));
+  std::array<bool, 256> isVolume{};
+  for (const int type : mesh.types())
+  {
+    isVolume[static_cast<std::size_t>(type)] =
+      vtkCellTypeUtilities::GetDimension(static_cast<unsigned char>(type)) == 3;
+  }
+  forChunks(mesh.cells(), progress.part(0.3, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
-      vtkNew<vtkIdList> ids;
       for (vtkIdType i = begin; i < end; ++i)
       {
-        State& state = states[static_cast<std::size_t>(i)];
-        if (!is3d && dimensionOfCell(data, i) != 3)
+        if (isVolume[static_cast<std::size_t>(mesh.type(i))])
         {
-          continue;
-        }
-        const bool isHidden = ghosts && (ghosts->GetValue(i) & hiddenCellBits);
-        state = isHidden ? State::Hidden : State::Visible;
-        data->GetCellPoints(i, ids);
-        for (vtkIdType point = 0; point < ids->GetNumberOfIds(); ++point)
-        {
-          state = std::min(state, ofPoints[static_cast<std::size_t>(ids->GetId(point))]);
+          State state = mesh.isVisible(i) ? State::Visible : State::Hidden;
+          mesh.forPoints(i,
+            [&](vtkIdType point)
+            { state = std::min(state, ofPoints[static_cast<std::size_t>(point)]); });
+          states[static_cast<std::size_t>(i)] = state;
         }
       }
     });
@@ -158,27 +151,42 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataSet* data, const std::vector<vtkId
   return surface->GetOutput();
 }
 
-/// Orders faces by cells and points, because VTK's order depends on threads.
-std::vector<vtkIdType> orderOf(
-  vtkPolyData* polygons, vtkIdTypeArray* owners, vtkIdTypeArray* origins)
+/// Finds the faces that only one of linear cells has, by VTK.
+std::vector<OwnedFace> facesByVtk(vtkDataSet* data, const std::vector<vtkIdType>& chosen)
 {
-  using Key = std::array<vtkIdType, 4>; // cell, and the face's three lowest points
-  std::vector<std::pair<Key, vtkIdType>> keys;
+  const vtkSmartPointer<vtkPolyData> polygons = surfaceOf(data, chosen);
+  auto* owners =
+    vtkIdTypeArray::SafeDownCast(polygons->GetCellData()->GetAbstractArray(ownersName));
+  auto* origins =
+    vtkIdTypeArray::SafeDownCast(polygons->GetPointData()->GetAbstractArray(originsName));
+  std::vector<OwnedFace> faces;
   vtkNew<vtkIdList> ids;
   for (vtkIdType face = 0; face < polygons->GetNumberOfCells(); ++face)
   {
-    constexpr vtkIdType none = std::numeric_limits<vtkIdType>::max();
     polygons->GetCellPoints(face, ids);
-    std::vector<vtkIdType> points(3, none);
+    faces.push_back({ owners->GetValue(face), {} });
     for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
     {
-      points.push_back(origins->GetValue(ids->GetId(i)));
+      faces.back().points.push_back(origins->GetValue(ids->GetId(i)));
     }
+  }
+  return faces;
+}
+
+/// Orders faces by cells and points, because their order depends on threads.
+std::vector<std::size_t> orderOf(const std::vector<OwnedFace>& faces)
+{
+  using Key = std::array<vtkIdType, 4>; // cell, and the face's three lowest points
+  std::vector<std::pair<Key, std::size_t>> keys;
+  for (std::size_t face = 0; face < faces.size(); ++face)
+  {
+    std::vector<vtkIdType> points = faces[face].points;
+    points.resize(std::max<std::size_t>(3, points.size()), std::numeric_limits<vtkIdType>::max());
     std::partial_sort(points.begin(), points.begin() + 3, points.end());
-    keys.push_back({ { owners->GetValue(face), points[0], points[1], points[2] }, face });
+    keys.push_back({ { faces[face].owner, points[0], points[1], points[2] }, face });
   }
   std::sort(keys.begin(), keys.end());
-  std::vector<vtkIdType> order;
+  std::vector<std::size_t> order;
   for (const auto& key : keys)
   {
     order.push_back(key.second);
@@ -187,37 +195,37 @@ std::vector<vtkIdType> orderOf(
 }
 
 template <class IsLeftOut>
-void addPlainCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkIdType>& chosen,
+void addPlainCells(const MeshArrays& mesh, std::uint32_t leaf, const std::vector<vtkIdType>& chosen,
   State state, const IsLeftOut& isLeftOut, Faces& faces)
 {
-  const vtkSmartPointer<vtkPolyData> polygons = surfaceOf(data, chosen);
-  auto* owners =
-    vtkIdTypeArray::SafeDownCast(polygons->GetCellData()->GetAbstractArray(ownersName));
-  auto* origins =
-    vtkIdTypeArray::SafeDownCast(polygons->GetPointData()->GetAbstractArray(originsName));
-  std::vector<std::int32_t> numbers(static_cast<std::size_t>(polygons->GetNumberOfPoints()), -1);
-  vtkNew<vtkIdList> ids;
-  for (const vtkIdType face : orderOf(polygons, owners, origins))
+  vtkDataSet* data = mesh.data();
+  const std::vector<int> types = mesh.types();
+  const bool areUsual = !mesh.isStructured() &&
+    std::all_of(
+      types.begin(), types.end(), [](int type) { return shapeOf(type) != CellShape::Other; });
+  const std::vector<OwnedFace> found =
+    areUsual ? unsharedFaces(mesh, chosen) : facesByVtk(data, chosen);
+  std::vector<std::int32_t> numbers(static_cast<std::size_t>(mesh.points()), -1);
+  for (const std::size_t n : orderOf(found))
   {
-    if (isLeftOut(owners->GetValue(face)))
+    const OwnedFace& face = found[n];
+    if (isLeftOut(face.owner))
     {
       continue;
     }
-    polygons->GetCellPoints(face, ids);
-    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    for (const vtkIdType point : face.points)
     {
-      std::int32_t& number = numbers[static_cast<std::size_t>(ids->GetId(i))];
+      std::int32_t& number = numbers[static_cast<std::size_t>(point)];
       if (number < 0)
       {
-        const vtkIdType point = origins->GetValue(ids->GetId(i));
         Point x;
-        data->GetPoint(point, x.data());
+        mesh.coordinates(point, x.data());
         faces.contributions.push_back({ leaf, point, 1 });
         number = faces.addPoint(x);
       }
       faces.corners.push_back(number);
     }
-    faces.finish(middleOf(data, owners->GetValue(face)), state);
+    faces.finish(middleOf(data, face.owner), state);
   }
 }
 
@@ -441,18 +449,25 @@ void addCurvedCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<vtkI
 }
 
 /// Adds the surface of the cells of one state.
-void addCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& states, State state,
-  Copies copies, Faces& faces)
+void addCells(const MeshArrays& mesh, std::uint32_t leaf, const std::vector<State>& states,
+  State state, Copies copies, Faces& faces)
 {
-  const bool isGrid = isStructured(data);
+  vtkDataSet* data = mesh.data();
+  std::array<bool, 256> isLinear{};
+  for (const int type : mesh.types())
+  {
+    isLinear[static_cast<std::size_t>(type)] =
+      vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type));
+  }
   std::vector<vtkIdType> plain, curved;
-  for (std::size_t i = 0; i < states.size(); ++i)
+  const auto count = std::count(states.begin(), states.end(), state);
+  plain.reserve(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < states.size() && count > 0; ++i)
   {
     if (states[i] == state)
     {
       const auto cell = static_cast<vtkIdType>(i);
-      const auto type = static_cast<unsigned char>(data->GetCellType(cell));
-      (isGrid || vtkCellTypeUtilities::IsLinear(type) ? plain : curved).push_back(cell);
+      (isLinear[static_cast<std::size_t>(mesh.type(cell))] ? plain : curved).push_back(cell);
     }
   }
   vtkUnsignedCharArray* ghosts = copies == Copies::Neighbours ? data->GetCellGhostArray() : nullptr;
@@ -460,7 +475,7 @@ void addCells(vtkDataSet* data, std::uint32_t leaf, const std::vector<State>& st
   { return ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0; };
   if (!plain.empty())
   {
-    addPlainCells(data, leaf, plain, state, isLeftOut, faces);
+    addPlainCells(mesh, leaf, plain, state, isLeftOut, faces);
   }
   if (!curved.empty())
   {
@@ -477,7 +492,7 @@ Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progre
   {
     const auto count = static_cast<double>(leaves.size());
     const WorkProgress ofLeaf = progress.part(number / count, (number + 1) / count);
-    vtkDataSet* leaf = leaves[number];
+    const MeshArrays leaf(leaves[number]);
     const std::vector<State> states = statesOf(leaf, ofLeaf.part(0, 0.3));
     addCells(leaf, number, states, State::Visible, copies, faces);
     ofLeaf.reach(0.9);

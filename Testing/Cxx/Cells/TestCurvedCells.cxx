@@ -461,3 +461,30 @@ TEST(CurvedCells, PartsOfTrianglesCoverThem)
   }
   EXPECT_NEAR(area, 1.5 + std::sqrt(3.) / 2, 1e-12);
 }
+
+TEST(MeshFaces, FacesOfLinearCellsBoundThem)
+{
+  std::vector<CellKind> kinds = linearKinds();
+  kinds.push_back({ "Voxels", VTK_VOXEL, { unitCell(VTK_VOXEL, 8) } });
+  for (const CellKind& kind : kinds)
+  {
+    const Mesh mesh = meshOf(kind.type, 3, kind.cells, 0, false);
+    addPointArray(mesh, "N", linear);
+    const Faces faces = facesOf(mesh);
+    using filters::operator+, filters::operator-, filters::operator*;
+    double sum = 0; // of areas, whose faces' corners are in order
+    for (std::size_t face = 0; face < faces.size(); ++face)
+    {
+      const auto at = [&](std::size_t i) -> const filters::Point&
+      { return faces.points[static_cast<std::size_t>(faces.corners[i])]; };
+      const std::size_t first = faces.starts[face];
+      filters::Point area{ 0, 0, 0 };
+      for (std::size_t i = first + 1; i + 1 < faces.starts[face + 1]; ++i)
+      {
+        area = area + 0.5 * filters::cross(at(i) - at(first), at(i + 1) - at(first));
+      }
+      sum += filters::norm(area);
+    }
+    EXPECT_NEAR(sum, 6, 1e-9) << kind.name;
+  }
+}
