@@ -62,14 +62,14 @@ double slopeAt(std::size_t pixel, const std::vector<float>& light, const Patch& 
 }
 
 double differenceAt(std::size_t pixel, const PatchPixels& a, const PatchPixels& b,
-  const Patch& patch, const Scene& scene, const Projection& projection)
+  const Patch& patch, double factor, const Scene& scene, const Projection& projection)
 {
   const Technique& technique = techniqueOf(scene.cutoff);
   if (technique.plane == RecordedPlane::Background)
   {
     const auto movedBy = [&](std::size_t axis)
     { return static_cast<double>(a.moved[2 * pixel + axis] - b.moved[2 * pixel + axis]); };
-    return projection.perDataUnit * std::hypot(movedBy(0), movedBy(1));
+    return factor * projection.perDataUnit * std::hypot(movedBy(0), movedBy(1));
   }
   const std::size_t channels = a.light.size() / b.isLit.size();
   double ofLight = 0;
@@ -78,6 +78,7 @@ double differenceAt(std::size_t pixel, const PatchPixels& a, const PatchPixels& 
     ofLight = std::max(
       ofLight, std::abs(static_cast<double>(a.light[at]) - static_cast<double>(b.light[at])));
   }
+  ofLight *= factor;
   if (technique.plane == RecordedPlane::Screen)
   {
     return std::max(0., ofLight - invisibleShift * slopeAt(pixel, b.light, patch));
@@ -86,7 +87,7 @@ double differenceAt(std::size_t pixel, const PatchPixels& a, const PatchPixels& 
   {
     // The light of a fringe changes by pi of its range in a fringe, at the most.
     const double ofPath =
-      b.isClear[pixel] ? std::abs(a.path[pixel] - b.path[pixel]) / scene.wavelength : 0;
+      b.isClear[pixel] ? factor * std::abs(a.path[pixel] - b.path[pixel]) / scene.wavelength : 0;
     return std::max(ofLight / pi, ofPath);
   }
   return ofLight;
@@ -156,8 +157,8 @@ void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& pat
   {
     if (b.hasMet[pixel] && b.isLit[pixel])
     {
-      const double difference = differenceAt(pixel, a, b, patch, scene, projection);
-      differences.push_back({ factor * difference, patch.weight, pixel });
+      const double difference = differenceAt(pixel, a, b, patch, factor, scene, projection);
+      differences.push_back({ difference, patch.weight, pixel });
     }
   }
 }
