@@ -49,8 +49,9 @@ struct Trial
   bool isMissed() const { return isKept() && error > target; }
 };
 
-/// What the settings of an image leave out: bent rays, steps of a quarter (of grids, by an integrator of fourth order), other rays through other points of the
-/// pixels, eight times as many (of trees, which take long, four), finer voxels, double precision.
+/// What the settings of an image leave out: bent rays, steps of a quarter (in grids of an integrator of fourth order), other
+/// rays through other points of the pixels, eight times as many (of trees, which take long, four), finer voxels, double
+/// precision.
 Image truthOf(const Field& field, Scene scene, const Image& image)
 {
   const double finestStep = field.source ? 0.25 : 0.125;
