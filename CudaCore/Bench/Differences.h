@@ -17,9 +17,8 @@ struct Difference
 };
 using Differences = std::vector<Difference>;
 
-/// What 99 % of the pixels keep may be exceeded in this part of those that are looked at. They are a sample: a hundredth of
-/// all can be less of them, as edges of bodies in small images are.
-constexpr double mayExceed = 0.008;
+/// What 99 % of the pixels keep may be exceeded in this part of them.
+constexpr double mayExceed = 0.01;
 /// The value that no more than a part of the pixels exceeds; 0 if there are none.
 double exceededBy(double part, Differences differences);
 double largestOf(const Differences& differences);

@@ -32,19 +32,15 @@ double sumOf(double a, double b, double c = 0, double d = 0)
   return std::sqrt(a * a + b * b + c * c + d * d);
 }
 
-/// What of differences shall keep a target.
-double errorOf(const Scene& scene, const Differences& differences)
+/// Settings are chosen so that fewer of the pixels that are looked at exceed the target than may: these are a sample, and of
+/// edges of bodies in small images it can have too few.
+constexpr double mayExceedAsChosen = 0.8 * mayExceed;
+
+/// What of differences shall keep a target. `part`: of the pixels that may exceed it.
+double errorOf(const Scene& scene, const Differences& differences, double part = mayExceed)
 {
   return scene.errorNorm == ErrorNorm::Largest ? largestOf(differences)
-                                               : exceededBy(mayExceed, differences);
-}
-
-/// The same of pixels with so many rays, from differences of single rays. Few that go astray, as in glass, are in many
-/// pixels then.
-double errorOfMeans(const Scene& scene, const Differences& ofRays, int samples)
-{
-  const double astray = exceededBy(mayExceed / samples, ofRays) / samples;
-  return std::max(errorOf(scene, ofRays), astray);
+                                               : exceededBy(part, differences);
 }
 
 /// How steps are compared.
@@ -55,10 +51,13 @@ struct StepRange
 
   /// How patches are made to compare a step with others.
   PatchSettings with(double step) const { return { step, 1, raysAtBodies }; }
-  /// The error of steps in pixels with so many rays, from such patches.
-  double errorOf(const Scene& scene, const Differences& differences, int samples) const
+  /// The error of steps in pixels with so many rays, from such patches. Few rays that go astray, as in glass, are in
+  /// many of these pixels.
+  double errorOf(const Scene& scene, const Differences& differences, int samples, double part) const
   {
-    return errorOfMeans(scene, differences, std::max(1, samples / raysAtBodies));
+    const int more = std::max(1, samples / raysAtBodies);
+    const double astray = exceededBy(part / more, differences) / more;
+    return std::max(schlieren::errorOf(scene, differences, part), astray);
   }
 };
 
@@ -107,7 +106,7 @@ public:
       return 0.5 * ofStep(2 * step, samples);
     }
     const auto errorIn = [&](const Differences& differences)
-    { return steps_.errorOf(pilot_.bench().scene, differences, samples); };
+    { return steps_.errorOf(pilot_.bench().scene, differences, samples, mayExceedAsChosen); };
     return errorByHalving * differenceOf(steps_.with(step), steps_.with(0.5 * step), errorIn);
   }
 
@@ -135,7 +134,7 @@ public:
       }
     }
     const auto errorIn = [&](const Differences& differences)
-    { return errorOf(pilot_.bench().scene, differences); };
+    { return errorOf(pilot_.bench().scene, differences, mayExceedAsChosen); };
     return differenceOf(
       { longest(), samples, samples }, { longest(), 4 * samples, 4 * samples }, errorIn);
   }
@@ -335,7 +334,7 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   { return sumOf(bySteps * errorOfSteps, errorOfRays, known.voxels, known.rounding); };
   settings.accuracy.target = scene.targetError;
   settings.accuracy.reached =
-    sum(steps.errorOf(scene, ofSteps, settings.samples), errorOf(scene, ofRays));
+    sum(steps.errorOf(scene, ofSteps, settings.samples, mayExceed), errorOf(scene, ofRays));
   settings.accuracy.largest = sum(largestOf(ofSteps), largestOf(ofRays));
   if (scene.estimatesErrors) // of the image, which is the patch
   {
