@@ -272,7 +272,8 @@ TEST(TargetErrorScenes, KeepTheirTargets)
   all.print("all");
   // The aim is 0.99 and 0.9: see Documentation/accuracy.md for what is reached, and where it fails.
   EXPECT_GE(all.kept(), 0.97);
-  EXPECT_GE(all.effective(), 0.85);
+  constexpr double ofHundreds = 0.88, ofSome = 0.8; // fewer than thirty, of which one is 0.04
+  EXPECT_GE(all.effective(), isLong ? ofHundreds : ofSome);
 }
 
 /// Whose errors are all at a few pixels, which patches could miss: data of which a long step and half of it are one and the
