@@ -193,8 +193,8 @@ void CellTree::setValues(const WorkProgress& progress)
       arrays.setValues(neighbours.valuesFromCells(arrays, part.part(0, 0.5)));
     }
     std::vector<PointTrend> trends = neighbours.trends(arrays, part.part(0.5, 1));
-    arrays.setTrends(
-      mesh.areTrendsCoarser ? neighbours.coarser(arrays, trends, part) : std::move(trends));
+    arrays.setTrends(mesh.areTrendsCoarser ? neighbours.coarser(arrays, trends, part.part(1, 1))
+                                           : std::move(trends));
   }
   if (mesh.levels.empty())
   {

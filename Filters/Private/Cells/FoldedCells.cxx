@@ -38,26 +38,16 @@ using Edges = std::array<int, 3>;
 
 const std::vector<Edges>& edgesFrom(CellShape shape)
 {
-  static const std::vector<Edges> ofTetrahedron{ { 1, 2, 3 } }; // each corner has the same volume
-  static const std::vector<Edges> ofWedge{ { 1, 2, 3 }, { 2, 0, 4 }, { 0, 1, 5 }, { 5, 4, 0 },
-    { 3, 5, 1 }, { 4, 3, 2 } };
-  static const std::vector<Edges> ofPyramid{ { 1, 3, 4 }, { 2, 0, 4 }, { 3, 1, 4 }, { 0, 2, 4 } };
-  static const std::vector<Edges> ofHexahedron{ { 1, 3, 4 }, { 2, 0, 5 }, { 3, 1, 6 }, { 0, 2, 7 },
-    { 7, 5, 0 }, { 4, 6, 1 }, { 5, 7, 2 }, { 6, 4, 3 } };
-  static const std::vector<Edges> ofVoxel; // boxes
-  switch (shape)
-  {
-    case CellShape::Tetrahedron:
-      return ofTetrahedron;
-    case CellShape::Wedge:
-      return ofWedge;
-    case CellShape::Pyramid:
-      return ofPyramid;
-    case CellShape::Hexahedron:
-      return ofHexahedron;
-    default:
-      return ofVoxel;
-  }
+  static const std::vector<Edges> all[]{
+    // in the order of CellShape
+    { { 1, 2, 3 } }, // tetrahedron: each corner has the same volume
+    { { 1, 2, 3 }, { 2, 0, 4 }, { 0, 1, 5 }, { 5, 4, 0 }, { 3, 5, 1 }, { 4, 3, 2 } }, // wedge
+    { { 1, 3, 4 }, { 2, 0, 4 }, { 3, 1, 4 }, { 0, 2, 4 } },                           // pyramid
+    { { 1, 3, 4 }, { 2, 0, 5 }, { 3, 1, 6 }, { 0, 2, 7 }, { 7, 5, 0 }, { 4, 6, 1 }, { 5, 7, 2 },
+      { 6, 4, 3 } }, // hexahedron
+    {}               // voxels are boxes
+  };
+  return all[static_cast<std::size_t>(shape)];
 }
 
 Orientation orientationOf(const CellTree::Cell& cell, CellShape shape)

@@ -36,6 +36,15 @@ private:
   std::uint64_t Value = 1;
 };
 
+/// Hashes a point's number. The sum over several points is a hash of their set, regardless of their order.
+inline std::uint64_t hashOfPoint(std::uint64_t number)
+{
+  std::uint64_t bits = number + 1;
+  bits = (bits ^ (bits >> 31)) * 0x7fb5d329728ea185u; // P. Evensen's mixer
+  bits = (bits ^ (bits >> 27)) * 0x81dadef4bc2dd44du;
+  return bits ^ (bits >> 33);
+}
+
 /// Where points are.
 void addPoints(Hash& hash, vtkDataSet* data);
 

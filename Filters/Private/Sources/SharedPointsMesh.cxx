@@ -6,6 +6,7 @@
 
 #include "Cells/CellMeans.h"
 #include "Cells/MeshArrays.h"
+#include "Cells/MeshKey.h"
 #include "Input/RefractivitySource.h"
 
 #include "vtkCellArray.h"
@@ -45,12 +46,7 @@ std::uint64_t hashOfPoints(
   std::uint64_t sum = 0;
   mesh.forPoints(cell,
     [&](vtkIdType point)
-    {
-      std::uint64_t bits = static_cast<std::uint64_t>(numbers[static_cast<std::size_t>(point)]) + 1;
-      bits = (bits ^ (bits >> 31)) * 0x7fb5d329728ea185u; // P. Evensen's mixer
-      bits = (bits ^ (bits >> 27)) * 0x81dadef4bc2dd44du;
-      sum += bits ^ (bits >> 33);
-    });
+    { sum += hashOfPoint(static_cast<std::uint64_t>(numbers[static_cast<std::size_t>(point)])); });
   return sum;
 }
 

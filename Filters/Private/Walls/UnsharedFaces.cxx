@@ -3,6 +3,7 @@
 #include "Walls/UnsharedFaces.h"
 
 #include "Cells/CellShape.h"
+#include "Cells/MeshKey.h"
 #include "Common/WorkProgress.h"
 
 #include <algorithm>
@@ -24,29 +25,18 @@ using Face = std::array<int, 4>; // corners; -1: none
 
 const std::vector<Face>& facesOfShape(CellShape shape)
 {
-  static const std::vector<Face> ofTetrahedron{ { 0, 1, 3, -1 }, { 1, 2, 3, -1 }, { 2, 0, 3, -1 },
-    { 0, 2, 1, -1 } };
-  static const std::vector<Face> ofWedge{ { 0, 1, 2, -1 }, { 3, 5, 4, -1 }, { 0, 3, 4, 1 },
-    { 1, 4, 5, 2 }, { 2, 5, 3, 0 } };
-  static const std::vector<Face> ofPyramid{ { 0, 3, 2, 1 }, { 0, 1, 4, -1 }, { 1, 2, 4, -1 },
-    { 2, 3, 4, -1 }, { 3, 0, 4, -1 } };
-  static const std::vector<Face> ofHexahedron{ { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 },
-    { 3, 7, 6, 2 }, { 0, 3, 2, 1 }, { 4, 5, 6, 7 } };
-  static const std::vector<Face> ofVoxel{ { 2, 0, 4, 6 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 },
-    { 3, 2, 6, 7 }, { 1, 0, 2, 3 }, { 4, 5, 7, 6 } };
-  switch (shape)
-  {
-    case CellShape::Tetrahedron:
-      return ofTetrahedron;
-    case CellShape::Wedge:
-      return ofWedge;
-    case CellShape::Pyramid:
-      return ofPyramid;
-    case CellShape::Hexahedron:
-      return ofHexahedron;
-    default:
-      return ofVoxel;
-  }
+  static const std::vector<Face> all[]{
+    // in the order of CellShape
+    { { 0, 1, 3, -1 }, { 1, 2, 3, -1 }, { 2, 0, 3, -1 }, { 0, 2, 1, -1 } }, // tetrahedron
+    { { 0, 1, 2, -1 }, { 3, 5, 4, -1 }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } }, // wedge
+    { { 0, 3, 2, 1 }, { 0, 1, 4, -1 }, { 1, 2, 4, -1 }, { 2, 3, 4, -1 },
+      { 3, 0, 4, -1 } }, // pyramid
+    { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 }, { 0, 3, 2, 1 },
+      { 4, 5, 6, 7 } }, // hexahedron
+    { { 2, 0, 4, 6 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 3, 2, 6, 7 }, { 1, 0, 2, 3 },
+      { 4, 5, 7, 6 } } // voxel
+  };
+  return all[static_cast<std::size_t>(shape)];
 }
 
 /// Calls visit(the lowest point, a hash of the set of points, the face) for the faces of a cell.
@@ -56,10 +46,7 @@ void forFaces(CellShape shape, const vtkIdType (&points)[8], const Visit& visit)
   std::uint64_t hashes[8];
   for (int i = 0; i < cornersOf(shape); ++i)
   {
-    std::uint64_t bits = static_cast<std::uint64_t>(points[i]) + 1;
-    bits = (bits ^ (bits >> 31)) * 0x7fb5d329728ea185u; // P. Evensen's mixer
-    bits = (bits ^ (bits >> 27)) * 0x81dadef4bc2dd44du;
-    hashes[i] = bits ^ (bits >> 33);
+    hashes[i] = hashOfPoint(static_cast<std::uint64_t>(points[i]));
   }
   for (const Face& face : facesOfShape(shape))
   {
