@@ -11,10 +11,15 @@
 #include "Rays/March/SampleApart.h"
 
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 namespace schlieren
 {
+
+/// Relative, of a number.
+template <class Number>
+constexpr Number roundingOf = std::numeric_limits<Number>::epsilon();
 
 /// Converts to an integer from 0 to `most`, which many numbers of steps exceed: they are estimates, of any size.
 template <class Number>
@@ -449,10 +454,11 @@ struct March
   }
 
   /// The step that ends where the rays leave the grid, of those that do: Newton's method on all of it,
-  /// because a straight line to the grid's side would leave an error of second order.
+  /// because a straight line to the grid's side would leave an error of second order. `longest`: of a ray that turns
+  /// back into the grid.
   template <class Mask>
-  SCHLIEREN_HD Real endingOutside(
-    Real step, const Mask& leaving, const Vec3<Real>& x, const Vec3<Real>& along) const
+  SCHLIEREN_HD Real endingOutside(Real step, const Real& longest, const Mask& leaving,
+    const Vec3<Real>& x, const Vec3<Real>& along) const
   {
     constexpr int iterations = 3;
     for (int iteration = 0; iteration < iterations; ++iteration)
@@ -469,8 +475,10 @@ struct March
       }
       const Real rest =
         wayOut(Path::position(there, light), Path::along(there, light), domainLow, domainHigh);
-      const Real longest = maximum(2 * cruise, 2 * step);
-      step = leaving ? minimum(maximum(step + rest, Real{}), longest) : step;
+      // A parabola that meets the side does so behind half of the way to where its tangent does. Less is rounding, of
+      // which the step may not become 0.
+      const Real shortest = Number(0.5) * step;
+      step = leaving ? minimum(maximum(step + rest, shortest), longest) : step;
     }
     return step;
   }
@@ -508,8 +516,14 @@ struct March
   {
     // Of a step: nearer to the grid's side than this is there.
     constexpr double near = isExact && std::is_same_v<Number, double> ? 1e-9 : 1e-3;
-    const Real rest =
-      wayOut(Path::position(ray, light), Path::along(ray, light), domainLow, domainHigh);
+    // Rounding of places counts, too: by that alone, a ray along the side may be far from where it leaves.
+    const auto within = [](const Real& low, const Real& high, const Number& ofLeaf)
+    { return (4 * roundingOf<Number>)*minimum(high - low, Real{} + ofLeaf); };
+    const Vec3<Number>& leaf = task.medium.leafHigh;
+    const Vec3<Real> rounding{ within(domainLow.x, domainHigh.x, leaf.x),
+      within(domainLow.y, domainHigh.y, leaf.y), within(domainLow.z, domainHigh.z, leaf.z) };
+    const Real rest = wayOut(Path::position(ray, light), Path::along(ray, light),
+      domainLow + rounding, domainHigh - rounding);
     return leaving & (cruise > 0) & (rest <= Number(near) * cruise);
   }
 
@@ -619,11 +633,12 @@ struct March
     next.someLeave = any(next.leaving);
     if (next.someLeave)
     {
+      const Real longest = step;
       const Real out = minimum(step, wayOut(x, along, domainLow, domainHigh));
       step = next.leaving ? (out > 0 ? out : Real{}) : step;
       if constexpr (isExact)
       {
-        step = endingOutside(step, next.leaving, x, along);
+        step = endingOutside(step, longest, next.leaving, x, along);
       }
     }
     next.middle = x + (Number(0.5) * step) * along;

@@ -49,9 +49,9 @@ struct Trial
   bool isMissed() const { return isKept() && error > target; }
 };
 
-/// What the settings of an image leave out: bent rays, steps of a quarter (in grids of an integrator of fourth order), other
-/// rays through other points of the pixels, eight times as many (of trees, which take long, four), finer voxels, double
-/// precision.
+/// What the settings of an image leave out: bent rays, steps of a quarter (of an integrator of fourth order, in trees of one
+/// that chooses them for a much finer tolerance), other rays through other points of the pixels, eight times as many (of
+/// trees, which take long, four), finer voxels, double precision.
 Image truthOf(const Field& field, Scene scene, const Image& image)
 {
   const double finestStep = field.source ? 0.25 : 0.125;
@@ -67,7 +67,7 @@ Image truthOf(const Field& field, Scene scene, const Image& image)
   scene.adaptiveTolerance = 1e-8;
   scene.homogeneityTolerance = 0;
   scene.pathModel = PathModel::Refracted;
-  scene.integrator = field.source ? scene.integrator : Integrator::Rk4;
+  scene.integrator = field.source ? Integrator::Adaptive : Integrator::Rk4;
   scene.samplesPerPixel =
     isOfCamera(scene.cutoff) ? 1 : std::max(more * image.samplesPerPixel, fewestRays);
   scene.seed += 1;
