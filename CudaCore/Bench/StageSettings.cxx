@@ -24,9 +24,8 @@ RaySettings settingsOf(const Scene& scene, double lengthScale, const Displacemen
   settings.kernel.interpolation = scene.interpolation;
   if (settings.kernel.path == PathModel::Refracted)
   {
-    // With a target error the step is yet to be chosen, and the integrator does not depend on it.
-    const double step = scene.targetError > 0 ? 1 : std::min(scene.stepSize, 1.);
-    const bool isTooSteep = steepest * step > largestChangeInStep;
+    // Whatever the step is: with leapfrog, half of it would be far less exact than all of an adaptive one.
+    const bool isTooSteep = steepest > largestChangeByVoxel;
     settings.kernel.integrator =
       isTooSteep && scene.integrator != Integrator::Euler ? Integrator::Adaptive : scene.integrator;
   }

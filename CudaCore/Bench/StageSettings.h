@@ -17,12 +17,12 @@
 namespace schlieren
 {
 
-/// The most that nu may change in a step of Integrator::Leapfrog or Rk4 of one voxel or less, which keep |p| = 1 + nu to a
-/// few thousandths then.
-constexpr double largestChangeInStep = 0.05;
+/// The most that nu may change by voxel with Integrator::Leapfrog or Rk4: steps of one voxel keep |p| = 1 + nu to a few
+/// thousandths then.
+constexpr double largestChangeByVoxel = 0.05;
 
 /// How a scene's rays are to be traced where no ray is displaced further than `bound`, and nu changes by no more than
-/// `steepest` from voxel to voxel: where that is too much for a step, as at faces of glass, steps are adaptive. What does
+/// `steepest` from voxel to voxel: where that is too much, as at faces of glass, steps are adaptive. What does
 /// not matter to them has its default, so that changing it needs no re-tracing.
 RaySettings settingsOf(const Scene& scene, double lengthScale, const DisplacementBound& bound,
   const Frame& frame, double steepest);

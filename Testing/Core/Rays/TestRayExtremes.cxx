@@ -347,6 +347,39 @@ TEST_P(RayExtremes, LayersOfGlassAreTracedWithAnyStep)
   }
 }
 
+/// Where the medium is steep, steps are adaptive, whatever their length: no shorter one is worse.
+TEST_P(RayExtremes, ShorterStepsAreNoWorseWhereTheMediumIsSteep)
+{
+  SampledField<float> field(cube(17, 8),
+    [](double x, double y, double z)
+    { return 0.15 + 0.1 * std::sin(0.8 * x) * std::sin(0.7 * y + 1) * std::cos(0.9 * z); });
+  View fitted;
+  fitted.width = 20;
+  fitted.height = 20;
+  fitted.viewDirection = { -0.3, 0.2, -1 };
+  Scene scene = sceneOf(fitted);
+  scene.precision = Precision::Double;
+  scene.interpolation = Interpolation::Cubic;
+  scene.adaptiveTolerance = 1e-9;
+  scene.stepSize = 1;
+  const Image truth = Bench().render(field.field, scene);
+  EXPECT_EQ(truth.integrator, Integrator::Adaptive);
+  scene.adaptiveTolerance = Scene().adaptiveTolerance;
+  for (const double step : { 1., 0.5, 0.25, 0.125 })
+  {
+    scene.stepSize = step;
+    const Image image = Bench().render(field.field, scene);
+    double sum = 0;
+    for (std::size_t i = 0; i < image.deflection.size(); ++i)
+    {
+      const double error = image.deflection[i] - truth.deflection[i];
+      sum += error * error;
+    }
+    const double error = std::sqrt(sum / static_cast<double>(image.deflection.size()));
+    EXPECT_LT(error, 1e-6) << step; // leapfrog with steps of a quarter: 1e-4
+  }
+}
+
 TEST_P(RayExtremes, TrappedRaysAreCountedInBoundedTime)
 {
   for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4, Integrator::Euler })
