@@ -41,14 +41,15 @@ private:
   /// By their direction from the middle, so that no side is left out.
   static void sortAlongBorder(Cells& cells);
   void spread(const Cells& cells, double pixels, PatchPlace where);
-  /// Aims a patch at where the light comes from that lands on it. False if that is from all over the image.
+  /// Aims a patch at where the light comes from that lands on it. False if that is from all over the image, or from
+  /// outside, where no scouts are.
   bool findOrigin(Patch& patch) const;
   void takeWholeIfCheaper(std::int64_t margin, bool isWanted);
 
   const Scouts& scouts_;
   const View& view_;
   PatchLayout layout_;
-  std::int64_t lost_ = 0; ///< patches whose light comes from all over the image
+  std::int64_t lost_ = 0; ///< patches whose light comes from all over the image, or from outside
 };
 
 /// Divides the view into cells, of one scout or as large as a patch, and these into strata.
@@ -259,7 +260,7 @@ bool Planner::findOrigin(Patch& patch) const
   patch.fromRow = patch.row - moved[1];
   patch.margin = static_cast<std::int64_t>(
     std::min(static_cast<double>(around) + std::ceil(spreadOf), mostAround));
-  return spreadOf <= mostAround;
+  return scouts_.areOfCamera() || (isFound && spreadOf <= mostAround);
 }
 
 } // namespace

@@ -347,6 +347,29 @@ TEST(TargetErrors, AreRefusedWhereTheyAreNone)
   }
 }
 
+/// A strong lens around a body throws all light of the view out of the image: what lands there is from around it.
+TEST(TargetErrors, OfLightFromOutsideAreSeen)
+{
+  const SampledField<float> field(cube(32, 1),
+    [](double x, double y, double z)
+    {
+      const double r = std::sqrt(x * x + y * y + z * z);
+      return r < 0.25 ? std::numeric_limits<double>::quiet_NaN() : 0.25 * std::exp(-4 * r * r);
+    });
+  Scene scene = sceneOf({ "", Cutoff::Shadowgraph, 0 });
+  scene.view.viewDirection = { 0, 0, -1 };
+  scene.view.parallelScale = 0.4;
+  scene.view.width = scene.view.height = 32;
+  scene.targetError = 1. / 256;
+  const Image image = Bench().render(field.field, scene);
+  const Image truth = finest(field.field, scene, 0);
+  EXPECT_GT(*std::max_element(truth.intensity.begin(), truth.intensity.end()), 0);
+  const double error = trueError(image, truth, scene,
+    [&](std::size_t pixel) { return truth.opticalPathDifference[pixel] != 0; });
+  EXPECT_GT(image.accuracy.reached, 0);
+  EXPECT_TRUE(error <= scene.targetError || !image.accuracy.isKept());
+}
+
 /// Where no light crosses the data there is nothing to keep.
 TEST(TargetErrors, NeedLight)
 {

@@ -64,7 +64,7 @@ Image truthOf(const Field& field, Scene scene, const Image& image)
   scene.precision = isDouble ? Precision::Double : Precision::Single;
   scene.stepSize = std::max(finestStep, 0.25 * image.stepSize);
   scene.mediumTolerance = 2e-4;
-  scene.adaptiveTolerance = 1e-8;
+  scene.adaptiveTolerance = field.source ? 1e-7 : 1e-8;
   scene.homogeneityTolerance = 0;
   scene.pathModel = PathModel::Refracted;
   scene.integrator = field.source ? Integrator::Adaptive : Integrator::Rk4;
