@@ -44,6 +44,8 @@ private:
   /// Aims a patch at where the light comes from that lands on it. False if that is from all over the image, or from
   /// outside, where no scouts are.
   bool findOrigin(Patch& patch) const;
+  /// Whether light through a patch lands so far from it that others' light may be there instead.
+  bool movesLightAway(const Patch& patch) const;
   void takeWholeIfCheaper(std::int64_t margin, bool isWanted);
 
   const Scouts& scouts_;
@@ -260,7 +262,26 @@ bool Planner::findOrigin(Patch& patch) const
   patch.fromRow = patch.row - moved[1];
   patch.margin = static_cast<std::int64_t>(
     std::min(static_cast<double>(around) + std::ceil(spreadOf), mostAround));
-  return scouts_.areOfCamera() || (isFound && spreadOf <= mostAround);
+  return spreadOf <= mostAround && (isFound || scouts_.areOfCamera() || !movesLightAway(patch));
+}
+
+bool Planner::movesLightAway(const Patch& patch) const
+{
+  const std::int64_t stride = scouts_.stride();
+  double farthest = 0;
+  for (std::int64_t row = patch.row / stride - 1; row * stride <= patch.row + Patch::edge; ++row)
+  {
+    for (std::int64_t column = patch.column / stride - 1;
+         column * stride <= patch.column + Patch::edge; ++column)
+    {
+      const Scout* scout = scouts_.at(column, row);
+      if (scout && scout->fate == RayFate::Left)
+      {
+        farthest = std::max({ farthest, std::abs(scout->moved[0]), std::abs(scout->moved[1]) });
+      }
+    }
+  }
+  return farthest > static_cast<double>(stride + Patch::edge);
 }
 
 } // namespace
