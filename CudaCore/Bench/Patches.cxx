@@ -131,7 +131,7 @@ void Planner::sortAlongBorder(Cells& cells)
 }
 
 /// Makes the image the only patch where that is wanted, where others miss their light, or where the rays around them are
-/// more than that takes.
+/// more than that takes. Light that few scouts have met may be between the patches.
 void Planner::takeWholeIfCheaper(std::int64_t margin, bool isWanted)
 {
   double moved = 0;
@@ -165,7 +165,12 @@ void Planner::takeWholeIfCheaper(std::int64_t margin, bool isWanted)
     }
   }
   constexpr double mostLost = 0.02, mostRays = 4; // of both sets
-  if (isWanted || static_cast<double>(lost_) > mostLost * patches ||
+  constexpr double few = 0.03;
+  const double crossing =
+    static_cast<double>(scouts_.view().crossed) / static_cast<double>(scouts_.all().size());
+  const bool isNarrow =
+    patches == 0 || (crossing < few && crossing * raysOf(whole) < mostRays * rays);
+  if (isWanted || isNarrow || static_cast<double>(lost_) > mostLost * patches ||
     rays > mostRays * raysOf(whole))
   {
     layout_.isWhole = true;

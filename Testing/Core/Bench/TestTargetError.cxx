@@ -370,6 +370,34 @@ TEST(TargetErrors, OfLightFromOutsideAreSeen)
   EXPECT_TRUE(error <= scene.targetError || !image.accuracy.isKept());
 }
 
+/// Light that crosses the data between rays that look at all of the view, wherever it is between these.
+TEST(TargetErrors, OfLightThroughASlitAreSeen)
+{
+  Grid grid;
+  grid.dimensions = { 257, 9, 9 };
+  grid.spacing = { 1. / 128, 1. / 8, 1. / 8 };
+  grid.origin = { -1, -0.5, -0.5 };
+  for (const double middle : { 5.5, 6.5, 7.5, 8.5, 9.5, 10.5 })
+  {
+    SCOPED_TRACE(middle);
+    const SampledField<float> field(grid,
+      [&](double x, double y, double)
+      {
+        return std::abs(x - middle / 128) > 0.6 / 128 ? std::numeric_limits<double>::quiet_NaN()
+                                                      : 1e-4 * std::sin(9 * y);
+      });
+    Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+    scene.view.viewDirection = { 0, 0, -1 };
+    scene.view.width = 256;
+    scene.view.height = 48;
+    scene.targetError = 0.5; // which the fewest rays keep
+    const Image image = Bench().render(field.field, scene);
+    EXPECT_TRUE(std::any_of(image.blockedFraction.begin(), image.blockedFraction.end(),
+      [](float blocked) { return blocked < 1; }));
+    EXPECT_GT(image.accuracy.reached, 0);
+  }
+}
+
 /// Where no light crosses the data there is nothing to keep.
 TEST(TargetErrors, NeedLight)
 {

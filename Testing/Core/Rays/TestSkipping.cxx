@@ -17,7 +17,8 @@ struct Medium3D
   std::function<double(double, double, double)> refractivity;
 };
 
-/// In the cube (-1, 1)^3: the closed forms of weak media, one of a strong one, and noise.
+/// In the cube (-1, 1)^3: the closed forms of weak media, a lens that is weak enough for steps that are not adaptive, and
+/// noise.
 std::vector<Medium3D> media()
 {
   std::mt19937 random(5);
@@ -32,7 +33,7 @@ std::vector<Medium3D> media()
     { "step", [](double x, double y, double) { return x + 0.3 * y > 0.21 ? 1e-4 : 0; } },
     { "lens",
       [](double x, double y, double z)
-      { return std::sqrt(2 - std::min(1., 4 * (x * x + y * y + z * z))) - 1; } },
+      { return 0.2 * (std::sqrt(2 - std::min(1., 4 * (x * x + y * y + z * z))) - 1); } },
     { "noise in a ball",
       [noise](double x, double y, double z)
       {
