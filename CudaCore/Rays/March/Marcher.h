@@ -518,7 +518,7 @@ struct March
     constexpr double near = isExact && std::is_same_v<Number, double> ? 1e-9 : 1e-3;
     // Rounding of places counts, too: by that alone, a ray along the side may be far from where it leaves.
     const auto within = [](const Real& low, const Real& high, const Number& ofLeaf)
-    { return (4 * roundingOf<Number>)*minimum(high - low, Real{} + ofLeaf); };
+    { return roundingOf<Number> * minimum(high - low, Real{} + ofLeaf); };
     const Vec3<Number>& leaf = task.medium.leafHigh;
     const Vec3<Real> rounding{ within(domainLow.x, domainHigh.x, leaf.x),
       within(domainLow.y, domainHigh.y, leaf.y), within(domainLow.z, domainHigh.z, leaf.z) };
@@ -633,7 +633,7 @@ struct March
     next.someLeave = any(next.leaving);
     if (next.someLeave)
     {
-      const Real longest = step;
+      const Real longest = 2 * step;
       const Real out = minimum(step, wayOut(x, along, domainLow, domainHigh));
       step = next.leaving ? (out > 0 ? out : Real{}) : step;
       if constexpr (isExact)

@@ -622,28 +622,25 @@ TEST_P(RayExtremes, RaysLeaveThroughASideThatTheyRunAlong)
   View fitted;
   fitted.width = 161;
   fitted.height = 161;
+  fitted.viewDirection = { -1, -8e-3, -0.012 };
   Scene scene = sceneOf(fitted);
   scene.stepSize = 0.125;
-  for (const Vector& viewDirection : { Vector{ -1, -8e-3, -0.012 }, { 1, 6e-3, 0.015 } })
+  scene.precision = Precision::Double;
+  scene.integrator = Integrator::Leapfrog;
+  const Image truth = Bench().render(field.field, scene);
+  const double largest = std::abs(*std::max_element(truth.deflection.begin(),
+    truth.deflection.end(), [](float a, float b) { return std::abs(a) < std::abs(b); }));
+  for (const Integrator integrator :
+    { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
   {
-    scene.view.viewDirection = viewDirection;
-    scene.precision = Precision::Double;
-    scene.integrator = Integrator::Leapfrog;
-    const Image truth = Bench().render(field.field, scene);
-    const double largest = std::abs(*std::max_element(truth.deflection.begin(),
-      truth.deflection.end(), [](float a, float b) { return std::abs(a) < std::abs(b); }));
-    for (const Integrator integrator :
-      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
+    SCOPED_TRACE(name(integrator));
+    scene.precision = Precision::Single;
+    scene.integrator = integrator;
+    const Image image = Bench().render(field.field, scene);
+    EXPECT_EQ(image.raysLost, 0);
+    for (std::size_t i = 0; i < image.deflection.size(); ++i)
     {
-      SCOPED_TRACE(name(integrator));
-      scene.precision = Precision::Single;
-      scene.integrator = integrator;
-      const Image image = Bench().render(field.field, scene);
-      EXPECT_EQ(image.raysLost, 0);
-      for (std::size_t i = 0; i < image.deflection.size(); ++i)
-      {
-        ASSERT_NEAR(image.deflection[i], truth.deflection[i], 5e-3 * largest) << i;
-      }
+      ASSERT_NEAR(image.deflection[i], truth.deflection[i], 5e-3 * largest) << i;
     }
   }
 }
