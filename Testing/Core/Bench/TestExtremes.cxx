@@ -225,7 +225,7 @@ TEST_P(Extremes, StrongNoiseEndsAndStaysFinite)
   std::uniform_real_distribution<double> anyIndex(-0.9, 3);
   const SampledField<float> medium(
     cube(24, 1), [&](double, double, double) { return anyIndex(random); });
-  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+  for (const Interpolation interpolation : allInterpolations)
   {
     Scene scene = smallScene(GetParam());
     scene.interpolation = interpolation;

@@ -70,8 +70,7 @@ TEST_P(ExitFacesOfTank, KeepWhatLightHasAlongThem)
   {
     for (const Precision precision : { Precision::Single, Precision::Double })
     {
-      for (const Integrator integrator :
-        { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
+      for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Adaptive })
       {
         Scene scene = tankScene(GetParam());
         scene.pathModel = path;
