@@ -77,7 +77,6 @@ std::unique_ptr<MeshPiece> makePieceOfMeshes(
   }
   kept.piece = PieceMesh::of(prepared.refractivity, reconstruction, kept.piece);
   auto piece = std::make_unique<MeshPiece>(prepared, kept.piece, Copies::Neighbours);
-  tally += kept.piece->folds();
   piece->setDatasets(datasetsOf(prepared.refractivity, choice.source, pieces));
   return piece;
 }

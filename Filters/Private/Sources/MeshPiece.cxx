@@ -39,14 +39,6 @@ std::shared_ptr<PieceMesh> PieceMesh::of(const MeshLeaves& leaves,
     : std::make_shared<PieceMesh>(PieceMesh{ hash.value(), reconstruction, nullptr, {}, {} });
 }
 
-Tally PieceMesh::folds() const
-{
-  Tally tally;
-  tally.folded = this->cells->folded.count;
-  tally.placeOfFolded = this->cells->folded.place;
-  return tally;
-}
-
 MeshPiece::MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
   const WorkProgress& progress, int flatAxis)
   : Leaves(leaves.refractivity)

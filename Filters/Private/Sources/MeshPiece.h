@@ -35,9 +35,6 @@ struct PieceMesh
   std::vector<std::size_t> firstContributions;
   std::vector<Contribution> contributions;
 
-  /// Returns the tally of folded cells alone.
-  Tally folds() const;
-
   /// Returns that of the leaves: `kept` (may be null) if it is equal, or a new one.
   static std::shared_ptr<PieceMesh> of(const MeshLeaves& leaves,
     CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept);
