@@ -415,8 +415,7 @@ inline const char* name(Integrator integrator)
 }
 inline const char* name(PathModel model)
 {
-  const char* names[] = { "Auto", "Straight", "Refracted" };
-  return names[static_cast<int>(model)];
+  return model == PathModel::Straight ? "Straight" : "Refracted";
 }
 
 inline constexpr Integrator allIntegrators[] = { Integrator::Leapfrog, Integrator::Adaptive };

@@ -104,8 +104,6 @@ void MeanImage::Add(schlieren::Image&& image)
   // Keeps the worst value.
   mean.pathModel = std::max(mean.pathModel, image.pathModel);
   mean.integrator = std::max(mean.integrator, image.integrator);
-  mean.displacementBound = std::max(mean.displacementBound, image.displacementBound);
-  mean.displacementWithin = std::max(mean.displacementWithin, image.displacementWithin);
   mean.skippingBound = std::max(mean.skippingBound, image.skippingBound);
   mean.momentumDrift = std::max(mean.momentumDrift, image.momentumDrift);
   if (image.accuracy.reached > mean.accuracy.reached)

@@ -231,7 +231,6 @@ TEST_P(Extremes, StrongNoiseEndsAndStaysFinite)
     scene.interpolation = interpolation;
     const Image image = Bench().render(medium.field, scene);
     EXPECT_GT(image.raysLost, 0);
-    EXPECT_TRUE(std::isinf(image.displacementBound));
     for (const PixelArray<float>* values :
       { &image.intensity, &image.deflection, &image.displacement })
     {
@@ -240,14 +239,6 @@ TEST_P(Extremes, StrongNoiseEndsAndStaysFinite)
     }
     EXPECT_LE(largest(image.deflection), 1);
   }
-}
-
-TEST_P(Extremes, DisplacementStaysWithinItsBound)
-{
-  const Image image = renderBlob(0.003, 0, smallScene(GetParam()));
-  EXPECT_GT(largest(image.displacement), 0);
-  EXPECT_LE(largest(image.displacement), image.displacementBound);
-  EXPECT_LT(image.displacementBound, 100 * largest(image.displacement));
 }
 
 INSTANTIATE_TEST_SUITE_P(, Extremes, bothDevices(), deviceName);

@@ -155,7 +155,7 @@ SceneResult tryScene(int number, bool isShown)
     for (std::size_t n = 0; n < 2; ++n)
     {
       const Trial& trial = result.trials[n];
-      std::printf("%d;%s;%s;%.3g;%.3g;%.3g;%s;%s;%g;%d;%s;%.2f;%.2f;%.2g;%.2g;%.2g\n", number,
+      std::printf("%d;%s;%s;%.3g;%.3g;%.3g;%s;%s;%g;%d;%s;%.2f;%.2f;%.2g;%.2g\n", number,
         name(result.kind), name(result.cutoff), trial.target, trial.reached, trial.error,
         trial.isMissed()    ? "MISSED"
           : !trial.isKept() ? "not kept"
@@ -164,8 +164,7 @@ SceneResult tryScene(int number, bool isShown)
         images[n].pathModel == PathModel::Straight ? "straight" : "refracted", trial.seconds,
         seconds, images[n].accuracy.largest,
         static_cast<double>(images[n].raysLost) /
-          static_cast<double>(std::max<std::int64_t>(1, images[n].raysTraced)),
-        images[n].displacementBound / images[n].frame.pixelSize);
+          static_cast<double>(std::max<std::int64_t>(1, images[n].raysTraced)));
     }
     std::fflush(stdout);
   }
