@@ -104,7 +104,7 @@ inline const char* name(Precision precision)
 }
 
 inline constexpr Interpolation allInterpolations[] = { Interpolation::Quadratic,
-  Interpolation::Linear, Interpolation::Central, Interpolation::Cubic };
+  Interpolation::Cubic };
 inline const char* name(Interpolation interpolation)
 {
   constexpr const char* names[] = { "Quadratic", "Linear", "Central", "Cubic" };

@@ -75,8 +75,7 @@ inline void expectPacksToDoWhatOneDoes(const Field& field)
     view.height = 29;
     const Light light = collimatedLight(field.grid, frameOf(field.grid, view));
     refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.01 }, {});
-    for (const Integrator integrator :
-      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
+    for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Adaptive })
     {
       SCOPED_TRACE(std::string(name(interpolation)) + " integrator " +
         std::to_string(static_cast<int>(integrator)));

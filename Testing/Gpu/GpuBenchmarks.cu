@@ -63,48 +63,18 @@ struct Cost
 
   static Cost of(Interpolation interpolation)
   {
-    switch (interpolation)
-    {
-      case Interpolation::Linear:
-        return { 8, 200 };
-      case Interpolation::Central:
-        return { 64, 454 };
-      case Interpolation::Cubic:
-        return { 64, 495 };
-      default:
-        return { 27, 298 };
-    }
+    return interpolation == Interpolation::Cubic ? Cost{ 64, 495 } : Cost{ 27, 298 };
   }
 };
 
 const char* name(Interpolation interpolation)
 {
-  switch (interpolation)
-  {
-    case Interpolation::Linear:
-      return "Linear";
-    case Interpolation::Central:
-      return "Central";
-    case Interpolation::Cubic:
-      return "Cubic";
-    default:
-      return "Quadratic";
-  }
+  return interpolation == Interpolation::Cubic ? "Cubic" : "Quadratic";
 }
 
 const char* name(Integrator integrator)
 {
-  switch (integrator)
-  {
-    case Integrator::Rk4:
-      return "RK4";
-    case Integrator::Adaptive:
-      return "Adaptive";
-    case Integrator::Euler:
-      return "Euler";
-    default:
-      return "Leapfrog";
-  }
+  return integrator == Integrator::Adaptive ? "Adaptive" : "Leapfrog";
 }
 
 const char* name(Cutoff cutoff)
@@ -273,7 +243,7 @@ void measureAll(
   const char* medium, const Field& field, const Vector& viewDirection, const Peak& peak)
 {
   Bench bench;
-  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Cubic })
   {
     for (const double tolerance : { 0., 0.001 })
     {
@@ -346,15 +316,13 @@ void measureKernels(
   for (const Precision precision : { Precision::Single, Precision::Double })
   {
     std::printf("%s precision\n", precision == Precision::Single ? "single" : "double");
-    for (const Interpolation interpolation : { Interpolation::Linear, Interpolation::Central,
-           Interpolation::Quadratic, Interpolation::Cubic })
+    for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Cubic })
     {
       Bench bench;
       Scene scene = sceneOf(viewDirection);
       scene.precision = precision;
       scene.interpolation = interpolation;
-      for (const Integrator integrator :
-        { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
+      for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Adaptive })
       {
         scene.integrator = integrator;
         measure(medium, bench, field, scene, peak);
@@ -373,7 +341,7 @@ void run(std::int64_t largest)
     "rays/s, steps/s: of tracing\n"
     "image: all of it; again: with another knife edge\n"
     "L1, issue: of the most that reading and calculating allow, if a step takes one sample\n"
-    "  (RK4 takes four, Adaptive three)\n"
+    "  (Adaptive takes four)\n"
     "memory: if every pass, of a ray per pixel, read all of the medium from there\n"
     "rms, worst, OPD: differences of GPU and CPU, by the largest value\n",
     1e-12 * peak.memoryBytes, 1e-12 * peak.cacheBytes, 1e-12 * peak.instructions);

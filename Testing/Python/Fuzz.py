@@ -40,7 +40,6 @@ QUICK = {"ImageSize": ([16, 16], [16, 16], [33, 7], [1, 1], [0, 16], [16, -3], [
          "NumberOfThreads": (0, 1, 2, 3, -1), "HistogramSize": (0, 1, 16, 256, 2049, -1),
          "NoiseFilterRadius": (0., 1., 2.5, -1., float("nan"), float("inf")),
          "StepSize": (2., 1., .1, 16., 17., 0., -1., float("nan")),
-         "AdaptiveTolerance": (1e-5, 1e-3, 1., 0., 2., float("nan")),
          "MediumTolerance": (.02, .1, .5, 1., 0., -1., float("nan")),
          "PreviewReduction": (1, 1, 2, 64, 0, 65), "TimeLimit": (0., 0., 1e-3, -1.)}
 

@@ -93,7 +93,7 @@ TEST(Stages, EverythingThatMattersTracesAgain)
   expectFresh("zoom");
   scene.precision = Precision::Double;
   expectFresh("precision");
-  scene.interpolation = Interpolation::Linear;
+  scene.interpolation = Interpolation::Cubic;
   expectFresh("interpolation");
   blob.field.lengthScale = 0.001;
   expectFresh("length scale");

@@ -327,32 +327,6 @@ TEST_P(RaysInAFlatTree, TakeTheStepsThatBendingNeeds)
   EXPECT_LT(difference, 4e-3 * largest);
 }
 
-TEST_P(RaysInAFlatTree, AreDisplacedWithinTheBound)
-{
-  for (const double depth : { 0.05, 1., 4. })
-  {
-    const auto source = std::make_shared<ColumnsSource>(
-      std::vector<Column2d>{ { -0.1, 0.05, 0.3, 1e-4 }, { 0.32, -0.31, 0.2, -1e-4 } }, 2, depth);
-    for (const Vector& direction : someDirections)
-    {
-      SCOPED_TRACE(std::to_string(depth) + " deep, along " + std::to_string(direction[0]));
-      Scene scene = sceneOf(direction, GetParam());
-      scene.pathModel = PathModel::Refracted;
-      const Image image = Bench().render(fieldOf(source), scene);
-      double largest = 0;
-      for (std::size_t i = 0; i + 1 < image.displacement.size(); i += 2)
-      {
-        largest = std::max(largest,
-          std::hypot(static_cast<double>(image.displacement[i]),
-            static_cast<double>(image.displacement[i + 1])));
-      }
-      EXPECT_GT(largest, 0);
-      EXPECT_LE(largest, image.displacementBound);
-      EXPECT_GT(20 * largest, image.displacementBound);
-    }
-  }
-}
-
 TEST_P(RaysInAFlatTree, EndAtWalls)
 {
   const auto source = std::make_shared<ColumnsSource>(twoColumns, 50, 1, 1);

@@ -15,14 +15,11 @@ constexpr int presets[] = { Filter::INTERACTIVE, Filter::FINE, Filter::PUBLICATI
 /// What the filter's properties are, by the names that Quality knows them by.
 std::map<std::string, double> settingsOf(Filter* filter)
 {
-  return { { "PathModel", filter->GetPathModel() }, { "Integrator", filter->GetIntegrator() },
+  return { { "PathModel", filter->GetPathModel() }, 
     { "StepSize", filter->GetStepSize() },
     { "HomogeneityTolerance", filter->GetHomogeneityTolerance() },
-    { "Interpolation", filter->GetInterpolation() },
     { "SamplesPerPixel", filter->GetSamplesPerPixel() },
     { "FilmEstimator", filter->GetFilmEstimator() }, { "Precision", filter->GetPrecision() },
-    { "AdaptiveTolerance", filter->GetAdaptiveTolerance() },
-    { "PathTolerance", filter->GetPathTolerance() },
     { "MediumTolerance", filter->GetMediumTolerance() },
     { "TargetError", filter->GetTargetError() },
     { "AutoTargetError", filter->GetAutoTargetError() } };
@@ -92,11 +89,9 @@ TEST(Quality, ChoicesAreClampedToWhatThereIs)
 {
   vtkNew<Filter> filter;
   filter->SetPathModel(99);
-  EXPECT_EQ(filter->GetPathModel(), Filter::DIFFERENCE);
-  filter->SetIntegrator(-1);
-  EXPECT_EQ(filter->GetIntegrator(), Filter::LEAPFROG);
-  filter->SetInterpolation(99);
-  EXPECT_EQ(filter->GetInterpolation(), Filter::CUBIC);
+  EXPECT_EQ(filter->GetPathModel(), Filter::REFRACTED);
+  filter->SetPathModel(-1);
+  EXPECT_EQ(filter->GetPathModel(), Filter::STRAIGHT);
 }
 
 TEST(Quality, EveryPresetTracesItsRays)

@@ -130,8 +130,6 @@ TEST(TimeSlices, GiveTheBitsOfTheWhole)
       filter->AddField("f");
       filter->SetColorByField(true);
     });
-  expectSameInSlices(image,
-    [](vtkSchlierenFilter* filter) { filter->SetPathModel(vtkSchlierenFilter::DIFFERENCE); });
 }
 
 TEST(TimeSlices, AreNoneWhereTheLimitIsLong)
