@@ -35,13 +35,6 @@ std::map<std::string, double> settingsOf(int preset)
   return settings;
 }
 
-vtkSmartPointer<vtkImageData> columnImage(int points)
-{
-  auto image = cube(points);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
-}
-
 } // namespace
 
 TEST(Quality, IsInteractiveUnlessSet)
