@@ -15,13 +15,6 @@
 namespace
 {
 
-vtkSmartPointer<vtkImageData> columnImage(int points)
-{
-  auto image = cube(points);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
-}
-
 struct WorkDone
 {
   vtkTypeInt64 builds;

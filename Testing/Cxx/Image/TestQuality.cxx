@@ -34,13 +34,6 @@ std::map<std::string, double> settingsOf(int preset)
   return settings;
 }
 
-vtkSmartPointer<vtkImageData> columnImage(int points)
-{
-  auto image = cube(points);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
-}
-
 } // namespace
 
 TEST(Quality, IsInteractiveUnlessSet)
