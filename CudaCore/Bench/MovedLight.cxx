@@ -67,16 +67,16 @@ std::vector<MovedRay> lookAtLight(RayTask<Real> task, const View& view, int thre
   return moved;
 }
 
-double furthestMoved(const std::vector<MovedRay>& rays, double distance)
+double maximumShift(const std::vector<MovedRay>& rays, double distance)
 {
-  double furthest = 0;
+  double most = 0;
   for (const MovedRay& ray : rays)
   {
-    furthest = std::max(furthest,
+    most = std::max(most,
       std::hypot(ray.displacement[0] + distance * ray.slope[0],
         ray.displacement[1] + distance * ray.slope[1]));
   }
-  return furthest;
+  return most;
 }
 
 template std::vector<MovedRay> lookAtLight(RayTask<float>, const View&, int);

@@ -25,8 +25,8 @@ struct MovedRay
 template <class Real>
 std::vector<MovedRay> lookAtLight(RayTask<Real> task, const View& view, int threads);
 
-/// The furthest that they are moved at a distance behind the exit plane, data units. What lies between them may be moved
+/// The most that they are moved at a distance behind the exit plane, data units. What lies between them may be moved
 /// further: of a Gaussian's slope with a standard deviation as wide as the rays are apart, by less than a fifth.
-double furthestMoved(const std::vector<MovedRay>& rays, double distance);
+double maximumShift(const std::vector<MovedRay>& rays, double distance);
 
 } // namespace schlieren

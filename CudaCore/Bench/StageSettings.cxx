@@ -178,7 +178,7 @@ std::int64_t marginFor(
   {
     const double film = apparentDistance(distance, frame, light.faces.ratio);
     const double magnification = magnificationAt(scene, frame, film, light.faces.ratio);
-    const double moved = furthestMoved(rays, film);
+    const double moved = maximumShift(rays, film);
     largest = std::max(largest, magnification > 0 ? moved / magnification : 0);
   }
   constexpr double between = 1.2; // what lies between the rays may be moved further

@@ -405,7 +405,6 @@ TEST_P(RayExtremes, OneVoxelRefractsAndReflectsAsASurface)
       scene.interpolation = interpolation;
       scene.precision = Precision::Double;
       scene.integrator = Integrator::Adaptive;
-      scene.adaptiveTolerance = 1e-9;
       scene.stepSize = 1. / 16;
       const Image image = Bench().render(field.field, scene);
       EXPECT_EQ(image.raysLost, 0);

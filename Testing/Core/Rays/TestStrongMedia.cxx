@@ -299,7 +299,7 @@ TEST_P(StrongMedia, RaysAreReversible)
     Scene scene = raysThrough(medium, GetParam());
     scene.precision = Precision::Double;
     scene.integrator = Integrator::Adaptive;
-    scene.adaptiveTolerance = 1e-9;
+    scene.adaptiveTolerance = 1e-7;
     scene.interpolation = Interpolation::Cubic;
     scene.stepSize = 0.5;
     // Into the box's face and out of its opposite face.
