@@ -44,7 +44,7 @@ enum class PathModel
 enum class Integrator
 {
   Leapfrog, ///< one gradient a step, second order, symplectic
-  Adaptive  ///< four gradients a step, third order; steps are as long as Scene::adaptiveTolerance allows
+  Adaptive ///< four gradients a step, third order; steps are as long as Scene::adaptiveTolerance allows
 };
 
 /// Of which pixels an image's error is.

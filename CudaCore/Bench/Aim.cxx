@@ -17,7 +17,8 @@ Pilot<Real>& Bench::Stages::pilotFor(MediumOnDevices<Real>& onDevices, const Lig
   const bool wantsAllPixels = scene.estimatesErrors || scene.errorNorm == ErrorNorm::Largest;
   const RaysOfView rays = raysFor(onDevices, light, request, image);
   const Projection projection = projectionFor(rays.settings, light, request, image);
-  return targets.pilotOf<Real>({ rays.key, field.lengthScale, projection, scene.filmEstimator, scene.seed, wantsAllPixels },
+  return targets.pilotOf<Real>(
+    { rays.key, field.lengthScale, projection, scene.filmEstimator, scene.seed, wantsAllPixels },
     [&]
     {
       const PilotBench<Real> bench{ &onDevices.medium, light, scene, projection, rays.settings,

@@ -77,8 +77,8 @@ RaysOfView Bench::Stages::raysFor(MediumOnDevices<Real>& onDevices, const Light&
   const Scene& scene = request.scene;
   const Medium<Real>& medium = onDevices.medium;
   image.steepestChange = medium.steepest.perVoxel;
-  image.steepestPlace = placeOf(
-    field.grid, { medium.steepest.at[0], medium.steepest.at[1], medium.steepest.at[2] });
+  image.steepestPlace =
+    placeOf(field.grid, { medium.steepest.at[0], medium.steepest.at[1], medium.steepest.at[2] });
   const RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
   image.pathModel = settings.kernel.path;
   image.integrator = settings.kernel.integrator;
@@ -89,12 +89,14 @@ RaysOfView Bench::Stages::raysFor(MediumOnDevices<Real>& onDevices, const Light&
   {
     RaySettings coarse = settings;
     coarse.stepVoxels = longestStep;
+    coarse.adaptiveTolerance = std::max(settings.adaptiveTolerance, usualTolerance);
     return lookAtLight(
       makeTask<Real>(medium, nullptr, {}, light, coarse), scene.view, scene.threads);
   };
   const bool mayMove = !isOfCamera(scene.cutoff);
   return { key, settings,
-    marginFor(mayMove ? rays.movedIn(key, look) : std::vector<MovedRay>{}, scene, image.frame, light) };
+    marginFor(
+      mayMove ? rays.movedIn(key, look) : std::vector<MovedRay>{}, scene, image.frame, light) };
 }
 
 template <class Real>

@@ -24,8 +24,7 @@ std::vector<MovedRay> lookAtLight(RayTask<Real> task, const View& view, int thre
   const double wanted =
     std::clamp(static_cast<double>(view.width) * view.height / pixelsByRays, fewest, most);
   const double area = static_cast<double>(width) * static_cast<double>(height);
-  const std::int64_t stride =
-    std::max<std::int64_t>(1, std::llround(std::sqrt(area / wanted)));
+  const std::int64_t stride = std::max<std::int64_t>(1, std::llround(std::sqrt(area / wanted)));
   const double first = 0.5 * static_cast<double>(stride - 1) - static_cast<double>(around);
   task.light = lightOfPart(task.light, first, first, static_cast<double>(stride));
   const std::int64_t columns = (width + stride - 1) / stride, rows = (height + stride - 1) / stride;
@@ -51,10 +50,11 @@ std::vector<MovedRay> lookAtLight(RayTask<Real> task, const View& view, int thre
             continue;
           }
           constexpr float none[2] = { 0, 0 };
-          const FilmShift slope = shiftOnFilm(exit.deflection, none, pass.columnOf(ray),
-            pass.rowOf(ray), pass.tilt, toSlopes);
+          const FilmShift slope = shiftOnFilm(
+            exit.deflection, none, pass.columnOf(ray), pass.rowOf(ray), pass.tilt, toSlopes);
           ofBands[static_cast<std::size_t>(band)].push_back(
-            { { static_cast<double>(exit.displacement[0]), static_cast<double>(exit.displacement[1]) },
+            { { static_cast<double>(exit.displacement[0]),
+                static_cast<double>(exit.displacement[1]) },
               { slope.moved[0], slope.moved[1] } });
         }
       }

@@ -91,8 +91,7 @@ struct ViewKey
   auto tie() const
   {
     return std::tuple_cat(light.tie(), tieOf(frame),
-      std::tie(
-        width, height, kernel.path, kernel.integrator, kernel.interpolation, changes));
+      std::tie(width, height, kernel.path, kernel.integrator, kernel.interpolation, changes));
   }
 };
 

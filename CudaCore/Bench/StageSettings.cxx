@@ -164,8 +164,8 @@ Aperture apertureOf(const Scene& scene, const Frame& frame, const ExitFaces& fac
   return aperture;
 }
 
-std::int64_t marginFor(const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame,
-  const Light& light)
+std::int64_t marginFor(
+  const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame, const Light& light)
 {
   if (isOfCamera(scene.cutoff))
   {

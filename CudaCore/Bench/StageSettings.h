@@ -58,8 +58,8 @@ Aperture apertureOf(const Scene& scene, const Frame& frame, const ExitFaces& fac
 
 /// Pixels around the image from which light may be bent into it, by a coarse look at it: at most maxMargin(). At least one, because the film distributes a ray over four pixels. The same for all
 /// cutoffs, so that changing the cutoff needs no re-tracing, but for a camera's rays, which stay in their pixel.
-std::int64_t marginFor(const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame,
-  const Light& light);
+std::int64_t marginFor(
+  const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame, const Light& light);
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces);
 

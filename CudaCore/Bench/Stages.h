@@ -26,8 +26,7 @@ namespace schlieren
 struct Aim
 {
   Field field;
-  Scene
-    scene; ///< with the medium that the target needs, as far as that is known
+  Scene scene; ///< with the medium that the target needs, as far as that is known
   Device device;
   std::unique_ptr<UnfinishedImage> request{}; ///< with all settings, once they are found
   bool isPaused = false;

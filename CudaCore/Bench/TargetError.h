@@ -78,9 +78,8 @@ struct PilotKey
   {
     const Projection& p = projection;
     return std::tuple_cat(view.tie(),
-      std::tie(lengthScale, p.distance,
-        p.perDataUnit, p.pathPerDataUnit, p.exitRatio, p.perSourceDistance, p.isOfCamera, estimator,
-        seed, wantsAllPixels));
+      std::tie(lengthScale, p.distance, p.perDataUnit, p.pathPerDataUnit, p.exitRatio,
+        p.perSourceDistance, p.isOfCamera, estimator, seed, wantsAllPixels));
   }
 };
 

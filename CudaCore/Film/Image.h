@@ -71,13 +71,13 @@ struct Image
   double saturatedFraction = 0;
   LightBalance light;
   Histogram histogram;
-  double ambient = 0;            ///< the ambient refractivity used
-  double exitRefractivity = 0;   ///< of what light leaves the data into
-  std::int64_t raysTraced = 0;   ///< rays of this image that crossed the grid
-  std::int64_t stepsTaken = 0;   ///< integration steps of these rays
-  std::int64_t raysBlocked = 0;  ///< rays that a solid stopped
-  std::int64_t raysLost = 0;     ///< rays trapped in the medium (step limit) or turned back by it
-  double traceSeconds = 0;       ///< spent tracing for it; 0 when cached rays were re-shaded
+  double ambient = 0;           ///< the ambient refractivity used
+  double exitRefractivity = 0;  ///< of what light leaves the data into
+  std::int64_t raysTraced = 0;  ///< rays of this image that crossed the grid
+  std::int64_t stepsTaken = 0;  ///< integration steps of these rays
+  std::int64_t raysBlocked = 0; ///< rays that a solid stopped
+  std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
+  double traceSeconds = 0;      ///< spent tracing for it; 0 when cached rays were re-shaded
   /// Skipping homogeneous cubes changes no deflection cosine by more than this, but for what the ray meets
   /// because it is elsewhere then, which is of second order.
   double skippingBound = 0;

@@ -127,8 +127,8 @@ nb::dict traceSamples(
   scene.kScale = k;
   scene.screenDistance = screenDistance;
   scene.wavelength = wavelength;
-  scene.pathModel = choice<PathModel>("path", path,
-    { { "straight", PathModel::Straight }, { "refracted", PathModel::Refracted } });
+  scene.pathModel = choice<PathModel>(
+    "path", path, { { "straight", PathModel::Straight }, { "refracted", PathModel::Refracted } });
   scene.interpolation = choice<Interpolation>("interpolation", interpolation,
     { { "quadratic", Interpolation::Quadratic }, { "cubic", Interpolation::Cubic } });
   scene.precision = choice<Precision>(

@@ -142,7 +142,8 @@ void arguments(benchmark::internal::Benchmark* b)
   constexpr int refracted = static_cast<int>(PathModel::Refracted);
   constexpr int straight = static_cast<int>(PathModel::Straight);
   const int best = static_cast<int>(bestSimd());
-  for (const int interpolation : { 0, 1 }) // Quadratic, Cubic: the rate and its ratio to one ray at a time
+  for (const int interpolation :
+    { 0, 1 }) // Quadratic, Cubic: the rate and its ratio to one ray at a time
   {
     for (const int simd : { 0, 1, 2, 3, 4 })
     {

@@ -19,6 +19,21 @@
 namespace schlieren
 {
 
+inline Vec3<double> vec(const Vector& a) { return { a[0], a[1], a[2] }; }
+
+/// A view of what is in the middle, of one ray per pixel.
+inline Scene shadowgraphOf(const Vector& direction, Device device = Device::Cpu)
+{
+  Scene scene = sceneOnCpu(160, 120, direction);
+  scene.view.viewUp = { 0.1, 1, 0.2 };
+  scene.view.parallelScale = 0.7;
+  scene.samplesPerPixel = 1;
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.screenDistance = 0;
+  scene.device = device;
+  return scene;
+}
+
 /// The area of the shadow, and how many pixels from the circle the farthest pixel is that is wrong.
 struct Shadow
 {

@@ -10,7 +10,7 @@ namespace schlieren
 /// Where nu changes most from voxel to voxel.
 struct SteepestPlace
 {
-  double perVoxel = 0;              ///< no change of nu over one voxel is larger
+  double perVoxel = 0;                 ///< no change of nu over one voxel is larger
   std::array<double, 3> at{ 0, 0, 0 }; ///< index coordinates, about
 
   void include(const SteepestPlace& other)

@@ -62,8 +62,8 @@ struct BrickFacts
   std::array<std::array<float, 2>, 3> normals{};
   double largestNu = 0; ///< |nu| of its coefficients
   std::array<double, 3> slope{ 0, 0,
-    0 }; ///< largest difference of neighbouring coefficients, a voxel
-  double steepest = 0;                         ///< largest gradient, about; nu by data unit
+    0 };               ///< largest difference of neighbouring coefficients, a voxel
+  double steepest = 0; ///< largest gradient, about; nu by data unit
   std::array<double, 3> steepestAt{ 0, 0, 0 }; ///< index coordinates
 };
 

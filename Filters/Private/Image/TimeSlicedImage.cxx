@@ -42,10 +42,7 @@ schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
 } // namespace
 
 //------------------------------------------------------------------------------
-TimeSlicedImage::TimeSlicedImage()
-{
-  this->Bench.setMedia(mediaOfProcess());
-}
+TimeSlicedImage::TimeSlicedImage() { this->Bench.setMedia(mediaOfProcess()); }
 
 //------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,

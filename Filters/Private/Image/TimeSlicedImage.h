@@ -27,7 +27,7 @@ public:
   void SetProcesses(schlieren::Processes* processes);
 
   const schlieren::Work& GetWork() const { return this->Bench.work(); } ///< sum over all images
-  const schlieren::Scene& GetScene() const { return this->Scene; } ///< the last one
+  const schlieren::Scene& GetScene() const { return this->Scene; }      ///< the last one
 
   /// Returns a status in one line; see statusInWords().
   std::string GetStatus(const schlieren::Image& image) const;

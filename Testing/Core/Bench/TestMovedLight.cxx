@@ -25,13 +25,16 @@ std::vector<Flow> flows()
   const auto sheet = [](double across) { return 1e-4 * std::exp(-across * across); };
   return {
     { "lens", [](double x, double y, double) { return 2e-3 * std::exp(-x * x - y * y); }, 60 },
-    { "sheet along a column", [=](double x, double, double) { return sheet((x - 0.95) / twoPixels); }, 60 },
-    { "sheet along a row", [=](double, double y, double) { return sheet((y + 0.97) / twoPixels); }, 60 },
-    { "oblique sheet", [=](double x, double y, double)
-      { return sheet((x - 0.9 * y + 0.2) / twoPixels); }, 45 },
+    { "sheet along a column",
+      [=](double x, double, double) { return sheet((x - 0.95) / twoPixels); }, 60 },
+    { "sheet along a row", [=](double, double y, double) { return sheet((y + 0.97) / twoPixels); },
+      60 },
+    { "oblique sheet",
+      [=](double x, double y, double) { return sheet((x - 0.9 * y + 0.2) / twoPixels); }, 45 },
     { "waves",
       [](double x, double y, double z)
-      { return 3e-5 * std::sin(9 * x + 4 * z) * std::cos(11 * y - 2 * z); }, 150 },
+      { return 3e-4 * std::sin(9 * x + 4 * z) * std::cos(11 * y - 2 * z); },
+      150 },
   };
 }
 
@@ -75,19 +78,20 @@ TEST_P(MovedLightOnDevice, ComesFromBesideTheImage)
           {
             const std::size_t here = pixelOf(image, column, row);
             const std::size_t there = pixelOf(wide, column + around, row + around);
-            worst = std::max(worst,
-              static_cast<double>(std::abs(image.intensity[here] - wide.intensity[there])));
+            worst = std::max(
+              worst, static_cast<double>(std::abs(image.intensity[here] - wide.intensity[there])));
             moved = std::max(moved,
               std::abs(static_cast<double>(image.deflection[2 * here])) * *scene.screenDistance /
                 image.frame.pixelSize);
             moved = std::max(moved,
-              std::abs(static_cast<double>(image.deflection[2 * here + 1])) * *scene.screenDistance /
-                image.frame.pixelSize);
+              std::abs(static_cast<double>(image.deflection[2 * here + 1])) *
+                *scene.screenDistance / image.frame.pixelSize);
           }
         }
         EXPECT_GT(moved, 1); // or else nothing could be missed
         EXPECT_LT(moved, around);
-        EXPECT_LT(worst, 1e-5);
+        // Of diverging light, which in the wider image has steeper rays, steps are others, too.
+        EXPECT_LT(worst, source > 0 ? 1e-3 : 1e-5);
       }
     }
   }

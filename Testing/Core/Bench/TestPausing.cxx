@@ -17,11 +17,7 @@ using Flow = BlobWithHole;
 
 Scene smallScene()
 {
-  Scene scene;
-  scene.device = Device::Cpu;
-  scene.view.width = 40;
-  scene.view.height = 30;
-  scene.view.viewDirection = { -0.2, 0.4, -1 };
+  Scene scene = sceneOnCpu(40, 30, { -0.2, 0.4, -1 });
   scene.histogramSize = 16;
   scene.samplesPerPixel = 3;
   return scene;

@@ -147,10 +147,7 @@ std::string name(const KernelChoice& kernel)
 }
 
 /// Where a step is tried again, single rays may go another way by rounding alone.
-bool mayBranch(const KernelChoice& kernel)
-{
-  return kernel.integrator == Integrator::Adaptive;
-}
+bool mayBranch(const KernelChoice& kernel) { return kernel.integrator == Integrator::Adaptive; }
 
 template <class Real>
 void expectAgreement(const KernelChoice& kernel, double allowed, double tolerance)
@@ -390,7 +387,8 @@ void expectSameBits(const RayExits& a, const RayExits& b)
 /// A pass of several launches, whose rays stay there or come back while the next launch runs.
 TEST_F(HostAndDeviceRays, AreTheSameWhetherTheyComeBackOrNot)
 {
-  const Bundle<float> bundle({ PathModel::Straight, Integrator::Leapfrog, Interpolation::Quadratic });
+  const Bundle<float> bundle(
+    { PathModel::Straight, Integrator::Leapfrog, Interpolation::Quadratic });
   const RayTask<float> task = bundle.task();
   Pass large = pass;
   large.columns = 2051;

@@ -208,24 +208,14 @@ private:
 
 Scene sceneOf(const Vector& direction, Device device = Device::Cpu)
 {
-  Scene scene;
-  scene.view.viewDirection = direction;
-  scene.view.viewUp = { 0.1, 1, 0.2 };
-  scene.view.width = 160;
-  scene.view.height = 120;
+  Scene scene = shadowgraphOf(direction, device);
   scene.view.parallelScale = 0.8;
   scene.view.focalPoint = Vector{ 0, 0, 0 };
-  scene.samplesPerPixel = 1;
-  scene.cutoff = Cutoff::Shadowgraph;
-  scene.screenDistance = 0;
-  scene.device = device;
   return scene;
 }
 
 const std::vector<Vector> someDirections{ { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 0 },
   { 0.02, 0.01, -1 }, { 0.3, -0.5, -0.8 } };
-
-Vec3<double> vec(const Vector& a) { return { a[0], a[1], a[2] }; }
 
 const std::vector<Column2d> twoColumns{ { -0.1, 0.05, 0.4, 1e-7 }, { 0.32, -0.31, 0.3, 0.5e-7 } };
 

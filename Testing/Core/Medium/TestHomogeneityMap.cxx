@@ -414,8 +414,8 @@ TEST(HomogeneityMap, NoToleranceSkipsASolid)
 
 TEST(HomogeneityMap, NothingIsWithinANegativeOrMissingTolerance)
 {
-  const Medium<double> medium =
-    mediumOf<double>({ 9, 9, 9 }, Interpolation::Quadratic, [](double, double, double) { return 0; });
+  const Medium<double> medium = mediumOf<double>(
+    { 9, 9, 9 }, Interpolation::Quadratic, [](double, double, double) { return 0; });
   for (const double tolerance : { -1., std::numeric_limits<double>::quiet_NaN() })
   {
     const auto map = buildHomogeneityMap(medium, Interpolation::Quadratic, tolerance, 1);

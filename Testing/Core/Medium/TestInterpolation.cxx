@@ -172,10 +172,7 @@ TEST(QuadraticInterpolation, ReproducesParabolasEverywhere)
   expectReproduced(Interpolation::Quadratic, 2);
 }
 
-TEST(CubicInterpolation, ReproducesCubicsEverywhere)
-{
-  expectReproduced(Interpolation::Cubic, 3);
-}
+TEST(CubicInterpolation, ReproducesCubicsEverywhere) { expectReproduced(Interpolation::Cubic, 3); }
 
 TEST_P(EachInterpolation, IsContinuousAcrossCells)
 {
@@ -237,8 +234,7 @@ TEST_P(EachInterpolation, ConvergesAtItsOrder)
   {
     double value, gradient;
   };
-  const Orders expected =
-    GetParam() == Interpolation::Quadratic ? Orders{ 3, 2 } : Orders{ 4, 3 };
+  const Orders expected = GetParam() == Interpolation::Quadratic ? Orders{ 3, 2 } : Orders{ 4, 3 };
   const auto coarse = sineErrors(65, GetParam());
   const auto fine = sineErrors(129, GetParam());
   EXPECT_NEAR(std::log2(coarse.first / fine.first), expected.value, 0.15);
@@ -277,7 +273,8 @@ TEST(Medium, AmbientIsTheMedianOfTheBoundary)
   const SampledField<float> field(box(11, 11, 11),
     [](double x, double y, double) { return std::hypot(x - 5, y - 5) < 3 ? 9e-4 : 2.7e-4; });
   EXPECT_FLOAT_EQ(
-    static_cast<float>(buildMedium<float>(field.field, Interpolation::Quadratic, 1).ambient), 2.7e-4f);
+    static_cast<float>(buildMedium<float>(field.field, Interpolation::Quadratic, 1).ambient),
+    2.7e-4f);
 }
 
 /// The tails of a blob's coefficients end in zeros, not in denormal numbers.

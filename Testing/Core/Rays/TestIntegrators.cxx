@@ -222,7 +222,8 @@ protected:
     const double perDeflection = std::sqrt(pi) * peak / largestDeflection;
     return interpolation == Interpolation::Quadratic
       ? Bound{ perDeflection * h * h / 12 * 4.9, 0.008 * h * h * h * 4.9 } // B2 / 2 and B3 / 6
-      : Bound{ perDeflection * 0.008 * h * h * h * 12, h * h * h * h / 384 * 12 }; // B3 / 6, B4 / 24
+      : Bound{ perDeflection * 0.008 * h * h * h * 12,
+          h * h * h * h / 384 * 12 }; // B3 / 6, B4 / 24
   }
 
   Bound of(const Scene& scene) const

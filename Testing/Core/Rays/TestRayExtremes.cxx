@@ -383,10 +383,7 @@ TEST_P(RayExtremes, ShorterStepsAreNoWorseWhereTheMediumIsSteep)
   }
 }
 
-TEST_P(RayExtremes, TrappedRaysAreCountedInBoundedTime)
-{
-  expectTrapped(Integrator::Leapfrog);
-}
+TEST_P(RayExtremes, TrappedRaysAreCountedInBoundedTime) { expectTrapped(Integrator::Leapfrog); }
 
 TEST_P(RayExtremes, AdaptiveCountsTrappedRaysInBoundedTime) { expectTrapped(Integrator::Adaptive); }
 

@@ -15,13 +15,6 @@
 namespace
 {
 
-vtkSmartPointer<vtkImageData> columnImage(int points)
-{
-  auto image = cube(points);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
-}
-
 struct WorkDone
 {
   vtkTypeInt64 builds;
@@ -417,8 +410,8 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
       "BackgroundImage", "FNumber", "LensFocalLength", "FocusDistance", "SensorWidth",
       "LensDiffraction", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth", "FilmEstimator",
       "NoiseFilter", "NoiseFilterRadius", "HistogramSize", "MemoryBudget", "Quality", "PathModel",
-      "StepSize", "HomogeneityTolerance", "SamplesPerPixel", "Precision", "TargetError", "TargetNorm",
-      "ErrorEstimate", "DataError", "Seed", "Device", "NumberOfThreads" })
+      "StepSize", "HomogeneityTolerance", "SamplesPerPixel", "Precision", "TargetError",
+      "TargetNorm", "ErrorEstimate", "DataError", "Seed", "Device", "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

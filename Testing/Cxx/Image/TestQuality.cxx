@@ -15,8 +15,7 @@ constexpr int presets[] = { Filter::INTERACTIVE, Filter::FINE, Filter::PUBLICATI
 /// What the filter's properties are, by the names that Quality knows them by.
 std::map<std::string, double> settingsOf(Filter* filter)
 {
-  return { { "PathModel", filter->GetPathModel() }, 
-    { "StepSize", filter->GetStepSize() },
+  return { { "PathModel", filter->GetPathModel() }, { "StepSize", filter->GetStepSize() },
     { "HomogeneityTolerance", filter->GetHomogeneityTolerance() },
     { "SamplesPerPixel", filter->GetSamplesPerPixel() },
     { "FilmEstimator", filter->GetFilmEstimator() }, { "Precision", filter->GetPrecision() },
@@ -33,13 +32,6 @@ std::map<std::string, double> settingsOf(int preset)
     settings[Filter::GetQualitySetting(i)] = Filter::GetQualityValue(preset, i);
   }
   return settings;
-}
-
-vtkSmartPointer<vtkImageData> columnImage(int points)
-{
-  auto image = cube(points);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
 }
 
 } // namespace

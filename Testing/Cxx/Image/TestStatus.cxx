@@ -72,8 +72,7 @@ TEST(Status, SaysWhatATargetErrorHasLedTo)
 
 TEST(Status, ShowsTheSpeedOfTheLastTracingWhereNothingIsTraced)
 {
-  auto image = cube(32);
-  addPointArray(image, "N", GaussianColumn());
+  auto image = columnImage(32);
   auto filter = bench(image);
   EXPECT_STREQ(filter->GetStatus(), "");
   filter->Update();
