@@ -303,7 +303,8 @@ bool PiecesOfRanks::meetsOthers(const Dataset& dataset) const
 }
 
 /// Returns whether points on the sides of a grid coincide, as at the seam of an O-grid, the wake cut
-/// of a C-grid and a pole: VTK makes no ghost cells there, or wrong ones. All ranks call it.
+/// of a C-grid, and a pole around which the grid is divided: VTK makes no ghost cells there, or wrong
+/// ones. All ranks call it.
 bool PiecesOfRanks::meetsItself(const Dataset& dataset) const
 {
   if (dataset.type != VTK_STRUCTURED_GRID || dataset.dimension < 3 || dataset.ranks.size() < 2)
@@ -333,20 +334,41 @@ bool PiecesOfRanks::meetsItself(const Dataset& dataset) const
       }
     });
   std::vector<Point> places;
-  for (const auto& point : points)
+  std::vector<vtkIdType> numbers;
+  for (const auto& [number, place] : points)
   {
-    places.push_back(point.second);
+    numbers.push_back(number);
+    places.push_back(place);
   }
   const std::vector<std::int32_t> firsts = coincidentPoints(
     places, std::vector<double>(places.size(), std::numeric_limits<double>::infinity()));
-  for (std::size_t i = 0; i < firsts.size(); ++i)
+  std::map<vtkIdType, vtkIdType> firstOf;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    if (static_cast<std::size_t>(firsts[i]) != i)
-    {
-      return true;
-    }
+    firstOf[numbers[i]] = numbers[static_cast<std::size_t>(firsts[i])];
   }
-  return false;
+  // An edge that collapses stays within pieces if they are not divided along it.
+  const auto collapses = [&](vtkIdType number, vtkIdType first)
+  {
+    vtkIdType stride = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const int n = dataset.whole[2 * axis + 1] - dataset.whole[2 * axis] + 1;
+      const bool isDivided = std::any_of(dataset.extents.begin(), dataset.extents.end(),
+        [&](const PointExtent& extent) { return extent[2 * axis] != dataset.whole[2 * axis]; });
+      const auto before = firstOf.find(number - stride);
+      if (!isDivided && number / stride % n > 0 && before != firstOf.end() &&
+        before->second == first)
+      {
+        return true;
+      }
+      stride *= n;
+    }
+    return false;
+  };
+  return std::any_of(firstOf.begin(), firstOf.end(),
+    [&](const auto& point)
+    { return point.first != point.second && !collapses(point.first, point.second); });
 }
 
 double PiecesOfRanks::cells() const
