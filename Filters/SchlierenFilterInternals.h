@@ -114,6 +114,7 @@ struct vtkSchlierenFilter::Internals
   // The image of the first instant, whose k, ambient and frame all others use.
   std::optional<schlieren::Image> FirstInstant;
 
+  bool IsStopping = false;    // this update
   vtkMTimeType StoppedOf = 0; // the image that Stop(), or an abort with a limit, has left; 0: none
   double Done = 0;            // fraction of the latest image
 

@@ -398,6 +398,7 @@ int vtkSchlierenFilter::RequestData(
   inside.Time = timeOf(request, inputVector, outputVector);
 
   this->SetAbortExecute(0); // it stays set after an abort
+  inside.IsStopping = false;
   guarded([&] { this->MakeImage(steps, maxCells, outputVector); }, noMemory,
     [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;
@@ -476,10 +477,12 @@ void vtkSchlierenFilter::MakeImage(
   this->ForgetImage();
   output->Initialize();
   histogram->Initialize();
-  if (this->TimeLimit > 0 && this->GetAbortExecute())
+  if (this->GetAbortExecute() && (this->TimeLimit > 0 || inside.IsStopping))
   {
     inside.FailedAt = inside.StoppedOf = this->GetTimeOfImage(); // later than `now` by the abort
-    this->Status = inside.IsExposing ? "No image: the exposure was stopped" : noIndexYet;
+    this->Status = inside.IsExposing ? "No image: the exposure was stopped"
+      : this->TimeLimit > 0          ? noIndexYet
+                                     : "No image: it was stopped";
   }
 }
 
