@@ -162,11 +162,9 @@ public:
           2, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::INTERFEROGRAM); });
         break;
       case Arrangement::Comparison:
-        this->addViews({ "Straight Rays", "Refracted Rays", "Difference" });
+        this->addViews({ "Straight Rays", "Refracted Rays" });
         this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::STRAIGHT); });
         this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::REFRACTED); });
-        this->addImage(
-          2, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::DIFFERENCE); });
         break;
     }
     this->useCameraOfScene();
@@ -306,7 +304,11 @@ private:
     const int left =
       isCrowded ? layout->SplitVertical(0, 0.5) : layout->SplitHorizontal(scene, 0.5);
     std::vector<int> cells = { left + 1 };
-    if (isCrowded) // the first one as wide as the tab
+    if (isCrowded && names.size() == 2)
+    {
+      cells = { left, left + 1 };
+    }
+    else if (isCrowded) // the first one as wide as the tab
     {
       const int below = layout->SplitHorizontal(left + 1, 0.5);
       cells = { left, below, below + 1 };
@@ -314,8 +316,11 @@ private:
     else if (names.size() > 1)
     {
       const int right = layout->SplitVertical(left + 1, 0.5);
-      const int underScene = layout->SplitVertical(left, 0.5) + 1;
-      cells = { right, underScene, right + 1 };
+      cells = { right, right + 1 };
+      if (names.size() > 2)
+      {
+        cells.insert(cells.begin() + 1, layout->SplitVertical(left, 0.5) + 1); // below the scene
+      }
     }
     // Activates the 3-D view, because ParaView's toolbar shows the axes of the first active view,
     // which traces would not survive while that is made.

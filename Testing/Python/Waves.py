@@ -160,8 +160,8 @@ for settings, words in (({}, "Cutoff to another technique"),
                         ({"Cutoff": "Phase Contrast", "LightModel": "Rays"}, "LightModel to Waves"),
                         ({"LightModel": "Waves", "ViewAngle": 30}, "ViewAngle to less"),
                         ({"Cutoff": "Shadowgraph", "ViewAngle": 30}, "ViewAngle to less"),
-                        ({"ViewAngle": 0, "PathModel": "Difference"}, "PathModel to Auto"),
-                        ({"PathModel": "Auto", "LengthScale": 10}, "MemoryBudget")):
+                        ({"ViewAngle": 0, "PathModel": "Straight"}, "PathModel to Refracted"),
+                        ({"PathModel": "Refracted", "LengthScale": 10}, "MemoryBudget")):
     for key, value in settings.items():
         setattr(flow, key, value)
     assert is_empty(flow), settings

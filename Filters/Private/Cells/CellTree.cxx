@@ -108,7 +108,6 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
   }
   this->sortCells(*mesh, progress.part(0.4, 0.6));
   this->makeGroups(*mesh, progress.part(0.6, 0.7));
-  mesh->folded = foldedIn(*this);
   mesh->voxelShape =
     voxelShapeOf(this->measuredCells(static_cast<std::int64_t>(mesh->numbers.size())));
   this->setValues(progress.part(0.7, 1));

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Cells/CellShape.h"
-#include "Cells/FoldedCells.h"
 #include "Cells/MeshArrays.h"
 #include "Cells/PointTrends.h"
 #include "Common/WorkProgress.h"
@@ -159,7 +158,6 @@ public:
     std::vector<std::vector<Group>> levels;  // of eight cells, of eight groups, ... one group
     std::vector<PointNeighbours> neighbours; // of each block; none: linear
     bool areTrendsCoarser = false;
-    FoldedCells folded;
 
     std::size_t bytes() const;
   };

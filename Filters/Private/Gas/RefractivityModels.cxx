@@ -355,30 +355,7 @@ Tally& Tally::operator+=(const Tally& other)
 {
   this->all += other.all;
   this->doubtful += other.doubtful;
-  if (this->folded == 0)
-  {
-    this->placeOfFolded = other.placeOfFolded;
-  }
-  this->folded += other.folded;
   return *this;
-}
-
-std::string warningOfFolds(const Tally& tally)
-{
-  if (tally.folded == 0)
-  {
-    return "";
-  }
-  const std::array<double, 3>& x = tally.placeOfFolded;
-  char place[128];
-  std::snprintf(place, sizeof place, "(%.6g, %.6g, %.6g)", x[0], x[1], x[2]);
-  return std::to_string(tally.folded) +
-    " cells are folded: their corners are not all of one orientation, or they lie in their "
-    "neighbours, such as the cell around " +
-    place +
-    ". Their points are in a wrong order, or the mesh is folded there. Places are in several of "
-    "these cells or in none, so the image has errors and holes. Find them with the filter Mesh "
-    "Quality (Scaled Jacobian below 0), and correct the mesh.";
 }
 
 std::string warningFrom(const Model& model, const Tally& tally)

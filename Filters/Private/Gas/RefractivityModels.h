@@ -7,7 +7,6 @@
 
 #include "Schlieren.h"
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -105,20 +104,14 @@ Selection selectionOf(const MediumSettings& settings, std::size_t index);
 /// Lists the arrays that the model reads, at least one, in its order.
 std::vector<Selection> selectionsFrom(const MediumSettings& settings);
 
-/// Counts doubtful points or cells among those that have values, and cells that are folded (see
-/// FoldedCells).
+/// Counts doubtful points or cells among those that have values.
 struct Tally
 {
   long long all = 0;
   long long doubtful = 0;
-  long long folded = 0;
-  std::array<double, 3> placeOfFolded{}; ///< of one of them
 
   Tally& operator+=(const Tally& other);
 };
-
-/// Returns a warning about folded cells; empty without any.
-std::string warningOfFolds(const Tally& tally);
 
 /// Returns a warning about doubtful values; empty without any.
 std::string warningFrom(const Model& model, const Tally& tally);

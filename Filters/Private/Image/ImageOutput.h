@@ -20,8 +20,7 @@ void dropIdleBounds(schlieren::Image& image);
 
 /// Makes `output` the image with the arrays and field data that vtkSchlierenFilter promises, except
 /// Color, Grid, MediumDimensions and infinite bounds. Moves all of the image's arrays but `color`.
-/// `isDifference`: see PathDifference.
-void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference);
+void setOutput(vtkImageData* output, schlieren::Image& image);
 
 /// The mapping of light to the bytes of Color.
 enum class ColorScale
@@ -42,9 +41,6 @@ void addRecorded(vtkImageData* output, const schlieren::Sensor& sensor, int thre
 
 /// Adds the spacing of finite fringes, data units.
 void addFringeSpacing(vtkImageData* output, double spacing);
-
-/// Adds the interval of time that the image averages.
-void addExposure(vtkImageData* output, double begin, double end);
 
 /// Adds statistics of the medium.
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium);

@@ -190,12 +190,6 @@ std::string MediumMaker::warningOf(const Source& source, const Tally& tally, boo
     addText(warning, source.noteOnGases);
   }
   this->ToldOfGases = source.noteOnGases;
-  const std::string folds = warningOfFolds(tally);
-  if (folds != this->ToldOfFolds)
-  {
-    addText(warning, folds);
-  }
-  this->ToldOfFolds = folds;
   return warning;
 }
 
@@ -490,10 +484,8 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(
     const auto reconstruction = reconstructionOf(this->settings);
     const PreparedLeaves leaves = preparedLeaves(source, fields, reconstruction, tally);
     this->progressOf(0, 1).reach(0.1);
-    auto made = sourceOfMeshes(
+    return sourceOfMeshes(
       leaves, { reconstruction, outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
-    tally += this->Mesh->piece->folds();
-    return made;
   }
   if (flat >= 0)
   {

@@ -153,8 +153,7 @@ private:
   std::shared_ptr<KeptMesh> Mesh = std::make_shared<KeptMesh>();
   std::string Grid;
   int FlatAxis = -1;
-  std::string ToldOfGases, ToldOfValues,
-    ToldOfFolds; // the last notes, not repeated for every time step
+  std::string ToldOfGases, ToldOfValues; // the last notes, not repeated for every time step
 };
 
 /// Appends a sentence.

@@ -35,9 +35,6 @@ struct PieceMesh
   std::vector<std::size_t> firstContributions;
   std::vector<Contribution> contributions;
 
-  /// Returns the tally of folded cells alone.
-  Tally folds() const;
-
   /// Returns that of the leaves: `kept` (may be null) if it is equal, or a new one.
   static std::shared_ptr<PieceMesh> of(const MeshLeaves& leaves,
     CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept);
@@ -53,9 +50,6 @@ public:
   /// they were flat (see extruded()), or -1.
   MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
     const WorkProgress& progress = WorkProgress(), int flatAxis = -1);
-
-  /// Sets a number for each leaf, equal on all ranks that have pieces of it.
-  void setDatasets(std::vector<std::uint32_t> numbers) { this->Datasets = std::move(numbers); }
 
   Facts facts() const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
@@ -89,7 +83,6 @@ private:
   };
 
   MeshLeaves Leaves;
-  std::vector<std::uint32_t> Datasets;
   std::shared_ptr<PieceMesh> Mesh;
   CellTree Cells;
   CellSampler Values;
@@ -101,8 +94,8 @@ private:
 struct BoundaryOfMeshes
 {
   std::vector<CellTree::MeasuredCell> cells;
-  Faces
-    faces; ///< each contribution is the value that is sent with the point; `leaf`: the dataset's number on all ranks
+  Faces faces;              ///< each contribution is the value that is sent with the point
+  std::uint32_t leaves = 0; ///< of all ranks; those of a rank are others than another's
 
   /// Another rank's.
   void add(Reader& reader);

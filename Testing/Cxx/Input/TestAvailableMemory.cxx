@@ -113,8 +113,7 @@ TEST(AvailableMemory, LimitsOfTheProcessCount)
 
 TEST(AvailableMemory, GridsAndImagesThatDoNotFitAreErrors)
 {
-  auto image = cube(8);
-  addPointArray(image, "N", GaussianColumn());
+  auto image = columnImage(8);
   vtkNew<vtkAppendFilter> mesh;
   mesh->AddInputData(image);
   mesh->Update();
