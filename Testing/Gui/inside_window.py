@@ -66,11 +66,6 @@ def finished(source):
     return information(source, "Finished") == 1
 
 
-def rows_of(source):
-    """Of the image that a filter holds in this program."""
-    return source.GetClientSideObject().GetOutputDataObject(0).GetDimensions()[1]
-
-
 def settle(*filters):
     """Until views show the images of filters as they are set."""
     simple.RenderAllViews()
