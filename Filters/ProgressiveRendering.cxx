@@ -99,6 +99,7 @@ bool vtkSchlierenFilter::RefineOnRank0()
 void vtkSchlierenFilter::Stop()
 {
   Internals& inside = *this->Inside;
+  inside.IsStopping = true;
   if (inside.UnfinishedOf != 0 && inside.UnfinishedOf == this->GetTimeOfImage())
   {
     inside.StoppedOf = std::exchange(inside.UnfinishedOf, 0);

@@ -371,6 +371,7 @@ int vtkSchlierenFilter::RequestData(
   inside.Time = timeOf(request, inputVector, outputVector);
 
   this->SetAbortExecute(0); // it stays set after an abort
+  inside.IsStopping = false;
   guarded([&] { this->MakeImage(maxCells, outputVector); }, noMemory,
     [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;
@@ -423,10 +424,10 @@ void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* output
   this->ForgetImage();
   output->Initialize();
   histogram->Initialize();
-  if (this->TimeLimit > 0 && this->GetAbortExecute())
+  if (this->GetAbortExecute() && (this->TimeLimit > 0 || inside.IsStopping))
   {
     inside.FailedAt = inside.StoppedOf = this->GetTimeOfImage(); // later than `now` by the abort
-    this->Status = noIndexYet;
+    this->Status = this->TimeLimit > 0 ? noIndexYet : "No image: it was stopped";
   }
 }
 

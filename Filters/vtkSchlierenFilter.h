@@ -484,6 +484,11 @@ public:
   ///@}
 
   /**
+   * Finds k again for the next image, whatever LockK has kept.
+   */
+  void FitK() { this->SetLockedK(0); }
+
+  /**
    * Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
    * with the first and the last where there are more, and keeps the smallest of their automatic k, that of the largest
    * deflections: no image exceeds full scale then by more than an image with its own k. LockK, which must not be
@@ -1090,8 +1095,9 @@ public:
   ///@{
   /**
    * Stops an unfinished image, which counts as finished until Refine() resumes it or something
-   * changes the image. Aborting an update with a TimeLimit while it computes the refractivity also
-   * stops it, with an empty output. GetStopped() returns whether that is so.
+   * changes the image. Aborting an update with a TimeLimit while it computes the refractivity, or
+   * any that has called Stop() by then, also stops it, with an empty output: else the next update
+   * makes the image anew. GetStopped() returns whether that is so.
    */
   void Stop();
   bool GetStopped();
