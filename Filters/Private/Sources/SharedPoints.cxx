@@ -51,11 +51,11 @@ double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
 {
   constexpr double roundedAway = 1e-14;
   constexpr std::size_t most = 64; // limit for points without a known order
-  const CellShape shape = skeletonOf(mesh.type(cell));
+  const CellShape shape = shapeOf(mesh.type(cell));
   const bool isKnown = shape != CellShape::Other;
   const std::size_t corners = isKnown ? static_cast<std::size_t>(cornersOf(shape)) : most;
   std::array<Point, most> x;
-  std::size_t count = 0, points = 0;
+  std::size_t count = 0;
   mesh.forPoints(cell,
     [&](vtkIdType point)
     {
@@ -63,7 +63,6 @@ double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
       {
         mesh.coordinates(point, x[count++].data());
       }
-      ++points;
     });
   double smallest = infinity;
   for (std::size_t i = 0; i < count; ++i)
@@ -78,8 +77,7 @@ double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
       }
     }
   }
-  const bool isCurved = isKnown && points > corners;
-  return std::sqrt(smallest) / (isCurved ? std::cbrt(static_cast<double>(points)) : 1);
+  return std::sqrt(smallest);
 }
 
 /// Returns the smallest edge of the visible cells of each point; -1 without any.
@@ -257,13 +255,6 @@ std::vector<unsigned char> maySheetsMeet(const MeshArrays& mesh)
   return may;
 }
 
-bool hasCurvedCells(const MeshArrays& mesh)
-{
-  const std::vector<int> types = mesh.types();
-  return std::any_of(types.begin(), types.end(),
-    [](int type) { return !vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type)); });
-}
-
 /// Returns whether a grid has a seam; images and rectilinear grids have none.
 bool hasSeam(vtkDataSet* grid)
 {
@@ -385,11 +376,11 @@ private:
       return;
     }
     this->IsApart.assign(this->All.size(), 0);
-    // Skips leaves of curved and flat cells, whose sheets are unknown.
+    // Skips leaves of flat cells, whose sheets are unknown.
     bool areFacesKnown = false;
     for (const std::size_t i : doubles)
     {
-      const bool isKnown = dimension == 3 && !hasCurvedCells(meshes[this->All.leaves[i]]);
+      const bool isKnown = dimension == 3;
       areFacesKnown = areFacesKnown || isKnown;
       this->IsApart[this->Coincident[i]] = isKnown ? 0 : 1;
     }
