@@ -1,27 +1,23 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// How vtkSchlierenFilter makes an image: at once, time-sliced, between updates (Refine), or of several instants.
+// How vtkSchlierenFilter makes an image: at once, time-sliced, or between updates (Refine).
 #include "SchlierenFilterInternals.h"
 
-#include "Common/AtTheEnd.h"
 #include "Common/AvailableMemory.h"
 #include "Common/Guarded.h"
 #include "Common/Threads.h"
 #include "Image/ImageLegend.h"
 #include "Image/ImageOutput.h"
-#include "Image/MeanImage.h"
 #include "Image/Preview.h"
 #include "Image/RealOptics.h"
 #include "Image/SceneFromSettings.h"
 #include "Input/InputDescription.h"
-#include "Ranks/ExposureSteps.h"
 #include "Sources/FieldTints.h"
 
 #include "vtkCommand.h"
 #include "vtkPiecewiseFunction.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -43,11 +39,6 @@ void requireMemoryFor(const schlieren::View& view, bool isColored, bool hasBackg
   requireMemory(bytes * std::max(0., width) * std::max(0., height),
     "An image of " + std::to_string(view.width) + " x " + std::to_string(view.height) + " pixels",
     "Give a smaller ImageSize.");
-}
-
-bool liesAt(const schlieren::Frame& frame, const schlieren::Frame& place)
-{
-  return frame.origin == place.origin && frame.pixelSize == place.pixelSize;
 }
 
 } // namespace
@@ -164,8 +155,8 @@ bool vtkSchlierenFilter::WorkOn()
 bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
 {
   Internals& inside = *this->Inside;
-  return !(this->ExposureTime > 0) && inside.ShownOf != 0 && inside.ShownOf != now &&
-    inside.FailedAt != now && inside.Shown[IMAGE_PORT].IsThere() &&
+  return inside.ShownOf != 0 && inside.ShownOf != now && inside.FailedAt != now &&
+    inside.Shown[IMAGE_PORT].IsThere() &&
     (!this->ColorByField || inside.Refractivity->Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
       this->DescribeInputs(inside.Ranks.gatheredOf(0, this->GetInputDataObject(0, 0)),
@@ -239,11 +230,7 @@ ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
   const Internals& inside = *this->Inside;
   MediumSettings properties = this->Medium->GetSettings();
   properties.DoublePrecision = false;
-  return { inside.Time,
-    { static_cast<double>(upstreamTime(this, 0)),
-      static_cast<double>(upstreamTime(this, vtkRefractiveIndex::BODIES)) },
-    inside.Exposure.IsNone() ? std::make_optional(inside.Input) : std::nullopt,
-    std::move(properties), std::move(medium), std::move(rays) };
+  return { inside.Time, inside.Input, std::move(properties), std::move(medium), std::move(rays) };
 }
 
 //------------------------------------------------------------------------------
@@ -278,9 +265,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   Internals& inside = *this->Inside;
   inside.Done = 0;
   schlieren::Field field = Internals::fieldOf(*inside.Refractivity);
-  field.ambient = !this->AutoAmbientRefractivity ? this->AmbientRefractivity
-    : inside.FirstInstant                        ? inside.FirstInstant->ambient
-                                                 : this->KeptAmbient();
+  field.ambient = this->AutoAmbientRefractivity ? this->KeptAmbient() : this->AmbientRefractivity;
   inside.FindsAmbient = !field.ambient;
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene =
@@ -292,11 +277,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
     scene.lens.aperture = inside.Pupil.aperture;
     scene.lens.focusDistance = inside.Pupil.focusDistance;
   }
-  if (inside.FirstInstant && choosesK(*this))
-  {
-    scene.kScale = inside.FirstInstant->kScale;
-  }
-  else if (const std::optional<double> k = this->KeptK())
+  if (const std::optional<double> k = this->KeptK())
   {
     scene.kScale = k;
   }
@@ -317,65 +298,6 @@ schlieren::Image vtkSchlierenFilter::Begin(
   const auto paths = this->PathModel == DIFFERENCE ? TimeSlicedImage::Paths::Difference
                                                    : TimeSlicedImage::Paths::OfScene;
   return inside.Images.Begin(field, scene, paths, seconds, monitor);
-}
-
-//------------------------------------------------------------------------------
-bool vtkSchlierenFilter::Expose(ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram)
-{
-  Internals& inside = *this->Inside;
-  schlieren::Monitor monitor;
-  monitor.aborted = [this]() { return this->GetAbortExecute() != 0; };
-  monitor.progress = [this](double fraction)
-  { this->Progress(mediumFraction + (1 - mediumFraction) * fraction); };
-  const AtTheEnd forgetInstants(
-    [&]
-    {
-      inside.MadeWith.reset(); // the refractivity is that of no input
-      inside.FirstInstant.reset();
-      inside.Instant = 0;
-    });
-  MeanImage mean;
-  steps.Keep();
-  for (const TimeExposure::Instant& instant : inside.Exposure.Instants)
-  {
-    while (steps.IsBefore(instant))
-    {
-      steps.Resume();
-      steps.Keep();
-    }
-    if (inside.Ranks.areInPieces())
-    {
-      inside.MadeWith.reset(); // what is known of the input is the same for all instants
-    }
-    const auto input = steps.GetData(0, instant);
-    const auto bodies = steps.GetData(vtkRefractiveIndex::BODIES, instant);
-    if (!this->UpdateRefractivity(input, bodies))
-    {
-      return false;
-    }
-    this->UpdateFieldGradients(input);
-    schlieren::Image image = this->Begin(false, 0, monitor);
-    if (image.aborted)
-    {
-      return false;
-    }
-    if (!inside.FirstInstant)
-    {
-      inside.FirstInstant.emplace();
-      inside.FirstInstant->frame = image.frame;
-      inside.FirstInstant->ambient = image.ambient;
-      inside.FirstInstant->kScale = image.kScale;
-      this->KeepFound(image);
-    }
-    else if (!liesAt(image.frame, inside.FirstInstant->frame))
-    {
-      throw std::runtime_error("The box of the data changes within ExposureTime, and with it what "
-                               "the image shows. Set FocalPoint and ParallelScale.");
-    }
-    mean.Add(std::move(image));
-    ++inside.Instant;
-  }
-  return this->Show(mean.Take(), output, histogram);
 }
 
 //------------------------------------------------------------------------------
@@ -425,9 +347,7 @@ bool vtkSchlierenFilter::Show(
   // Waves are made of a finished image.
   const bool isStillOfRays = this->LightModel == LIGHT_WAVES && (!isWhole || !image.finished);
   this->Status = std::string(isWhole ? "" : "Preview: ") + (isStillOfRays ? "rays as yet, " : "") +
-    inside.Images.GetStatus(image) +
-    (inside.Exposure.IsNone() ? "" : ", " + inside.Exposure.GetWords()) +
-    (isKept ? ", " + kInWords(image.kScale, isKept) : "");
+    inside.Images.GetStatus(image) + (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(*this, image.kScale, isKept);
   ++this->PictureCount;
@@ -449,10 +369,6 @@ bool vtkSchlierenFilter::Show(
   if (schlieren::techniqueOf(scene.cutoff).hasFringes && scene.fringes.finite)
   {
     addFringeSpacing(output, scene.fringes.spacing);
-  }
-  if (!inside.Exposure.IsNone())
-  {
-    addExposure(output, inside.Exposure.Begin, inside.Exposure.End);
   }
   if (const auto& source = inside.Refractivity->Source)
   {

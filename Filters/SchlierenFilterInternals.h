@@ -8,8 +8,6 @@
 #include "Image/SceneFromSettings.h"
 #include "Image/SensitivityLock.h"
 #include "Image/TimeSlicedImage.h"
-#include "Input/TimeExposure.h"
-#include "Ranks/ExposureSteps.h"
 #include "Ranks/InputsOfRanks.h"
 #include "Sources/MediumMaker.h"
 #include "Sources/SharedRefractivity.h"
@@ -107,12 +105,7 @@ struct vtkSchlierenFilter::Internals
   bool FindsAmbient = false;  // for the image that was begun last
   std::optional<double> Time; // time of the last update; unset: no time steps
 
-  bool IsExposing = false; // whether an exposure is being made
   std::optional<double> RequestedTime;
-  filters::TimeExposure Exposure; // of the last request
-  std::size_t Instant = 0;        // of Exposure, the one that is being made
-  // The image of the first instant, whose k, ambient and frame all others use.
-  std::optional<schlieren::Image> FirstInstant;
 
   vtkMTimeType StoppedOf = 0; // the image that Stop(), or an abort with a limit, has left; 0: none
   double Done = 0;            // fraction of the latest image

@@ -135,11 +135,6 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
 {
   const bool arePieces = this->Inside->Ranks.areInPieces();
-  if (arePieces &&
-    this->Inside->IsExposing) // only this filter's ranks have what is between time steps
-  {
-    return this->MakeRefractivity(input, bodies);
-  }
   MediumMaker& maker = this->Medium->GetMaker();
   RefractivityKey key{ input, bodies, arePieces ? this->DescribePieces(input, bodies) : description,
     maker.choiceFor(input).settings, this->ColorByField };
@@ -174,8 +169,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
     if (inside.Ranks.areInPieces())
     {
       maker.forgetLast();
-      made->Source = inside.Ranks.make(bodies, this->ColorByField,
-        inside.IsExposing ? static_cast<int>(inside.Instant) : -1, made->Warning);
+      made->Source = inside.Ranks.make(bodies, this->ColorByField, made->Warning);
     }
     else if (inside.Ranks.release(); maker.canMakeSource(input, bodies, isLarge))
     {
@@ -218,8 +212,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
 std::function<std::shared_ptr<const schlieren::MediumSource>()> vtkSchlierenFilter::OtherSource()
 {
   Internals& inside = *this->Inside;
-  if (!this->DataError || !inside.Refractivity->Source || inside.IsExposing ||
-    inside.Ranks.areInPieces())
+  if (!this->DataError || !inside.Refractivity->Source || inside.Ranks.areInPieces())
   {
     return {};
   }

@@ -199,8 +199,6 @@ struct AccuracySettings
 
 struct FilmSettings
 {
-  double ExposureTime = 0;
-  int ExposureSamples = 8;
   int NoiseFilter = 0;
   double NoiseFilterRadius = 2;
   int HistogramSize = 256;
@@ -218,8 +216,6 @@ struct FilmSettings
   template <class Visit>
   void visit(const Visit& use) const
   {
-    use("ExposureTime", this->ExposureTime);
-    use("ExposureSamples", this->ExposureSamples);
     use("NoiseFilter", this->NoiseFilter);
     use("NoiseFilterRadius", this->NoiseFilterRadius);
     use("HistogramSize", this->HistogramSize);

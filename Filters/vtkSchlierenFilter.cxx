@@ -9,7 +9,6 @@
 #include "Image/SceneFromSettings.h"
 #include "Input/InputDescription.h"
 #include "Input/RefractivitySource.h"
-#include "Ranks/ExposureSteps.h"
 #include "SchlierenFilterInternals.h"
 #include "Settings/QualityPresets.h"
 
@@ -226,13 +225,7 @@ void vtkSchlierenFilter::OnMediumProgress()
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::Progress(double fraction)
-{
-  const Internals& inside = *this->Inside;
-  const auto instants =
-    static_cast<double>(std::max<std::size_t>(1, inside.Exposure.Instants.size()));
-  this->UpdateProgress((static_cast<double>(inside.Instant) + fraction) / instants);
-}
+void vtkSchlierenFilter::Progress(double fraction) { this->UpdateProgress(fraction); }
 
 //------------------------------------------------------------------------------
 int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
@@ -310,17 +303,7 @@ int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
 int vtkSchlierenFilter::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   Internals& inside = *this->Inside;
-  // A preview is there to be quick.
-  const double length = this->PreviewReduction > 1 ? 0 : this->ExposureTime;
-  inside.Exposure = exposureFor(inputVector[0]->GetInformationObject(0),
-    outputVector->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()))),
-    length, this->ExposureSamples);
-  if (!inside.Exposure.IsNone())
-  {
-    requestTime(this, inputVector, inside.Exposure.Steps.front());
-  }
   requestPieces(this, inputVector);
   const auto time = timeOf(request, inputVector, outputVector);
   if (time != inside.RequestedTime)
@@ -346,11 +329,6 @@ int vtkSchlierenFilter::RequestData(
   const AtTheEnd complete([&] { setComplete(outputVector); }); // also of what has failed
 
   this->PassToMedium();
-  const bool isExposure = !inside.Exposure.IsNone();
-  inside.IsExposing = isExposure;
-  const AtTheEnd endExposure([&] { inside.IsExposing = false; });
-  inside.Instant = 0;
-  inside.FirstInstant.reset();
   const vtkMTimeType now = this->GetTimeOfImage();
   const auto begin = [&]
   {
@@ -375,11 +353,16 @@ int vtkSchlierenFilter::RequestData(
   {
     withRanks.emplace(inside);
   }
-  ExposureSteps steps(this, this->Medium->GetMaker(), inside.Ranks, inputVector, outputVector,
-    inside.Exposure, maxCells);
+  inside.Ranks.setOwn(this->Medium->GetMaker(), vtkDataObject::GetData(inputVector[0]),
+    vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
+  const AtTheEnd forgetOwn([&] { inside.Ranks.forgetOwn(); });
   if (!isRank0())
   {
-    this->ServeRank0(steps);
+    inside.HasImage =
+      inside.Ranks.ranks()
+        .serve(threadsFrom(this->NumberOfThreads),
+          [&](const std::vector<char>& message) { return inside.Ranks.answer(message); })
+        .hasImage;
     return 1;
   }
   const AtTheEnd noteImage(
@@ -398,31 +381,9 @@ int vtkSchlierenFilter::RequestData(
   inside.Time = timeOf(request, inputVector, outputVector);
 
   this->SetAbortExecute(0); // it stays set after an abort
-  guarded([&] { this->MakeImage(steps, maxCells, outputVector); }, noMemory,
+  guarded([&] { this->MakeImage(maxCells, outputVector); }, noMemory,
     [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkSchlierenFilter::ServeRank0(ExposureSteps& steps)
-{
-  Internals& inside = *this->Inside;
-  do
-  {
-    if (!steps.IsThere())
-    {
-      continue;
-    }
-    if (inside.IsExposing)
-    {
-      steps.KeepPiece();
-    }
-    inside.HasImage =
-      inside.Ranks.ranks()
-        .serve(threadsFrom(this->NumberOfThreads),
-          [&](const std::vector<char>& message) { return inside.Ranks.answer(message); })
-        .hasImage;
-  } while (steps.Resume());
 }
 
 //------------------------------------------------------------------------------
@@ -437,8 +398,7 @@ void vtkSchlierenFilter::ShowLast(vtkInformationVector* outputs)
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::MakeImage(
-  ExposureSteps& steps, double maxCells, vtkInformationVector* outputs)
+void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* outputs)
 {
   Internals& inside = *this->Inside;
   vtkImageData* output = vtkImageData::GetData(outputs, IMAGE_PORT);
@@ -454,21 +414,18 @@ void vtkSchlierenFilter::MakeImage(
     this->Status = noIndexYet;
     return;
   }
-  const bool continues = !inside.IsExposing && this->Continues(input, bodies);
+  const bool continues = this->Continues(input, bodies);
   inside.UnfinishedOf = 0;
   if (!(this->TimeLimit > 0))
   {
     inside.DropShown(); // there will be a better image, which wants the memory
   }
-  bool isMade = continues || inside.IsExposing || this->UpdateRefractivity(input, bodies);
-  if (isMade && !continues && !inside.IsExposing)
+  const bool isThere = continues || this->UpdateRefractivity(input, bodies);
+  if (isThere && !continues)
   {
     this->UpdateFieldGradients(input);
   }
-  isMade = isMade &&
-    (inside.IsExposing ? this->Expose(steps, output, histogram)
-                       : this->Render(output, histogram, continues));
-  if (isMade)
+  if (isThere && this->Render(output, histogram, continues))
   {
     this->ShowLast(outputs);
     return;
@@ -479,7 +436,7 @@ void vtkSchlierenFilter::MakeImage(
   if (this->TimeLimit > 0 && this->GetAbortExecute())
   {
     inside.FailedAt = inside.StoppedOf = this->GetTimeOfImage(); // later than `now` by the abort
-    this->Status = inside.IsExposing ? "No image: the exposure was stopped" : noIndexYet;
+    this->Status = noIndexYet;
   }
 }
 

@@ -34,8 +34,7 @@
  * `KScale` (the k used), `UndisturbedLevel` (intensity of undisturbed light), `SaturatedShare`
  * (fraction of the rays at the cutoff's darkest or brightest level), `LightEmitted`, `LightOnFilm`
  * and `LightOutside` (behind the cutoff, in units of full light of all pixels; the first is the sum
- * of the others), `FringeSpacing` (of finite fringes, data units), `ExposureInterval` (with
- * ExposureTime: begin and end, in the data's time), `AmbientRefractivity` and `ExitRefractivity`
+ * of the others), `FringeSpacing` (of finite fringes, data units), `AmbientRefractivity` and `ExitRefractivity`
  * (the values used), `RaysTraced`, `RaysLost` (trapped in the medium, turned back by it, or totally
  * reflected at the exit), `StepsTaken` (of all rays), `TraceSeconds` (0 without tracing), and the
  * accuracy: `DisplacementBound` (maximum displacement of rays, data units) and `SkippingBound`
@@ -85,7 +84,6 @@ struct MadeRefractivity;
 
 namespace filters
 {
-class ExposureSteps;
 struct ImageCircumstances;
 struct TimeStep;
 } // namespace filters
@@ -1021,7 +1019,7 @@ public:
    * changes that: the field data have DataError, in the unit and the norm of ErrorReached. Of grids it is the difference
    * that quadratic splines between the samples make instead of cubic ones, of meshes that which smoother gradients at the
    * points make, or a smooth Reconstruction instead of one that is linear in cells. Default: off. It costs another medium.
-   * It is not known of AMR, of data that stay on their ranks, and of an exposure over time.
+   * It is not known of AMR and of data that stay on their ranks.
    */
   vtkSetMacro(DataError, bool);
   vtkGetMacro(DataError, bool);
@@ -1037,24 +1035,6 @@ public:
    */
   vtkSetClampMacro(MediumMemory, int, 1, VTK_INT_MAX);
   vtkGetMacro(MediumMemory, int);
-  ///@}
-
-  ///@{
-  /**
-   * Exposure time, in the data's time; 0 (the default): one instant. Otherwise the image is the
-   * mean over ExposureSamples instants (default: 8; 1: as with 0), the midpoints of as many
-   * subintervals of an interval that is centred at the requested time and clipped to the data's
-   * times. All arrays are such means; the histogram is the sum. The sensitivity k and the ambient
-   * refractivity are those of the first instant, unless given. Between time steps, real arrays and
-   * the points of meshes are interpolated linearly, and all else is of the earlier step; changing
-   * cells are an error. Sources without time steps, but with a time range, give the data of each
-   * instant. Ignored for data that do not change and with a PreviewReduction. TimeLimit does not
-   * limit an exposure: any change makes all of it again, upstream filters included.
-   */
-  vtkSetClampMacro(ExposureTime, double, 0, VTK_DOUBLE_MAX);
-  vtkGetMacro(ExposureTime, double);
-  vtkSetClampMacro(ExposureSamples, int, 1, VTK_INT_MAX);
-  vtkGetMacro(ExposureSamples, int);
   ///@}
 
   ///@{
@@ -1243,10 +1223,8 @@ private:
 
   struct Internals;
 
-  /// Does on other ranks what rank 0 requests, for all steps of an exposure.
-  void ServeRank0(filters::ExposureSteps& steps);
   /// Makes the image on rank 0, or leaves the outputs empty where that is aborted. Throws what is reported by Fail().
-  void MakeImage(filters::ExposureSteps& steps, double maxCells, vtkInformationVector* outputs);
+  void MakeImage(double maxCells, vtkInformationVector* outputs);
   /// Puts the image that was made last on the outputs.
   void ShowLast(vtkInformationVector* outputs);
   /// Passes the array selections, and the wavelength if it matters, to Medium, which changes only
@@ -1292,11 +1270,9 @@ private:
   std::optional<double> KeptAmbient();
   filters::ImageCircumstances CircumstancesOf(std::vector<double> medium, std::vector<double> rays);
   schlieren::Image Begin(bool isPreview, double seconds, const schlieren::Monitor& monitor);
-  /// Makes the image of an exposure over time. Returns false if aborted.
-  bool Expose(filters::ExposureSteps& steps, vtkImageData* output, vtkImageData* histogram);
   /// Passes what was found for the last image to the locks.
   void KeepFound(const schlieren::Image& image);
-  /// Reports the progress of the image, or of an instant of it.
+  /// Reports the progress of the image.
   void Progress(double fraction);
   /// Makes the image from the refractivity, or resumes it. Returns false if aborted.
   bool Render(vtkImageData* output, vtkImageData* histogram, bool continues);

@@ -123,8 +123,7 @@ double numberOf(std::int64_t pass, std::uint32_t seed)
 constexpr std::uint32_t firstSeed = 1;
 
 /// Rows of the first 64 points of a pixel, in 64ths of it. Columns are those of columnDigits. Point 4 ... 7 are at odd eighths,
-/// point 8 ... 15 at odd sixteenths of both axes, and so on. Among these orders of rows the search of
-/// Testing/Benchmarks/PixelPoints.py has found this one.
+/// point 8 ... 15 at odd sixteenths of both axes, and so on. A search among these orders of rows has found this one.
 constexpr std::array<std::uint32_t, 64> firstRows{ 0, 16, 32, 48, 24, 40, 56, 8, 52, 60, 44, 36, 4,
   12, 20, 28, 14, 6, 58, 2, 42, 22, 34, 18, 62, 30, 10, 38, 26, 54, 50, 46, 51, 23, 47, 7, 1, 11,
   13, 57, 15, 37, 39, 25, 9, 41, 43, 45, 21, 63, 55, 17, 35, 27, 61, 3, 33, 53, 5, 49, 19, 59, 29,

@@ -10,7 +10,8 @@ author = copyright = "Schlieren contributors"
 extensions = ["myst_parser"]
 root_doc = "README"
 include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "Documentation/*.md", "CudaCore/README.md",
-                    "Testing/Data/README.md", "Testing/Benchmarks/Window/README.md"]
+                    "Testing/Data/README.md", "Testing/Benchmarks/results.md",
+                    "Testing/Benchmarks/Window/README.md"]
 html_theme = "alabaster"
 html_theme_options = {"fixed_sidebar": True, "page_width": "1200px", "sidebar_width": "280px", "body_max_width": "none",
                       "show_powered_by": False}
@@ -26,7 +27,8 @@ def add_contents(app, name, source):
     """The order of the pages is that of the table in the README."""
     if name == root_doc:
         pages = dict.fromkeys(re.findall(r"\]\((Documentation/\w+)\.md", source[0].split("## Documentation")[1]))
-        more = ["CudaCore/README", "Testing/Data/README", "Testing/Benchmarks/Window/README", "CHANGELOG", "CONTRIBUTING"]
+        more = ["CudaCore/README", "Testing/Data/README", "Testing/Benchmarks/results",
+                "Testing/Benchmarks/Window/README", "CHANGELOG", "CONTRIBUTING"]
         source[0] += "\n".join(["", "```{toctree}", ":hidden:", "", *pages, *more, "```", ""])
 
 

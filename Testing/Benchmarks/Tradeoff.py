@@ -13,11 +13,10 @@ tolerance of 0.0003 and bent rays.
 """
 
 import csv
-import os
 import resource
 import sys
 
-import ErrorTolerance as cases
+import FlowCases as cases
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -33,20 +32,11 @@ TRUTH = {"Interpolation": "Cubic", "StepSize": 0.5, "SamplesPerPixel": 64, "Homo
          "MediumTolerance": 3e-4, "PathModel": "Refracted"}
 
 
-def jet(direction):
-    reader = simple.XMLImageDataReader(FileName=[os.path.join(cases.DATA, "ladenburg_jet_3d.vti")])
-    return reader, {"ViewDirection": direction, "LengthScale": 0.001}
-
-
 # Target errors, from coarse to fine; the middle one cannot be seen.
 TECHNIQUES = {"Knife Edge": (0.02, 0.004, 0.001), "Shadowgraph": (0.02, 0.004, 0.001),
               "Interferogram": (0.1, 0.02, 0.005), "Background Oriented": (0.1, 0.02, 0.005)}
 UNITS = {"Knife Edge": "full scale", "Shadowgraph": "undisturbed light", "Interferogram": "fringes",
          "Background Oriented": "pixels"}
-ALL = {"jet": lambda: jet([0, 0, -1]), "jet aslant": lambda: jet([0.3, -0.4, -1])}
-ALL.update({name: (lambda case=case: case()[:2]) for name, case in cases.CASES.items()
-            if name in ("blunt fin", "shell, hexahedra", "ball, AMR of ratio 2", "shock and wake, far field",
-                        "heating coil")})
 FLOWS = ("jet", "jet aslant", "blunt fin", "ball, AMR of ratio 2")
 CUBIC = {"Interpolation": "Cubic", "HomogeneityTolerance": 0, "MediumTolerance": 0.003}
 SETTINGS = {"Interactive": {"Quality": "Interactive"}, "Fine": {"Quality": "Fine"},
@@ -126,7 +116,7 @@ def measure(technique, source, settings, setting, views=()):
 
 def truth_of(flow, technique, rays=64):
     """The flow, its settings with the k of the truth, and the truth."""
-    source, settings = ALL[flow]()
+    source, settings = cases.CASES[flow]()
     source.UpdatePipeline()
     common = {**settings, **settings_for(technique, source, settings)}
     rays = 1 if technique == "Background Oriented" else rays

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <set>
 #include <vector>
 
 /// Data that change with time: what `make` makes of one.
@@ -23,9 +22,8 @@ public:
   vtkTypeMacro(Changing, vtkAlgorithm);
 
   std::function<vtkSmartPointer<vtkDataObject>(double time)> make;
-  std::vector<double> steps;     ///< none: any time from 0 to 2
+  std::vector<double> steps;
   std::vector<double> requested; ///< of all requests for data
-  std::set<double> broken;       ///< times without data
 
 protected:
   using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -58,12 +56,8 @@ protected:
     }
     else if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
     {
-      if (!this->steps.empty())
-      {
-        info->Set(Pipeline::TIME_STEPS(), this->steps.data(), static_cast<int>(this->steps.size()));
-      }
-      const double range[2] = { this->steps.empty() ? 0 : this->steps.front(),
-        this->steps.empty() ? 2 : this->steps.back() };
+      info->Set(Pipeline::TIME_STEPS(), this->steps.data(), static_cast<int>(this->steps.size()));
+      const double range[2] = { this->steps.front(), this->steps.back() };
       info->Set(Pipeline::TIME_RANGE(), range, 2);
       const auto example = this->make(1);
       if (auto* image = vtkImageData::SafeDownCast(example))
@@ -75,15 +69,9 @@ protected:
     {
       double time = info->Get(Pipeline::UPDATE_TIME_STEP());
       this->requested.push_back(time);
-      if (!this->steps.empty()) // as readers do
-      {
-        const auto after = std::upper_bound(this->steps.begin(), this->steps.end(), time);
-        time = after == this->steps.begin() ? this->steps.front() : *(after - 1);
-      }
-      if (this->broken.count(time) > 0)
-      {
-        return 0;
-      }
+      // As readers do.
+      const auto after = std::upper_bound(this->steps.begin(), this->steps.end(), time);
+      time = after == this->steps.begin() ? this->steps.front() : *(after - 1);
       vtkDataObject* output = vtkDataObject::GetData(info);
       output->ShallowCopy(this->make(time));
       output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);

@@ -286,8 +286,6 @@ void setCapacity(std::size_t bytes)
   capacity = bytes;
 }
 
-bool isAllocated(const void* address, std::size_t bytes) { return memory.holds(address, bytes); }
-
 cudaError_t enqueue(Launch launch, cudaStream_t stream)
 {
   const std::lock_guard<std::recursive_mutex> lock(mutex);

@@ -19,7 +19,4 @@ void run(const Launch& launch);
 void setCapacity(std::size_t bytes);
 constexpr std::size_t defaultCapacity = std::size_t{ 4 } << 30;
 
-/// Whether all of it is one allocation's.
-bool isAllocated(const void* memory, std::size_t bytes);
-
 } // namespace emulated

@@ -72,14 +72,9 @@ settle(bench)
 user.event(PANEL + "/SearchBox/AdvancedButton", "set_boolean", "true")
 check_label("FocalPoint", "Focal Point (data units)")
 
-# What an exposure is made of, where there is one; and what is kept over a series, but not its number.
-for name, isSeen in (("ExposureTime", "true"), ("ExposureSamples", "false"), ("LockAmbient", "true"),
-                     ("LockedAmbient", "false"), ("LockedK", "false")):
+# What is kept over a series, but not its number.
+for name, isSeen in (("LockAmbient", "true"), ("LockedAmbient", "false"), ("LockedK", "false")):
     user.check(name, "visible", isSeen)
-user.choose("ExposureTime/DoubleLineEdit0", "0.5")
-user.check("ExposureSamples", "visible", "true")
-user.reset()
-user.check("ExposureSamples", "visible", "false")
 
 POINT = "FocalPoint/Coordinate{}"
 for axis in range(3):

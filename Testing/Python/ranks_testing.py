@@ -170,10 +170,10 @@ output.GetInformation().Set(output.DATA_TIME_STEP(), time)
 """
 
 
-def moving_ball(kind, output, times, before="", after=""):
-    """A source of the ball, which is at x = time, with these time steps. `before`, `after`: more of its script."""
+def moving_ball(kind, output, times):
+    """A source of the ball, which is at x = time, with these time steps."""
     from paraview.simple import ProgrammableSource
-    script = TIME + before + BALL.replace("KIND", repr(kind)).replace("-(x * x", "-((x - time)**2") + TIME_OF_OUTPUT + after
+    script = TIME + BALL.replace("KIND", repr(kind)).replace("-(x * x", "-((x - time)**2") + TIME_OF_OUTPUT
     information = WHOLE_EXTENT.replace("IS_GRID", str(output == "vtkImageData")) + STEPS
     return ProgrammableSource(OutputDataSetType=output, Script=script.replace("TIMES", repr(times)),
                               ScriptRequestInformation=information.replace("TIMES", repr(times)))

@@ -287,12 +287,6 @@ void addFringeSpacing(vtkImageData* output, double spacing)
 }
 
 //------------------------------------------------------------------------------
-void addExposure(vtkImageData* output, double begin, double end)
-{
-  addFieldValues<vtkDoubleArray>(output, "ExposureInterval", std::array<double, 2>{ begin, end });
-}
-
-//------------------------------------------------------------------------------
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)
 {
   addFieldValues<vtkIntArray>(

@@ -43,9 +43,6 @@ void addRecorded(vtkImageData* output, const schlieren::Sensor& sensor, int thre
 /// Adds the spacing of finite fringes, data units.
 void addFringeSpacing(vtkImageData* output, double spacing);
 
-/// Adds the interval of time that the image averages.
-void addExposure(vtkImageData* output, double begin, double end);
-
 /// Adds statistics of the medium.
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium);
 

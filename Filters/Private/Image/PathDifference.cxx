@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/PathDifference.h"
 
-#include "Image/MeanImage.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -23,6 +21,16 @@ void subtract(schlieren::PixelArray<Number>& numbers, const schlieren::PixelArra
   {
     numbers[i] = middle + scale * (numbers[i] - others[i]);
   }
+}
+
+/// Adds the numbers of rays and steps, and the time.
+void addRays(schlieren::Image& sum, const schlieren::Image& image)
+{
+  sum.raysTraced += image.raysTraced;
+  sum.stepsTaken += image.stepsTaken;
+  sum.raysBlocked += image.raysBlocked;
+  sum.raysLost += image.raysLost;
+  sum.traceSeconds += image.traceSeconds;
 }
 
 schlieren::Image differenceOf(

@@ -21,17 +21,11 @@ bool isAtOtherTime(const ImageCircumstances& a, const ImageCircumstances& b)
   return a.time && b.time && *a.time != *b.time;
 }
 
-/// Compares data; those of an exposure, of several times, by their sources and the exposure's time.
-bool haveSameData(const ImageCircumstances& a, const ImageCircumstances& b)
-{
-  return a.data && b.data ? *a.data == *b.data : a.upstream == b.upstream && a.time == b.time;
-}
-
 /// Compares everything but the time.
 bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
 {
-  return a.data.has_value() == b.data.has_value() && haveSameData(a, b) &&
-    std::tie(a.properties, a.medium, a.rays) == std::tie(b.properties, b.medium, b.rays);
+  return std::tie(a.data, a.properties, a.medium, a.rays) ==
+    std::tie(b.data, b.properties, b.medium, b.rays);
 }
 
 } // namespace
@@ -72,7 +66,7 @@ std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& n
   // after the first image of a time is made. A given k belongs to no time.
   const bool holds = this->Last && this->Last->properties == now.properties &&
     this->Last->medium == now.medium &&
-    (haveSameData(*this->Last, now) || isAtOtherTime(*this->Last, now)) &&
+    (this->Last->data == now.data || isAtOtherTime(*this->Last, now)) &&
     (!this->Origin || this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
       mode == OpticsSettings::lockAlways);
   if (mode == OpticsSettings::lockOff || (this->Last && !holds))

@@ -15,10 +15,8 @@ namespace filters
 /// Identifies the data and settings that a value was found for.
 struct ImageCircumstances
 {
-  std::optional<double> time;   ///< unset: no time steps
-  std::vector<double> upstream; ///< modification times of the data's sources
-  std::optional<std::vector<double>>
-    data;                     ///< vtkSchlierenFilter::DescribeInputs(); unset: several times
+  std::optional<double> time; ///< unset: no time steps
+  std::vector<double> data;   ///< vtkSchlierenFilter::DescribeInputs()
   MediumSettings properties;  ///< settings of the medium, in single precision
   std::vector<double> medium; ///< other settings of the medium and, for k, the kind of cutoff
   std::vector<double> rays;   ///< for k: camera, quality, light

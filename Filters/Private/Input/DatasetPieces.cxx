@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/DatasetPieces.h"
 
-#include "Common/ImagePlace.h"
 #include "Input/RefractivitySource.h"
 
 #include "vtkAppendFilter.h"
@@ -461,6 +460,15 @@ vtkSmartPointer<vtkDataSet> joinedMesh(
   merge->Update();
   merge->SetMergingArray(nullptr); // its destructor leaks the name
   return merge->GetOutput();
+}
+
+/// Returns whether the points of two images with the same indices coincide, to the last bit.
+bool haveSamePlace(vtkImageData* a, vtkImageData* b)
+{
+  const double* direction = a->GetDirectionMatrix()->GetData();
+  return std::equal(a->GetOrigin(), a->GetOrigin() + 3, b->GetOrigin()) &&
+    std::equal(a->GetSpacing(), a->GetSpacing() + 3, b->GetSpacing()) &&
+    std::equal(direction, direction + 9, b->GetDirectionMatrix()->GetData());
 }
 
 vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& pieces)

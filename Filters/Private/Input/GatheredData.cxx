@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/GatheredData.h"
 
-#include "Common/ImagePlace.h"
 #include "Input/DatasetPieces.h"
 
 #include "vtkDataArray.h"

@@ -95,8 +95,7 @@ Sources& sources()
 
 } // namespace
 
-bool InputsOfRanks::begin(
-  vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted, const std::string& problem)
+bool InputsOfRanks::begin(vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted)
 {
   std::vector<double> description;
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -113,23 +112,19 @@ bool InputsOfRanks::begin(
     }
   }
   const bool lacksInput = std::exchange(this->LacksInput, false);
-  return this->All.begin(
-    description, problem.empty() && lacksInput ? absenceOf(this->All.all()) : problem, isWanted);
+  return this->All.begin(description, lacksInput ? absenceOf(this->All.all()) : "", isWanted);
 }
 
-void InputsOfRanks::setOwn(
-  MediumMaker& maker, vtkDataObject* data, vtkDataObject* bodies, DataAt dataAt)
+void InputsOfRanks::setOwn(MediumMaker& maker, vtkDataObject* data, vtkDataObject* bodies)
 {
   this->Maker = &maker;
   this->Own = { data, bodies };
-  this->OwnAt = std::move(dataAt);
 }
 
 void InputsOfRanks::forgetOwn()
 {
   this->Maker = nullptr;
   this->Own = {};
-  this->OwnAt = nullptr;
 }
 
 /// Requests work of all ranks, which rank 0 does meanwhile, too.
@@ -200,7 +195,7 @@ vtkDataObject* InputsOfRanks::gatheredOf(int port, vtkDataObject* own) const
 }
 
 std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
-  vtkDataObject* bodies, bool hasFields, int instant, std::string& warning)
+  vtkDataObject* bodies, bool hasFields, std::string& warning)
 {
   std::vector<char> ofBodies;
   if (bodies)
@@ -213,7 +208,6 @@ std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
   std::vector<char> request = requestOf(Make);
   put(sources().newNumber(), request);
   put(hasFields, request);
-  put(instant, request);
   putAll(ofBodies, request);
   this->requestOfAll(request);
   const MediumSettings settings = this->Maker->choice().settings;
@@ -303,18 +297,13 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
     {
       const auto number = reader.Get<std::uint64_t>();
       const auto hasFields = reader.Get<bool>();
-      const auto instant = reader.Get<int>();
       const auto ofBodies = reader.GetAll<std::vector<char>>();
       this->Held = nullptr; // frees memory first
       this->Made = {};
-      vtkSmartPointer<vtkDataObject> data = this->Own[0], bodies;
-      ranks.agree(
-        [&]
-        {
-          bodies = gatheredData({ ofBodies });
-          data = instant >= 0 && this->OwnAt ? this->OwnAt(instant) : data;
-        });
-      this->Made = makeOverRanks(*this->Maker, ranks, data, bodies, hasFields, number, this->Kept);
+      vtkSmartPointer<vtkDataObject> bodies;
+      ranks.agree([&] { bodies = gatheredData({ ofBodies }); });
+      this->Made =
+        makeOverRanks(*this->Maker, ranks, this->Own[0], bodies, hasFields, number, this->Kept);
       this->Held = this->Made.source;
       if (this->Held)
       {

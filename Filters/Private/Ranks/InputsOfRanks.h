@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,13 +39,10 @@ public:
   void lackInput() { this->LacksInput = true; }
   /// Calls FilterRanks::begin() on all ranks, in RequestData, with the inputs of this one. Throws
   /// errors upstream of any rank.
-  bool begin(vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted,
-    const std::string& problem = "");
+  bool begin(vtkAlgorithm* filter, vtkInformationVector** inputs, bool isWanted);
 
-  /// Sets, on all ranks after begin(), this rank's inputs and maker of a medium. `dataAt`: returns
-  /// its data at an instant between time steps, or throws std::runtime_error; may be empty.
-  using DataAt = std::function<vtkSmartPointer<vtkDataObject>(int instant)>;
-  void setOwn(MediumMaker& maker, vtkDataObject* data, vtkDataObject* bodies, DataAt dataAt = {});
+  /// Sets, on all ranks after begin(), this rank's inputs and maker of a medium.
+  void setOwn(MediumMaker& maker, vtkDataObject* data, vtkDataObject* bodies);
   /// Clears what setOwn() has set, on all ranks before end().
   void forgetOwn();
 
@@ -66,10 +62,10 @@ public:
   /// Returns all of an input, of which rank 0 has `own`, after it has been gathered. At any time.
   vtkDataObject* gatheredOf(int port, vtkDataObject* own) const;
 
-  /// Makes the source of data that stay on their ranks. `instant`: see setOwn(); -1: none.
-  /// `warning`: see MediumMaker::makeSource(). Throws std::runtime_error.
+  /// Makes the source of data that stay on their ranks. `warning`: see MediumMaker::makeSource().
+  /// Throws std::runtime_error.
   std::shared_ptr<const schlieren::MediumSource> make(
-    vtkDataObject* bodies, bool hasFields, int instant, std::string& warning);
+    vtkDataObject* bodies, bool hasFields, std::string& warning);
   /// Makes the ranks of this filter answer for a source, perhaps another filter's. Returns false if
   /// they cannot, and a new source is needed. Succeeds for sources that need no ranks.
   bool use(const schlieren::MediumSource* source);
@@ -87,7 +83,6 @@ private:
   FilterRanks All;
   bool LacksInput = false;
   std::array<vtkSmartPointer<vtkDataObject>, 2> Own;
-  DataAt OwnAt;
   struct Located
   {
     double cells = 0;

@@ -108,6 +108,30 @@ TEST(Interferogram, CountsTheFringesOfAPath)
   EXPECT_EQ(darkFringes(light), 37);
 }
 
+/// A prism of rays that are straight: all is of first order, and no bend makes a path longer.
+TEST(Interferogram, OfStraightRaysIsOfTheirPathAlone)
+{
+  constexpr double slope = 1e-2, depth = 2;
+  SampledField<double> prism(cube(16, 1), [](double x, double, double) { return slope * x; });
+  prism.field.ambient = 0;
+  Scene scene = interferogram();
+  scene.device = Device::Cpu;
+  scene.pathModel = PathModel::Straight;
+  scene.wavelength = 4 * slope * slope; // a bend's path is longer by half of it
+  scene.samplesPerPixel = 1;
+  scene.view.focalPoint = Vector{ 0.2, 0.1, 0 };
+  scene.view.width = 61;
+  scene.view.height = 3;
+  scene.view.parallelScale = 1.5 * 5e-4;
+  const Image image = Bench().render(prism.field, scene);
+  for (int column = 0; column < image.width; ++column)
+  {
+    const double waves = slope * depth * centreOf(image, column, 1).u / scene.wavelength;
+    EXPECT_NEAR(
+      image.intensity[pixelOf(image, column, 1)], (1 + std::cos(2 * pi * waves)) / 2, 2e-3);
+  }
+}
+
 TEST(Interferogram, TakesAnyWavelength)
 {
   for (const double wavelength : { 1e-12, 1e-9, 1., 1e3 })

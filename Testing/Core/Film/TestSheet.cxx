@@ -359,6 +359,24 @@ TEST(Sheet, FoldsAddUp)
   EXPECT_NEAR(sum, all, 0.05);
 }
 
+/// The light of a phase that is linear in a parallelogram that covers several pixels.
+TEST(Sheet, FringesOfAnyCellHaveTheirMean)
+{
+  const auto turns = [](double s, double t) { return 0.15 + 0.15 * s + 0.1 * t; };
+  const auto ray = [&](double s, double t) {
+    return FilmRay<1>{ 2.3 + 2.6 * s + 0.3 * t, 2.1 + 0.5 * s + 2.3 * t, { turns(s, t) }, true };
+  };
+  Recorder film;
+  Sheet<1, Recorder, coverageTileSize, true>(filmSize, film)
+    .addCell(ray(0, 0), ray(1, 0), ray(0, 1), ray(1, 1));
+  const double pi = std::acos(-1.);
+  const auto contrast = [&](double over) { return std::sin(pi * over) / (pi * over); };
+  const double mean =
+    0.5 + 0.5 * std::cos(2 * pi * turns(0.5, 0.5)) * contrast(0.15) * contrast(0.1);
+  EXPECT_NEAR(static_cast<double>(film.sent[0]) / one, mean, 1e-9);
+  EXPECT_EQ(film.sent[0], film.onFilm());
+}
+
 /// Cells that are no areas: their light arrives, in full and where they are.
 TEST(Sheet, CollapsedCellsKeepTheirLight)
 {

@@ -479,11 +479,17 @@ TEST(RayAtFilm, IsWhereGeometrySays)
     const double fromSource = 3 + any(random); // source to exit plane
     const double pixel = 0.01;
     const double column = 100 * any(random), row = 100 * any(random);
-    const double tilt[2] = { 0.1 * any(random), 0.1 * any(random) };
-    const Inclination inclination{ { 0.1 * any(random), 0.1 * any(random) }, 0.002 };
-    const double s[2] = { inclination.at(0, column, tilt[0]), inclination.at(1, row, tilt[1]) };
-    const Point slope{ s[0], s[1], 1 };
-    const Point d = (1 / length(slope)) * slope;
+    const bool isCollimated = trial % 4 == 0;
+    const double most = isCollimated ? 0 : 0.1;
+    const double tilt[2] = { most * any(random), most * any(random) };
+    const Inclination inclination{ { most * any(random), most * any(random) },
+      isCollimated ? 0 : 0.002 };
+    // Undisturbed light, in the data and behind them, by Snell's law.
+    const Point within{ inclination.at(0, column, tilt[0]), inclination.at(1, row, tilt[1]), 1 };
+    const double ratio = trial % 4 == 1 ? 1.4 : 1;
+    Point d = (ratio / length(within)) * within;
+    d.z = std::sqrt(1 - d.x * d.x - d.y * d.y);
+    const Point slope = (1 / d.z) * d;
     RayExit exit{};
     exit.fate = RayFate::Left;
     exit.opticalPathDifference = 3;
@@ -496,7 +502,8 @@ TEST(RayAtFilm, IsWhereGeometrySays)
       exit.displacement[axis] = moved[axis];
     }
     Projection projection{ distance, 1 / pixel, 7, inclination };
-    projection.perSourceDistance = 1 / (fromSource + distance);
+    projection.exitRatio = ratio;
+    projection.perSourceDistance = isCollimated ? 0 : 1 / (fromSource + distance);
     const RayAtFilm found = rayAtFilm(exit, column, row, tilt, projection);
 
     // The exit plane is at 0, the undisturbed ray goes through its origin.
@@ -505,15 +512,39 @@ TEST(RayAtFilm, IsWhereGeometrySays)
     p.z = std::sqrt(1 - p.x * p.x - p.y * p.y);
     const Point leaves{ moved[0], moved[1], 0 };
     const Point lands = leaves + (distance / p.z) * p;
-    EXPECT_NEAR(found.position[0], column + (lands.x - distance * s[0]) / pixel, 1e-9);
-    EXPECT_NEAR(found.position[1], row + (lands.y - distance * s[1]) / pixel, 1e-9);
+    EXPECT_NEAR(found.position[0], column + (lands.x - distance * slope.x) / pixel, 1e-9);
+    EXPECT_NEAR(found.position[1], row + (lands.y - distance * slope.y) / pixel, 1e-9);
     EXPECT_EQ(found.position[0], found.place[0]);
     EXPECT_EQ(found.position[1], found.place[1]);
-    // Up to the exit plane OPD is against the plane wave along d; on the film against the sphere.
+    // Up to the exit plane OPD is against the plane wave along d; on the film, of a source, against the sphere.
     const double path = dot(leaves, d) + distance / p.z;
-    const double reference = length(lands - source) - length(source);
+    const double reference = isCollimated ? distance : length(lands - source) - length(source);
     EXPECT_NEAR(found.path, 3 + 7 * (path - reference), 1e-12);
   }
+}
+
+/// Light of a source that enters the data through a face seems to come from `ratio` times as far before it (Snell's law of
+/// small angles), as the film seems to be so much further behind. From a pupil, distances count from the focal plane.
+TEST(Magnification, IsThatOfSimilarTriangles)
+{
+  const Grid grid = boxGrid(0.25, { 1, 1.5, 2 });
+  View view;
+  view.focalPoint = Vector{ 0.1, 0.2, 0.5 };
+  constexpr double film = 0.7, sourceAt = 5;
+  const Frame frame = frameOf(grid, view);
+  for (const double ratio : { 1., 1.33 })
+  {
+    const ExitFaces faces{ ratio != 1, ratio };
+    const Light light = lightFrom({ sourceAt }, film, grid, view, frame, faces);
+    const double distance = 2 + ratio * (sourceAt - 2);
+    EXPECT_NEAR(light.inclination.perPixel, frame.pixelSize / distance, 1e-15);
+    EXPECT_NEAR(light.magnification, 1 + (2 + ratio * film) / distance, 1e-14);
+  }
+  view.viewAngle = 20;
+  const Frame seen = frameOf(grid, view);
+  const Light light = lightFrom({}, film, grid, view, seen);
+  EXPECT_NEAR(light.inclination.perPixel, seen.pixelSize / seen.pupil, 1e-15);
+  EXPECT_NEAR(light.magnification, 1 + (0.5 + 2 + film) / seen.pupil, 1e-14);
 }
 
 void expectError(const Scene& scene, const char* part)

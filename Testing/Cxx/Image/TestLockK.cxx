@@ -279,20 +279,6 @@ TEST_F(LockAmbient, AnotherMediumOrDataHaveTheirOwn)
   EXPECT_NEAR(this->ambientAt(1), 1e-4, 1e-8);
 }
 
-TEST_F(LockAmbient, AnExposureHasThatOfTheInstantAndTheInstantThatOfTheExposure)
-{
-  const double first = this->ambientAt(1);
-  this->filter->SetExposureTime(0.5);
-  EXPECT_EQ(this->ambientAt(1), first);
-  EXPECT_EQ(this->filter->GetLockedAmbient(), first);
-  this->source->Modified();
-  const double ofExposure = this->ambientAt(1);
-  EXPECT_LT(ofExposure, 0.95 * first); // its first instant is earlier
-  EXPECT_EQ(this->ambientAt(1), ofExposure);
-  this->filter->SetExposureTime(0);
-  EXPECT_EQ(this->ambientAt(1), ofExposure);
-}
-
 TEST_F(LockAmbient, CanBeGiven)
 {
   this->filter->SetLockedAmbient(7e-5);

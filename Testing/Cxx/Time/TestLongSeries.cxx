@@ -148,13 +148,3 @@ TEST_F(LongSeries, OfAmr)
         vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
     });
 }
-
-TEST_F(LongSeries, OfExposures)
-{
-  expectNoGrowth(imageAt,
-    [](vtkSchlierenFilter* filter)
-    {
-      filter->SetExposureTime(0.8);
-      filter->SetExposureSamples(2);
-    });
-}
