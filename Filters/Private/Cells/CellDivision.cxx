@@ -120,8 +120,9 @@ int CellDivision::addNode(vtkCell* cell, const std::array<double, 3>& place)
 void CellDivision::dividePyramid(vtkCell* cell)
 {
   constexpr CellShape t = CellShape::Tetrahedron, p = CellShape::Pyramid;
-  this->addPoints(13);
-  const int base = this->addNode(cell, { 0.5, 0.5, 0 });
+  const bool hasMiddle = cell->GetNumberOfPoints() > 13; // of its base
+  this->addPoints(hasMiddle ? 14 : 13);
+  const int base = hasMiddle ? 13 : this->addNode(cell, { 0.5, 0.5, 0 });
   this->parts = { { p, { 0, 5, base, 8, 9 } }, { p, { 5, 1, 6, base, 10 } },
     { p, { base, 6, 2, 7, 11 } }, { p, { 8, base, 7, 3, 12 } }, { p, { 9, 10, 11, 12, 4 } },
     { p, { 9, 12, 11, 10, base } }, { t, { 5, 9, 10, base } }, { t, { 6, 10, 11, base } },

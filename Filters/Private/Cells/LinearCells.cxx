@@ -8,6 +8,7 @@
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
+#include "vtkConvexPointSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkGenericCell.h"
@@ -40,13 +41,29 @@ int typeOf(CellShape shape)
   return types[static_cast<std::size_t>(shape)];
 }
 
-/// Returns whether a cell is three-dimensional and neither of a shape that is sampled nor one that
-/// withoutPolyhedra() cuts.
 bool isToDivide(int type)
 {
-  return shapeOf(type) == CellShape::Other && type != VTK_POLYHEDRON &&
-    type != VTK_PENTAGONAL_PRISM && type != VTK_HEXAGONAL_PRISM &&
-    vtkCellTypeUtilities::GetDimension(static_cast<unsigned char>(type)) == 3;
+  return skeletonOf(type) != CellShape::Other || type == VTK_CONVEX_POINT_SET;
+}
+
+/// Cuts the convex hull of points into tetrahedra. Sorts the points, so that neighbours cut their common
+/// faces alike. Returns four indices of points for each.
+vtkSmartPointer<vtkIdList> tetrahedraOf(vtkPoints* points, vtkIdList* ids)
+{
+  std::sort(ids->begin(), ids->end());
+  const vtkIdType count = ids->GetNumberOfIds();
+  vtkNew<vtkConvexPointSet> hull;
+  hull->PointIds->SetNumberOfIds(count);
+  hull->Points->SetNumberOfPoints(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    hull->PointIds->SetId(i, i);
+    hull->Points->SetPoint(i, points->GetPoint(ids->GetId(i)));
+  }
+  auto tetrahedra = vtkSmartPointer<vtkIdList>::New();
+  vtkNew<vtkPoints> notUsed;
+  hull->Triangulate(0, tetrahedra, notUsed);
+  return tetrahedra;
 }
 
 class LinearCells
@@ -100,12 +117,14 @@ private:
     const CellShape shape = skeletonOf(type);
     if (shape == CellShape::Other)
     {
-      vtkNew<vtkPoints> notUsed;
-      this->Plain->GetCell(cell, this->Cell);
-      this->Cell->Triangulate(0, ids, notUsed);
-      for (vtkIdType i = 0; i + 3 < ids->GetNumberOfIds(); i += 4)
+      const auto corners = tetrahedraOf(this->Points, ids);
+      for (vtkIdType i = 0; i + 3 < corners->GetNumberOfIds(); i += 4)
       {
-        this->add(cell, VTK_TETRA, 4, ids->GetPointer(i));
+        const vtkIdType* of = corners->GetPointer(i);
+        this->add(cell, VTK_TETRA, 4,
+          std::array<vtkIdType, 4>{
+            ids->GetId(of[0]), ids->GetId(of[1]), ids->GetId(of[2]), ids->GetId(of[3]) }
+            .data());
       }
       return;
     }

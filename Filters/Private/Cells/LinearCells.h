@@ -10,8 +10,7 @@ namespace filters
 {
 
 /// Divides curved cells into linear ones with corners at the cells' own nodes, `order` along each
-/// edge, or returns the mesh itself if it has none. Cells that VTK alone knows (vtkConvexPointSet)
-/// become tetrahedra. Keeps point scalars (double) and the arrays of cells.
+/// edge, and vtkConvexPointSet into tetrahedra, or returns the mesh itself if it has none of them. Keeps point scalars (double) and the arrays of cells.
 ///
 /// Nodes that a serendipity cell lacks, and those of Bezier cells, whose points are control points,
 /// are interpolated by the cell's own functions, and common to neighbours. The interpolation is

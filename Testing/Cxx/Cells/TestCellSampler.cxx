@@ -68,7 +68,11 @@ double coordinatesOf(vtkCell* cell, const Vec& x, Vec& at)
         }
       }
     }
-    if (!filters::invert(columns, rows))
+    if (std::max({ std::abs(rest[0]), std::abs(rest[1]), std::abs(rest[2]) }) < 1e-14)
+    {
+      break;
+    }
+    if (step == 19 || !filters::invert(columns, rows))
     {
       return HUGE_VAL;
     }
