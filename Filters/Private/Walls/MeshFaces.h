@@ -70,9 +70,8 @@ struct Faces
 };
 
 /// Finds the surface of each leaf's visible cells, and of hidden ones; see boundaryOf(). With
-/// Copies::Neighbours, only faces of cells that are no copies. Faces of curved cells are divided,
-/// and equal if their corners and middles coincide, also for duplicate points of discontinuous
-/// solutions.
+/// Copies::Neighbours, only faces of cells that are no copies. The shapes of the cells are known
+/// (see CellShape.h).
 Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress,
   Copies copies = Copies::Used);
 
