@@ -48,7 +48,6 @@ struct Faces
   std::vector<std::size_t> starts{ 0 }; // of each face, and the end
   std::vector<Point> owners;            // middle of the cell
   std::vector<State> states;            // of the cell
-  std::vector<unsigned char> areParts;  // whether it belongs to the face of a curved cell
 
   std::size_t size() const { return this->owners.size(); }
   /// Adds a point, after its contributions.
@@ -60,12 +59,11 @@ struct Faces
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
   /// Adds a face, after its corners.
-  void finish(const Point& owner, State state, bool isPart = false)
+  void finish(const Point& owner, State state)
   {
     this->starts.push_back(this->corners.size());
     this->owners.push_back(owner);
     this->states.push_back(state);
-    this->areParts.push_back(isPart ? 1 : 0);
   }
 };
 
