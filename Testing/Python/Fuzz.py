@@ -35,8 +35,6 @@ TEXTS = ("", "None", "rho", "p", "air", "N2", "1e-3", "data:image/png;base64,AAA
 # Of properties with which an image may take as long as one likes: values with which it takes a moment.
 QUICK = {"ImageSize": ([16, 16], [16, 16], [33, 7], [1, 1], [0, 16], [16, -3], [2**31 - 1, 2**31 - 1]),
          "SamplesPerPixel": (1, 1, 2, 5, 0, -1), "MediumMemory": (1, 2, 8),
-         "SamplingDimensions": ([0, 0, 0], [9, 9, 9], [2, 3, 4], [1, 1, 1], [-1, 2, 3], [30, 0, 0], [3000, 3000, 3000],
-                                [2**31 - 1] * 3),
          "NumberOfThreads": (0, 1, 2, 3, -1), "HistogramSize": (0, 1, 16, 256, 2049, -1),
          "NoiseFilterRadius": (0., 1., 2.5, -1., float("nan"), float("inf")),
          "StepSize": (2., 1., .1, 16., 17., 0., -1., float("nan")),

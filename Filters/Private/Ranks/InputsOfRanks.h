@@ -77,7 +77,6 @@ public:
 
 private:
   void requestOfAll(const std::vector<char>& message);
-  void answerArrays();
 
   MediumMaker* Maker = nullptr; // between setOwn() and forgetOwn()
   FilterRanks All;

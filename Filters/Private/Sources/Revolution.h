@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Input/RefractivitySource.h"
-#include "Input/SamplingBox.h"
 
 #include "Schlieren.h"
 
@@ -29,12 +28,6 @@ struct Revolution
 
 /// Returns the chosen or best axis. Throws for data that are not flat or have no such axis.
 Revolution revolutionOf(const Source& source);
-
-/// Makes the bounds with two points along each axis, or with as many as the plane's cells suggest
-/// or as are given: see vtkRefractiveIndex::SetSamplingDimensions.
-void boxOf(const Revolution& revolution, vtkImageData* structure);
-void gridOf(const Revolution& revolution, const Source& source, const int samplingDimensions[3],
-  const SamplingBox& box, vtkImageData* structure);
 
 /// Adds the other side of the axis to data on one side.
 Source mirrored(const Source& source, const Revolution& revolution);
