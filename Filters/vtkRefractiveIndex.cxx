@@ -211,7 +211,9 @@ void vtkRefractiveIndex::Append(vtkDataObject* input, vtkDataObject* output)
   std::vector<PiecesOfRanks::Piece> pieces;
   for (vtkDataSet* data : dataSetsOf(input))
   {
-    pieces.push_back({ data, 0, {}, {} });
+    PiecesOfRanks::Piece piece{};
+    piece.data = data;
+    pieces.push_back(std::move(piece));
   }
   const ChoiceOverRanks choice = chooseOverRanks(ranks, maker, pieces, false, false);
   if (choice.label.empty())

@@ -20,6 +20,7 @@ struct Revolution
   std::array<double, 3> origin; // a point of the axis
   double low, high;             // of the data, along the axis
   double radius;                // maximum of the data
+  double tolerance;             // distance of points from the axis that count as on it
   bool isMirrored;              // whether the data are on one side of the axis
   std::string note;             // for the user
 
@@ -28,8 +29,5 @@ struct Revolution
 
 /// Returns the chosen or best axis. Throws for data that are not flat or have no such axis.
 Revolution revolutionOf(const Source& source);
-
-/// Adds the other side of the axis to data on one side.
-Source mirrored(const Source& source, const Revolution& revolution);
 
 } // namespace filters

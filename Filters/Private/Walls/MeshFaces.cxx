@@ -205,6 +205,7 @@ void addPlainCells(const MeshArrays& mesh, std::uint32_t leaf, const std::vector
       types.begin(), types.end(), [](int type) { return shapeOf(type) != CellShape::Other; });
   const std::vector<OwnedFace> found =
     areUsual ? unsharedFaces(mesh, chosen) : facesByVtk(data, chosen);
+  vtkDataArray* doubles = mesh.data()->GetPointData()->GetArray(doublesName);
   std::vector<std::int32_t> numbers(static_cast<std::size_t>(mesh.points()), -1);
   for (const std::size_t n : orderOf(found))
   {
@@ -221,7 +222,7 @@ void addPlainCells(const MeshArrays& mesh, std::uint32_t leaf, const std::vector
         Point x;
         mesh.coordinates(point, x.data());
         faces.contributions.push_back({ leaf, point, 1 });
-        number = faces.addPoint(x);
+        number = faces.addPoint(x, doubles && doubles->GetComponent(point, 0) != 0);
       }
       faces.corners.push_back(number);
     }
@@ -367,8 +368,7 @@ std::vector<Key> placesOf(vtkDataSet* data, CellFaces& cells, const std::vector<
       }
     }
   }
-  const std::vector<std::int32_t> merged =
-    coincidentPoints(points, mergingTolerances(points, edges, relativeRounding(points)));
+  const std::vector<std::int32_t> merged = coincidentPoints(points, edges);
   for (Key& key : keys)
   {
     for (vtkIdType& point : key)

@@ -21,7 +21,6 @@ namespace filters
 /// but several for points on faces of curved cells that are not the leaf's own.
 struct Contribution
 {
-  static constexpr std::uint32_t ofSeveral = 0xffffffff; // see BoundaryOfMeshes
   std::uint32_t leaf;
   vtkIdType point;
   double weight;
@@ -35,10 +34,14 @@ enum class State : unsigned char
   Visible
 };
 
+/// Name of an array of points: whether one was made of several of a dataset (see SharedPoints).
+constexpr const char* doublesName = "Doubles";
+
 /// Polygons that bound visible or hidden cells.
 struct Faces
 {
   std::vector<Point> points;
+  std::vector<unsigned char> areDoubles;            // of the points, see doublesName
   std::vector<std::size_t> firstContributions{ 0 }; // of each point's value, and the end
   std::vector<Contribution> contributions;
   std::vector<std::int32_t> corners;    // of all faces
@@ -49,9 +52,10 @@ struct Faces
 
   std::size_t size() const { return this->owners.size(); }
   /// Adds a point, after its contributions.
-  std::int32_t addPoint(const Point& x)
+  std::int32_t addPoint(const Point& x, bool isDouble = false)
   {
     this->points.push_back(x);
+    this->areDoubles.push_back(isDouble ? 1 : 0);
     this->firstContributions.push_back(this->contributions.size());
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
