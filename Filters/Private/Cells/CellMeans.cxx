@@ -254,7 +254,7 @@ CellMoments momentsOf(const MeshArrays& mesh, vtkIdType cell)
   {
     return momentsOfPolyhedron(vtkUnstructuredGrid::SafeDownCast(mesh.data()), cell);
   }
-  switch (skeletonOf(type))
+  switch (shapeOf(type))
   {
     case CellShape::Tetrahedron:
       return momentsOfTetrahedra(mesh, cell, tetrahedron);

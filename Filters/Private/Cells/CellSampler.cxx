@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <vector>
 
 namespace filters
@@ -23,7 +22,6 @@ constexpr double nothing = 1e-9;
 constexpr double bendOfParallelepipeds = 1e-12;
 
 const LocateInCell locateInCell = functionsToLocate().back();
-const LocateInPart locateInPart = functionsToLocateInPart().back();
 
 } // namespace
 
@@ -73,22 +71,6 @@ bool LatticeInCells::enter(const CellTree::Steps& box)
   return true;
 }
 
-bool LatticeInCells::enter(const Vector& low, const Vector& high)
-{
-  bool hasPoints = true;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double last = this->Lattice.points[axis] - 1;
-    const double per = 1 / this->Lattice.spacing[axis], first = this->Lattice.first[axis];
-    const double from = (low[axis] - first) * per - this->Slack[axis];
-    const double to = (high[axis] - first) * per + this->Slack[axis];
-    this->First[axis] = static_cast<int>(std::ceil(std::clamp(from, 0., last + 1)));
-    this->Last[axis] = static_cast<int>(std::floor(std::clamp(to, -1., last)));
-    hasPoints = hasPoints && this->First[axis] <= this->Last[axis];
-  }
-  return hasPoints;
-}
-
 void LatticeInCells::set(std::size_t point, double miss, double value)
 {
   if (!(miss <= this->Tolerance) || miss == std::numeric_limits<double>::infinity())
@@ -119,24 +101,7 @@ void LatticeInCells::add(std::size_t place)
   this->Number = this->Tree.number(place);
   const CellTree::Cell cell = this->Tree.cell(this->Number);
   const CellShape shape = shapeOf(cell.block->type(cell.id));
-  if (shape != CellShape::Other &&
-    withShape(shape, [&](const auto of) { return this->addNormal<decltype(of)::value>(cell); }))
-  {
-    return;
-  }
-  if (isCurved(cell.block->type(cell.id)))
-  {
-    if (!this->Curved)
-    {
-      this->Curved = std::make_unique<CurvedCell>();
-    }
-    if (this->Curved->set(cell))
-    {
-      this->addCurved();
-      return;
-    }
-  }
-  this->addOther(cell);
+  withShape(shape, [&](const auto of) { this->addNormal<decltype(of)::value>(cell); });
 }
 
 /// Finds the bounds of the normal coordinates in a cell.
@@ -234,9 +199,9 @@ void addTrends(const PointTrend* trends, const vtkIdType* points, const Polynomi
 
 } // namespace
 
-/// Returns whether the cell has a volume at its middle.
+/// Adds a cell that has a volume at its middle; ignores others.
 template <CellShape shape>
-bool LatticeInCells::addNormal(const CellTree::Cell& cell)
+void LatticeInCells::addNormal(const CellTree::Cell& cell)
 {
   constexpr int count = cornersOf(shape);
   vtkIdType points[8];
@@ -263,7 +228,7 @@ bool LatticeInCells::addNormal(const CellTree::Cell& cell)
   Vector rows[3];
   if (!invert(columns, rows))
   {
-    return false;
+    return;
   }
   NormalCell normal;
   normal.shape = shape;
@@ -299,28 +264,19 @@ bool LatticeInCells::addNormal(const CellTree::Cell& cell)
   const Vector middle = { origin[0] + place[0][0], origin[1] + place[1][0],
     origin[2] + place[2][0] };
   this->scan(normal, middle, rows);
-  return true;
 }
 
 void LatticeInCells::flush(const NormalCell& cell)
 {
-  if (cell.shape == CellShape::Other && !this->Part)
+  // Fills the last pack with any finite numbers.
+  for (int i = this->Count; i < this->Count + 7 && this->Count > 0; ++i)
   {
-    this->locateInOther();
-  }
-  else
-  {
-    // Fills the last pack with any finite numbers.
-    for (int i = this->Count; i < this->Count + 7 && this->Count > 0; ++i)
+    for (double* of : { this->Points.normal[0], this->Points.normal[1], this->Points.normal[2] })
     {
-      for (double* of : { this->Points.normal[0], this->Points.normal[1], this->Points.normal[2] })
-      {
-        of[i] = of[this->Count - 1];
-      }
+      of[i] = of[this->Count - 1];
     }
-    this->Part ? locateInPart(*this->Part, this->Count, this->Points)
-               : locateInCell(cell, this->Count, this->Points);
   }
+  locateInCell(cell, this->Count, this->Points);
   for (int i = 0; i < this->Count; ++i)
   {
     this->set(this->Places[i], this->Points.miss[i], this->Points.value[i]);

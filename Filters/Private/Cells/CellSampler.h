@@ -33,8 +33,8 @@ struct CellsOfLattice
 /**
  * Interpolates in the cells of meshes to the points of lattices.
  *
- * Cells search for the points that they contain. Of several cells the best one for a point (see
- * MeshCell::find), and of these the first, decides. So values do not depend on the lattice, apart
+ * Cells search for the points that they contain, with a tolerance. Of several cells the one out of
+ * which a point is least, and of these the first, decides. So values do not depend on the lattice, apart
  * from rounding. Thread-safe.
  */
 class CellSampler
@@ -48,8 +48,8 @@ public:
   void sample(const schlieren::Lattice& lattice, double* values, unsigned char* found,
     CellsOfLattice* cells = nullptr) const;
 
-  /// Interpolates in known cells of the same mesh: the same values, exactly so but in curved cells,
-  /// whose iteration may start elsewhere. Returns whether all points were found again.
+  /// Interpolates in known cells of the same mesh: exactly the same values. Returns whether all
+  /// points were found again.
   bool sample(const schlieren::Lattice& lattice, const CellsOfLattice& cells, double* values) const;
 
 private:

@@ -23,9 +23,6 @@ namespace filters
 constexpr double toleranceOfPlaneFaces = 1e-6;
 constexpr double toleranceOfCurvedFaces = 1e-3;
 
-/// Maximum distance of curved cells beyond the box of their points, relative to its lengths.
-constexpr double bulge = 0.05;
-
 enum class CellShape : unsigned char
 {
   Tetrahedron,
@@ -33,7 +30,7 @@ enum class CellShape : unsigned char
   Pyramid,
   Hexahedron,
   Voxel,
-  Other // weights by VTK
+  Other // curved, many-sided and flat ones; see asLinearCells() and withoutPolyhedra()
 };
 
 inline CellShape shapeOf(int type)
@@ -53,40 +50,6 @@ inline CellShape shapeOf(int type)
     default:
       return CellShape::Other;
   }
-}
-
-/// Returns the shape of a curved cell's corners, which are its first points.
-inline CellShape skeletonOf(int type)
-{
-  switch (type)
-  {
-    case VTK_QUADRATIC_HEXAHEDRON:
-    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
-    case VTK_TRIQUADRATIC_HEXAHEDRON:
-    case VTK_LAGRANGE_HEXAHEDRON:
-    case VTK_BEZIER_HEXAHEDRON:
-      return CellShape::Hexahedron;
-    case VTK_QUADRATIC_TETRA:
-    case VTK_LAGRANGE_TETRAHEDRON:
-    case VTK_BEZIER_TETRAHEDRON:
-      return CellShape::Tetrahedron;
-    case VTK_QUADRATIC_WEDGE:
-    case VTK_QUADRATIC_LINEAR_WEDGE:
-    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
-    case VTK_LAGRANGE_WEDGE:
-    case VTK_BEZIER_WEDGE:
-      return CellShape::Wedge;
-    case VTK_QUADRATIC_PYRAMID:
-      return CellShape::Pyramid;
-    default:
-      return shapeOf(type);
-  }
-}
-
-/// Returns whether a cell is three-dimensional, curved, and of a known kind.
-inline bool isCurved(int type)
-{
-  return shapeOf(type) == CellShape::Other && skeletonOf(type) != CellShape::Other;
 }
 
 constexpr int cornersOf(CellShape shape)

@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Cells/CellTree.h"
 
-#include "Common/CellTypes.h"
-
-#include "vtkCellType.h"
 #include "vtkDataSet.h"
-#include "vtkGenericCell.h"
-#include "vtkNew.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
@@ -29,18 +24,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// much flatter than what they resolve.
 constexpr double flattestTetrahedron = 0.5;
 
-/// Returns the overshoot of interpolation in higher-order cells, relative to the range of their
-/// points' values: the norm of the interpolation (Lebesgue constants of equal distances), cubed.
-double overshootOf(int order)
-{
-  constexpr double norms[] = { 1, 1, 1.25, 1.64, 2.21, 3.11, 4.55, 6.93, 10.95 };
-  const double norm = norms[std::min(order, 8)];
-  return (norm * norm * norm - 1) / 2;
-}
-
 /// Returns the range of corner polynomials, which are linear: bounded by the other corners.
 template <int count>
-std::array<double, 2> rangeOfCorners(const CellTree::Cell& one)
+CellTree::Range rangeOfCorners(const CellTree::Cell& one)
 {
   vtkIdType points[8];
   one.block->points(one.id, count, points);
@@ -127,11 +113,6 @@ void CellTree::addBlocks(const std::vector<vtkDataSet*>& blocks)
   for (vtkDataSet* block : blocks)
   {
     this->Blocks.emplace_back(block);
-    if (block->GetNumberOfCells() > 0)
-    {
-      vtkNew<vtkGenericCell> first; // the first call initializes VTK's data, in one thread
-      block->GetCell(0, first);
-    }
   }
 }
 
@@ -204,7 +185,6 @@ void CellTree::setValues(const WorkProgress& progress)
   forChunks(static_cast<vtkIdType>(this->Ranges[0].size()), progress.part(0.7, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
-      vtkSmartPointer<vtkGenericCell> curved;
       for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end);
            ++group)
       {
@@ -213,7 +193,7 @@ void CellTree::setValues(const WorkProgress& progress)
         for (std::size_t i = width * group; i < std::min(count, width * (group + 1)); ++i)
         {
           this->fetchAhead(i, count, [](std::size_t place) { return place; });
-          const Range range = this->rangeWithin(this->cell(mesh.numbers[i]), curved);
+          const Range range = rangeOf(this->cell(mesh.numbers[i]));
           made.lowest = std::min(made.lowest, range.lowest);
           made.highest = std::max(made.highest, range.highest);
         }
@@ -233,49 +213,30 @@ void CellTree::setValues(const WorkProgress& progress)
   }
 }
 
-CellTree::Range CellTree::rangeWithin(
-  const Cell& one, vtkSmartPointer<vtkGenericCell>& curved) const
+/// Returns the range of interpolation in a cell with finite points and values.
+CellTree::Range CellTree::rangeOf(const Cell& one)
 {
-  const auto [low, high] = this->rangeOf(one);
-  const double more = overshootOf(orderOf(one, curved)) * (high - low);
-  return { low - more, high + more };
-}
-
-/// Returns the range of interpolation in a cell with finite points and values, without bulges.
-std::array<double, 2> CellTree::rangeOf(const Cell& one) const
-{
-  double low = infinity, high = -infinity;
-  const double* values = one.block->values();
-  const PointTrend* trends = one.block->trends();
   const CellShape shape = shapeOf(one.block->type(one.id));
-  if (!trends || shape == CellShape::Other)
+  if (one.block->trends())
   {
-    one.block->forPoints(one.id,
-      [&](vtkIdType point)
-      {
-        low = std::min(low, values[point]);
-        high = std::max(high, values[point]);
-      });
-    return { low, high };
+    return withShape(
+      shape, [&](const auto of) { return rangeOfCorners<cornersOf(decltype(of)::value)>(one); });
   }
-  return withShape(
-    shape, [&](const auto of) { return rangeOfCorners<cornersOf(decltype(of)::value)>(one); });
+  Range range{ infinity, -infinity };
+  const double* values = one.block->values();
+  one.block->forPoints(one.id,
+    [&](vtkIdType point)
+    {
+      range.lowest = std::min(range.lowest, values[point]);
+      range.highest = std::max(range.highest, values[point]);
+    });
+  return range;
 }
 
-Vector CellTree::sizeOf(const Cell& one) const
+Vector CellTree::sizeOf(const Cell& one)
 {
-  const int type = one.block->type(one.id);
-  const CellShape shape = skeletonOf(type);
+  const CellShape shape = shapeOf(one.block->type(one.id));
   Vector size;
-  if (shape == CellShape::Other)
-  {
-    const Bounds bounds = this->boundsOf(one);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      size[axis] = bounds.high[axis] - bounds.low[axis];
-    }
-    return size;
-  }
   vtkIdType points[8];
   one.block->points(one.id, cornersOf(shape), points);
   double corners[3][8];
@@ -397,7 +358,6 @@ CellTree::Content CellTree::content(const Bounds& box) const
     }
   };
   look(look, mesh.levels.size() - 1, 0);
-  vtkSmartPointer<vtkGenericCell> curved;
   for (const std::size_t index : atEdges)
   {
     if (!mayAdd(this->Ranges[0][index], mesh.levels[0][index].cellSize))
@@ -410,8 +370,8 @@ CellTree::Content CellTree::content(const Bounds& box) const
       if (this->meets(i, box, steps))
       {
         const Cell one = this->cell(mesh.numbers[i]);
-        const std::array<float, 3> size = this->voxelFor(one, curved);
-        add(this->rangeWithin(one, curved), size.data());
+        const std::array<float, 3> size = floatSizeOf(one);
+        add(rangeOf(one), size.data());
       }
     }
   }
@@ -437,7 +397,7 @@ bool CellTree::meets(std::size_t place, const Bounds& box, const Steps& steps) c
   {
     return true;
   }
-  const Bounds bounds = this->boundsOf(this->cell(this->Sorted->numbers[place]));
+  const Bounds bounds = boundsOf(this->cell(this->Sorted->numbers[place]));
   bool doMeet = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

@@ -7,8 +7,6 @@
 #include "Cells/PointTrends.h"
 #include "Common/WorkProgress.h"
 
-#include "vtkSmartPointer.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -17,13 +15,13 @@
 #include <vector>
 
 class vtkDataSet;
-class vtkGenericCell;
 
 namespace filters
 {
 
 /**
- * The 3-D cells of several datasets, sorted by position, in a hierarchy of bounding boxes.
+ * The 3-D cells of several datasets, sorted by position, in a hierarchy of bounding boxes: those of
+ * known shapes (see CellShape.h); others are ignored.
  *
  * Cells are in the order of a Hilbert curve. Eight cells in a row form a group, eight groups a
  * larger one, and so on: without pointers, about 40 bytes for each cell. VTK's locators do not know
@@ -98,6 +96,10 @@ public:
   std::size_t copies() const { return this->Sorted->copies.size(); } // only neighbours
   std::size_t bytes() const; // memory, without the datasets'
 
+  struct Range // of values
+  {
+    double lowest, highest;
+  };
   struct Bounds // low > high: none
   {
     Vector low, high;
@@ -131,7 +133,7 @@ public:
 
   /// Returns the largest voxel for a cell along each axis: one step changes no parametric
   /// coordinate by more than 1. Infinite for cells without volume.
-  Vector sizeOf(const Cell& cell) const;
+  static Vector sizeOf(const Cell& cell);
 
   // Boxes for walk(), in steps of a lattice that is fine enough for all cells. Cells are inside;
   // rounding enlarges the boxes.
@@ -223,27 +225,16 @@ private:
     }
   }
 
-  /// Values of groups, level by level.
-  struct Range
-  {
-    double lowest, highest;
-  };
-
-  static bool isLinear(int type);
-  /// Returns the number of segments that a curved cell's points divide its edges into.
-  static int orderOf(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved);
-  /// Returns sizeOf() the cell, divided by orderOf().
-  std::array<float, 3> voxelFor(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved) const;
+  static std::array<float, 3> floatSizeOf(const Cell& cell);
+  static Bounds boundsOf(const Cell& cell);
   void addBlocks(const std::vector<vtkDataSet*>& blocks);
-  Bounds boundsOf(const Cell& cell) const;
   Steps stepsOf(const Bounds& box) const;
   void findCells(Mesh& mesh, Copies copies, const WorkProgress& progress);
   void findNeighbours(Mesh& mesh, const WorkProgress& progress);
   void sortCells(Mesh& mesh, const WorkProgress& progress);
   void makeGroups(Mesh& mesh, const WorkProgress& progress);
   void setValues(const WorkProgress& progress);
-  std::array<double, 2> rangeOf(const Cell& cell) const;
-  Range rangeWithin(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved) const;
+  static Range rangeOf(const Cell& cell);
   bool meets(std::size_t place, const Bounds& box, const Steps& steps) const;
 
   std::vector<MeshArrays> Blocks;

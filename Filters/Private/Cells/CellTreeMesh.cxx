@@ -4,11 +4,9 @@
 #include "Cells/CellTree.h"
 
 #include "Cells/MeshKey.h"
-#include "Common/CellTypes.h"
 #include "Common/ParallelSort.h"
 
 #include "vtkDataSet.h"
-#include "vtkGenericCell.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
@@ -39,11 +37,6 @@ constexpr double fractionOfSmallerCells = 0.1;
 constexpr double nearlyEqual = 1.5;
 constexpr double flattest = 1. / 32;
 constexpr std::size_t maxCellsMeasured = 100000;
-
-int dimensionOfType(int type)
-{
-  return vtkCellTypeUtilities::GetDimension(static_cast<unsigned char>(type));
-}
 
 /// Returns the index of a point on the Hilbert curve (J. Skilling, Programming the Hilbert curve,
 /// AIP Conf. Proc. 707, 2004, pp. 381-387).
@@ -110,38 +103,14 @@ void keepLowest(std::vector<CellTree::MeasuredCell>& cells)
 
 } // namespace
 
-bool CellTree::isLinear(int type)
+std::array<float, 3> CellTree::floatSizeOf(const Cell& cell)
 {
-  return vtkCellTypeUtilities::IsLinear(static_cast<unsigned char>(type));
-}
-
-int CellTree::orderOf(const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved)
-{
-  if (isLinear(cell.block->type(cell.id)))
-  {
-    return 1;
-  }
-  if (!curved)
-  {
-    curved = vtkSmartPointer<vtkGenericCell>::New();
-  }
-  cell.block->data()->GetCell(cell.id, curved);
-  return curved->GetNumberOfEdges() > 0
-    ? std::max(1, static_cast<int>(curved->GetEdge(0)->GetNumberOfPoints()) - 1)
-    : 1;
-}
-
-std::array<float, 3> CellTree::voxelFor(
-  const Cell& cell, vtkSmartPointer<vtkGenericCell>& curved) const
-{
-  const int order = orderOf(cell, curved);
-  const Vector size = this->sizeOf(cell);
-  return { static_cast<float>(size[0] / order), static_cast<float>(size[1] / order),
-    static_cast<float>(size[2] / order) };
+  const Vector size = sizeOf(cell);
+  return { static_cast<float>(size[0]), static_cast<float>(size[1]), static_cast<float>(size[2]) };
 }
 
 /// Returns bounds that are not finite if a point or a value is not.
-CellTree::Bounds CellTree::boundsOf(const Cell& cell) const
+CellTree::Bounds CellTree::boundsOf(const Cell& cell)
 {
   Bounds bounds{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
   double sum = 0; // detects NaN, which minimum and maximum may lose
@@ -159,10 +128,8 @@ CellTree::Bounds CellTree::boundsOf(const Cell& cell) const
     });
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const bool isCurved = !isLinear(cell.block->type(cell.id));
-    const double more = isCurved ? bulge * (bounds.high[axis] - bounds.low[axis]) : 0;
-    bounds.low[axis] += sum - more;
-    bounds.high[axis] += sum + more;
+    bounds.low[axis] += sum;
+    bounds.high[axis] += sum;
   }
   return bounds;
 }
@@ -170,14 +137,6 @@ CellTree::Bounds CellTree::boundsOf(const Cell& cell) const
 /// Finds the cells of the tree, and their common box.
 void CellTree::findCells(Mesh& mesh, Copies copies, const WorkProgress& progress)
 {
-  std::array<bool, 256> isVolume{};
-  for (const MeshArrays& block : this->Blocks)
-  {
-    for (const int type : block.types())
-    {
-      isVolume[static_cast<std::size_t>(type)] = dimensionOfType(type) == 3;
-    }
-  }
   const Number end = mesh.firstNumbers.back();
   const std::size_t count = (std::size_t{ end } + chunkSize - 1) / chunkSize;
   std::vector<std::vector<Number>> found(count), foundCopies(count);
@@ -190,12 +149,11 @@ void CellTree::findCells(Mesh& mesh, Copies copies, const WorkProgress& progress
       for (auto number = static_cast<Number>(begin); number < static_cast<Number>(last); ++number)
       {
         const Cell one = this->cell(number);
-        if (!one.block->isVisible(one.id) ||
-          !isVolume[static_cast<std::size_t>(one.block->type(one.id))])
+        if (!one.block->isVisible(one.id) || shapeOf(one.block->type(one.id)) == CellShape::Other)
         {
           continue;
         }
-        const Bounds bounds = this->boundsOf(one);
+        const Bounds bounds = boundsOf(one);
         double sum = 0;
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
@@ -276,7 +234,7 @@ void CellTree::sortCells(Mesh& mesh, const WorkProgress& progress)
     {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
       {
-        const Steps box = this->stepsOf(this->boundsOf(this->cell(mesh.numbers[i])));
+        const Steps box = this->stepsOf(boundsOf(this->cell(mesh.numbers[i])));
         std::int32_t middle[3];
         for (int axis = 0; axis < 3; ++axis)
         {
@@ -304,7 +262,6 @@ void CellTree::makeGroups(Mesh& mesh, const WorkProgress& progress)
   forChunks(static_cast<vtkIdType>(mesh.levels[0].size()), progress,
     [&](vtkIdType begin, vtkIdType end)
     {
-      vtkSmartPointer<vtkGenericCell> curved;
       for (auto group = static_cast<std::size_t>(begin); group < static_cast<std::size_t>(end);
            ++group)
       {
@@ -313,8 +270,8 @@ void CellTree::makeGroups(Mesh& mesh, const WorkProgress& progress)
         for (std::size_t i = width * group; i < std::min(count, width * (group + 1)); ++i)
         {
           const Cell one = this->cell(mesh.numbers[i]);
-          mesh.boxes[i] = this->stepsOf(this->boundsOf(one));
-          const std::array<float, 3> size = this->voxelFor(one, curved);
+          mesh.boxes[i] = this->stepsOf(boundsOf(one));
+          const std::array<float, 3> size = floatSizeOf(one);
           for (std::size_t axis = 0; axis < 3; ++axis)
           {
             sizes[axis] = std::min(sizes[axis], size[axis]);
@@ -368,13 +325,13 @@ std::vector<CellTree::MeasuredCell> CellTree::measuredCells(std::int64_t cellsOf
       {
         this->fetchAhead(i, count, [](std::size_t place) { return place; });
         const Cell one = this->cell(this->number(i));
-        const Bounds bounds = this->boundsOf(one);
+        const Bounds bounds = boundsOf(one);
         Hash hash;
         hash.add(bounds.low.data(), 3);
         hash.add(bounds.high.data(), 3);
         if (hash.value() <= highest)
         {
-          measured.push_back({ hash.value(), this->sizeOf(one) });
+          measured.push_back({ hash.value(), sizeOf(one) });
         }
       }
       const std::lock_guard<std::mutex> guard(lock);

@@ -3,14 +3,10 @@
 #pragma once
 
 #include "Cells/CellSampler.h"
-#include "Cells/CurvedCell.h"
-#include "Cells/MeshCell.h"
 #include "Cells/PlacesInCell.h"
-#include "Cells/PlacesInPart.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace filters
@@ -24,8 +20,6 @@ public:
 
   /// Sets the box for add(). Returns whether it contains points.
   bool enter(const CellTree::Steps& box);
-  /// Sets the box to that of the points between these places.
-  bool enter(const Vector& low, const Vector& high);
   void add(std::size_t place);
   /// Adds a cell that is known to contain these points, and no others.
   void add(std::size_t place, const std::uint16_t* begin, const std::uint16_t* end);
@@ -34,14 +28,9 @@ public:
 
 private:
   template <CellShape shape>
-  bool addNormal(const CellTree::Cell& cell);
+  void addNormal(const CellTree::Cell& cell);
   template <CellShape shape>
   void findSlabs(const double corners[4][8], const Polynomial place[3], const Vector rows[3]);
-  bool hasUnsettled() const;
-  void addCurved();
-  void addOther(const CellTree::Cell& cell);
-  void setLimits(const CellTree::Cell& cell, const Vector& origin, const Vector rows[3]);
-  void locateInOther();
   /// Coordinates in a cell along the lattice's rows.
   struct Rows;
   void scan(const NormalCell& cell, const Vector& middle, const Vector rows[3]);
@@ -77,10 +66,6 @@ private:
   CellPoints Points;
   std::size_t Places[CellPoints::most];
   int Count = 0;
-  std::unique_ptr<CurvedCell> Curved;
-  const CurvedPart* Part = nullptr; // of a curved cell; null: another cell
-  std::unique_ptr<MeshCell> Other;
-  const double* OtherValues = nullptr;
 };
 
 } // namespace filters

@@ -83,16 +83,7 @@ void LatticeInCells::scanGiven(const NormalCell& cell, const Rows& rows)
     double at[3];
     rows.begin(static_cast<int>(row % rows.count), static_cast<int>(row / rows.count), at);
     const auto i = static_cast<int>(*given % rows.length);
-    bool isWithin = !this->Part || !this->isSettled(*given);
-    for (int axis = 0; axis < 3 && this->Part; ++axis)
-    {
-      const double place = at[axis] + i * rows.along[axis];
-      isWithin = isWithin && place >= this->Low[axis] && place <= this->High[axis];
-    }
-    if (isWithin)
-    {
-      this->collect(cell, rows, at, i, *given);
-    }
+    this->collect(cell, rows, at, i, *given);
   }
 }
 

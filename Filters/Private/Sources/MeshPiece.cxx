@@ -193,7 +193,6 @@ void MeshPiece::putBoundary(std::int64_t cellsOfAll, std::vector<char>& message)
   putAll(faces.starts, message);
   putAll(faces.owners, message);
   putAll(faces.states, message);
-  putAll(faces.areParts, message);
 }
 
 void MeshPiece::putBoundaryValues(std::vector<char>& message) const
@@ -235,7 +234,6 @@ void BoundaryOfMeshes::add(Reader& reader)
   }
   reader.AddAll(all.owners);
   reader.AddAll(all.states);
-  reader.AddAll(all.areParts);
 }
 
 } // namespace filters

@@ -3,6 +3,7 @@
 #include "Sources/PreparedLeaves.h"
 
 #include "Cells/CellMeans.h"
+#include "Cells/LinearCells.h"
 #include "Cells/MeshArrays.h"
 #include "Cells/Polyhedra.h"
 #include "Common/AvailableMemory.h"
@@ -54,7 +55,7 @@ vtkSmartPointer<vtkDataSet> withValues(
     });
 
   auto prepared = withoutArrays(data);
-  // Copies the weights of curved cells.
+  // Copies what shapes curved cells, until they are divided.
   prepared->GetPointData()->SetRationalWeights(data->GetPointData()->GetRationalWeights());
   prepared->GetCellData()->SetHigherOrderDegrees(data->GetCellData()->GetHigherOrderDegrees());
   if (leaf.ofCells)
@@ -111,7 +112,7 @@ MeshLeaves leavesOf(const Source& source, const std::vector<Source>& others,
     {
       continue;
     }
-    leaves.push_back(withValues(leaf, dimension, source.model, tally));
+    leaves.push_back(asLinearCells(withValues(leaf, dimension, source.model, tally)));
     for (const Source& other : others)
     {
       kinds.resize(leaves.size());

@@ -47,7 +47,6 @@ struct OpenFace
   std::vector<std::int32_t> corners; // seen from the gas, counter-clockwise
   Sides sides;
   bool hidesBehind;
-  bool isPart; // whether it belongs to a larger face, so that one test point suffices
 };
 
 /// Removes the sides of a layer across z, whose corners all have the same z.
@@ -67,7 +66,7 @@ Faces withoutSidesAcrossZ(const Faces& all)
     if (std::any_of(begin, end, [&](std::int32_t corner) { return zOf(corner) != zOf(*begin); }))
     {
       faces.corners.insert(faces.corners.end(), begin, end);
-      faces.finish(all.owners[face], all.states[face], all.areParts[face] != 0);
+      faces.finish(all.owners[face], all.states[face]);
     }
   }
   return faces;
@@ -162,7 +161,7 @@ OpenFace openFaceOf(const Faces& faces, std::size_t face, double rounding, bool 
   {
     std::reverse(corners.begin(), corners.end());
   }
-  return { std::move(corners), sides, hidesBehind, faces.areParts[face] != 0 };
+  return { std::move(corners), sides, hidesBehind };
 }
 
 /// Returns whether cells of one dataset have two faces at the same place with different points. A
@@ -185,7 +184,7 @@ bool isSheet(
     };
     const bool isMerged = faces.areDoubles[static_cast<std::size_t>(before[i])] != 0;
     if (k == faces.starts[other + 1] || contributionOf(i).leaf != contributionOf(k).leaf ||
-      isMerged || faces.areParts[one] || faces.areParts[other])
+      isMerged)
     {
       return false;
     }
@@ -272,7 +271,7 @@ void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<
   std::vector<Point> corners;
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
-    for (std::size_t n = 0; haveMiddle[i] && !kept[i].isPart && n < kept[i].corners.size(); ++n)
+    for (std::size_t n = 0; haveMiddle[i] && n < kept[i].corners.size(); ++n)
     {
       const Point& corner = faces.points[static_cast<std::size_t>(kept[i].corners[n])];
       corners.push_back(middles[i] + 0.8 * (corner - kept[i].sides.middle));
@@ -284,7 +283,7 @@ void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
     bool isCovered = haveMiddle[i] != 0;
-    if (isCovered && !kept[i].isPart)
+    if (isCovered)
     {
       const auto end = next + static_cast<std::ptrdiff_t>(kept[i].corners.size());
       isCovered = std::all_of(next, end, [](unsigned char is) { return is != 0; });

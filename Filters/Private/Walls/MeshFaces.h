@@ -48,7 +48,6 @@ struct Faces
   std::vector<std::size_t> starts{ 0 }; // of each face, and the end
   std::vector<Point> owners;            // middle of the cell
   std::vector<State> states;            // of the cell
-  std::vector<unsigned char> areParts;  // whether it belongs to the face of a curved cell
 
   std::size_t size() const { return this->owners.size(); }
   /// Adds a point, after its contributions.
@@ -60,19 +59,17 @@ struct Faces
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
   /// Adds a face, after its corners.
-  void finish(const Point& owner, State state, bool isPart = false)
+  void finish(const Point& owner, State state)
   {
     this->starts.push_back(this->corners.size());
     this->owners.push_back(owner);
     this->states.push_back(state);
-    this->areParts.push_back(isPart ? 1 : 0);
   }
 };
 
 /// Finds the surface of each leaf's visible cells, and of hidden ones; see boundaryOf(). With
-/// Copies::Neighbours, only faces of cells that are no copies. Faces of curved cells are divided,
-/// and equal if their corners and middles coincide, also for duplicate points of discontinuous
-/// solutions.
+/// Copies::Neighbours, only faces of cells that are no copies. The shapes of the cells are known
+/// (see CellShape.h).
 Faces facesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress,
   Copies copies = Copies::Used);
 

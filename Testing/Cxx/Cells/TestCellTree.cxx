@@ -269,36 +269,6 @@ TEST(CellTree, VisitsTheCellsInABox)
   }
 }
 
-// Cubic Lagrange cells overshoot the values at their points.
-TEST(CellTree, KnowsTheRangeOfCurvedCells)
-{
-  const Mesh mesh =
-    meshOf(VTK_LAGRANGE_HEXAHEDRON, 1, { unitCell(VTK_LAGRANGE_HEXAHEDRON, 64) }, 0, false);
-  setN(mesh, [](const Vec& x) { return x[0] < 0.5 ? 0 : 1; });
-  const CellTree tree({ mesh });
-  vtkNew<vtkGenericCell> cell;
-  mesh->GetCell(0, cell);
-  double lowest = 1, highest = 0;
-  for (double u = 0; u <= 1; u += 0.01)
-  {
-    double weights[64], value = 0;
-    const double place[3] = { u, 0.5, 0.5 };
-    cell->InterpolateFunctions(place, weights);
-    for (int i = 0; i < 64; ++i)
-    {
-      value +=
-        weights[i] * mesh->GetPointData()->GetScalars()->GetComponent(cell->GetPointId(i), 0);
-    }
-    lowest = std::min(lowest, value);
-    highest = std::max(highest, value);
-  }
-  EXPECT_GT(highest, 1.03);
-  const CellTree::Content content = tree.content({ { 0, 0, 0 }, { 1, 1, 1 } });
-  EXPECT_LE(content.lowest, lowest);
-  EXPECT_GE(content.highest, highest);
-  EXPECT_NEAR(content.cellSize[1], 1. / 3, 1e-6);
-}
-
 // A thin cell needs thin voxels along each axis that its normal has a part of.
 TEST(CellTree, KnowsTheSizeOfTurnedCells)
 {

@@ -4,6 +4,8 @@
 // Where gas ends: how far from walls the points of lattices are.
 #include "BoundaryMeshes.h"
 
+#include "Cells/LinearCells.h"
+
 #include "vtkPolyData.h"
 #include "vtkReverseSense.h"
 #include "vtkSphereSource.h"
@@ -395,7 +397,7 @@ TEST(GasBoundary, CurvedCellsHaveNoWallsWithin)
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(shared("blob_lagrange_hex.vtu").c_str());
   reader->Update();
-  const Data mesh = withScalars(reader->GetOutput());
+  const Data mesh = filters::asLinearCells(withScalars(reader->GetOutput()));
   double b[6];
   mesh->GetBounds(b);
   const double lengths[3] = { b[1] - b[0], b[3] - b[2], b[5] - b[4] };
