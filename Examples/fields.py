@@ -43,7 +43,6 @@ schlieren.ViewUp = [0, 0, 1]
 schlieren.FocalPoint = [0, 0, 1]
 schlieren.ParallelScale = 6
 schlieren.ImageSize = [240, 200]
-schlieren.SamplingDimensions = [41, 41, 81]
 schlieren.Quality = "Publication"
 schlieren.SamplesPerPixel = 4  # a small image: not as many as the preset has
 schlieren.OutsideBlocksLight = 0  # the round reactor lies in a box

@@ -41,11 +41,11 @@ struct TransferCurve
   }
 };
 
-/// Values of the properties of vtkRefractiveIndex under their names; see the filter for their
+/// Values of the properties of vtkFlowAlgorithm under their names; see the filter for their
 /// meaning, and its setters for their ranges. Equal settings and data give the same medium.
 struct MediumSettings
 {
-  /// Values of IndexModel; see vtkRefractiveIndex::IndexModels.
+  /// Values of IndexModel; see vtkFlowAlgorithm::IndexModels.
   enum Models
   {
     Auto = -1,
@@ -57,7 +57,7 @@ struct MediumSettings
     Curves = 5
   };
 
-  /// Indices of Arrays; see vtkRefractiveIndex::InputArrays.
+  /// Indices of Arrays; see vtkFlowAlgorithm::InputArrays.
   enum ArrayIndex
   {
     DensityArray = 0,
@@ -100,8 +100,6 @@ struct MediumSettings
   std::vector<TransferCurve> TransferFunctions;
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
-  int SamplingDimensions[3] = { 0, 0, 0 };
-  double SamplingBounds[6] = { 0, 0, 0, 0, 0, 0 };
   double MaskThreshold = 0.5;
   int MaskedSide = -1; ///< -1: by the mask's name, 0: above the threshold, 1: below
   double Depth = 0;
@@ -160,8 +158,6 @@ struct MediumSettings
     use("TransferFunctions", &S::TransferFunctions);
     use("FieldRanges", &S::FieldRanges);
     use("RefractivityScale", &S::RefractivityScale);
-    use("SamplingDimensions", &S::SamplingDimensions);
-    use("SamplingBounds", &S::SamplingBounds);
     use("MaskThreshold", &S::MaskThreshold);
     use("MaskedSide", &S::MaskedSide);
     use("Depth", &S::Depth);

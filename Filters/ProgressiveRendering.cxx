@@ -126,7 +126,6 @@ int vtkSchlierenFilter::GetPercentDone()
 bool vtkSchlierenFilter::WorkOn()
 {
   Internals& inside = *this->Inside;
-  this->PassToMedium();
   const vtkMTimeType now = this->GetTimeOfImage();
   const bool continues = inside.UnfinishedOf == now && this->UseOwnRanks();
   if (continues && inside.Ready)
@@ -160,9 +159,8 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     (!this->ColorByField || inside.Refractivity->Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
       this->DescribeInputs(inside.Ranks.gatheredOf(0, this->GetInputDataObject(0, 0)),
-        inside.Ranks.gatheredOf(
-          vtkRefractiveIndex::BODIES, this->GetInputDataObject(vtkRefractiveIndex::BODIES, 0))),
-      this->Medium->GetSettings(), this->ColorByField) &&
+        inside.Ranks.gatheredOf(BODIES, this->GetInputDataObject(BODIES, 0))),
+      this->GetMediumSettings(), this->ColorByField) &&
     this->UseOwnRanks();
 }
 
@@ -181,7 +179,7 @@ bool vtkSchlierenFilter::Continues(vtkDataObject* input, vtkDataObject* bodies)
   Internals& inside = *this->Inside;
   return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfImage() &&
     inside.holdsRefractivityOf(
-      this->DescribeInputs(input, bodies), this->Medium->GetSettings(), this->ColorByField) &&
+      this->DescribeInputs(input, bodies), this->GetMediumSettings(), this->ColorByField) &&
     this->UseOwnRanks();
 }
 
@@ -228,7 +226,7 @@ ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
   std::vector<double> medium, std::vector<double> rays)
 {
   const Internals& inside = *this->Inside;
-  MediumSettings properties = this->Medium->GetSettings();
+  MediumSettings properties = inside.inUse(this->GetMediumSettings());
   properties.DoublePrecision = false;
   return { inside.Time, inside.Input, std::move(properties), std::move(medium), std::move(rays) };
 }
@@ -270,7 +268,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene =
     sceneFrom(facing(*this, inside.Refractivity->FlatAxis), field.grid, inside.RgbImages);
-  addObjects(scene, this->GradedFilter, this->Medium->GetMaker());
+  addObjects(scene, this->GradedFilter, this->GetMaker());
   addBackground(scene, *this, inside.Scene);
   if (inside.Pupil.aperture > 0)
   {
@@ -283,7 +281,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   }
   if (this->ColorByField)
   {
-    const std::size_t fields = this->Medium->GetSettings().Fields.size();
+    const std::size_t fields = this->GetMediumSettings().Fields.size();
     scene.fieldColors = fieldColors(this->FieldColors, fields);
     field.gradients = { static_cast<int>(fields),
       inside.Refractivity->Source ? nullptr : inside.FieldGradients.data(), field.version };
@@ -375,7 +373,7 @@ bool vtkSchlierenFilter::Show(
     inside.Grid += source->makers() ? ", of data that stay on their ranks" : "";
     addMedium(output, image.medium);
   }
-  addGrid(output, this->GetGrid(), inside.Refractivity->Image);
+  addGrid(output, this->GetGrid());
   setHistogram(histogram, image.histogram);
   inside.Shown[IMAGE_PORT].Keep(output);
   inside.Shown[HISTOGRAM_PORT].Keep(histogram);

@@ -77,15 +77,24 @@ struct vtkSchlierenFilter::Internals
     return field;
   }
 
-  // What Refractivity was made from: the input, and the settings of Medium (unset: nothing yet).
+  // What Refractivity was made from: the input, and the settings (unset: nothing yet).
   std::vector<double> Input;
   std::optional<MediumSettings> MadeWith;
+  std::optional<filters::Choice> Chosen; // in this update
+  bool UsesWavelength = true;            // whether Refractivity depends on it
+
+  /// Another wavelength does not make the same refractivity once more.
+  MediumSettings inUse(MediumSettings medium) const
+  {
+    medium.Wavelength = this->UsesWavelength ? medium.Wavelength : MediumSettings().Wavelength;
+    return medium;
+  }
 
   // Rejects a source whose voxels resolve the fields needlessly, or do not resolve them.
   bool holdsRefractivityOf(
     const std::vector<double>& input, const MediumSettings& medium, bool needsFields) const
   {
-    return this->MadeWith == medium && this->Input == input &&
+    return this->MadeWith == this->inUse(medium) && this->Input == input &&
       (!this->Refractivity->Source || (this->Refractivity->Source->fields() > 0) == needsFields);
   }
 

@@ -56,8 +56,6 @@ void print(ostream& os, const Value& value)
 void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Medium:\n";
-  this->Medium->PrintSelf(os, indent.GetNextIndent());
   this->SchlierenSettings::visit(
     [&](const char* name, const auto& value)
     {
@@ -74,7 +72,6 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Finished: " << this->GetFinished() << "\n";
   os << indent << "PictureCount: " << this->PictureCount << "\n";
   os << indent << "Status: " << this->Status << "\n";
-  os << indent << "ArraysUsed: " << this->GetArraysUsed() << "\n";
   os << indent << "Grid: " << this->GetGrid() << "\n";
   os << indent << "MediumBuilds: " << this->GetMediumBuilds() << "\n";
   os << indent << "TotalRaysTraced: " << this->GetTotalRaysTraced() << "\n";
@@ -137,10 +134,10 @@ double vtkSchlierenFilter::GetKScaleOfOptics() { return kOfOptics(*this); }
 double vtkSchlierenFilter::GetCutoffOffsetOfOptics() { return offsetOfOptics(*this); }
 
 //------------------------------------------------------------------------------
-double vtkSchlierenFilter::GetGladstoneDaleConstantUsed()
+void vtkSchlierenFilter::SetWavelength(double wavelength)
 {
-  this->PassToMedium();
-  return this->Medium->GetGladstoneDaleConstantUsed();
+  this->SchlierenSettings::Wavelength = wavelength;
+  this->Superclass::SetWavelength(wavelength);
 }
 
 //------------------------------------------------------------------------------
@@ -318,16 +315,9 @@ void vtkSchlierenFilter::SetPrecision(int precision)
   if (this->Precision != precision)
   {
     this->Precision = precision;
-    this->Medium->SetDoublePrecision(precision == DOUBLE);
+    this->DoublePrecision = precision == DOUBLE;
     this->Modified();
   }
-}
-
-//------------------------------------------------------------------------------
-const char* vtkSchlierenFilter::GetArraysUsed()
-{
-  this->PassToMedium();
-  return this->Medium->GetArraysUsed();
 }
 
 //------------------------------------------------------------------------------
@@ -348,12 +338,6 @@ vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 {
   return this->Inside->Images.GetWork().raysTraced;
 }
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkSchlierenFilter::GetMeshBuilds() { return this->Medium->GetMeshBuilds(); }
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkSchlierenFilter::GetGridPlans() { return this->Medium->GetGridPlans(); }
 
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetProbedPlace(double right, double up)

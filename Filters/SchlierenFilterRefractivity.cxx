@@ -7,7 +7,6 @@
 #include "Image/SceneFromSettings.h"
 #include "Input/InputDescription.h"
 #include "Input/RefractivitySource.h"
-#include "Settings/SelectionFromInformation.h"
 #include "Sources/FieldTints.h"
 #include "Sources/MediumMaker.h"
 
@@ -29,7 +28,7 @@ void addBodies(std::vector<double>& description, vtkAlgorithm* filter, vtkDataOb
   if (bodies)
   {
     const std::vector<double> ofBodies =
-      describeInput(bodies, upstreamTime(filter, vtkRefractiveIndex::BODIES));
+      describeInput(bodies, upstreamTime(filter, vtkFlowAlgorithm::BODIES));
     description.insert(description.end(), ofBodies.begin(), ofBodies.end());
   }
 }
@@ -54,7 +53,7 @@ bool vtkSchlierenFilter::IsLargeImage(vtkDataObject* input) const
 {
   auto* image = vtkImageData::SafeDownCast(input);
   const double bytes = image ? static_cast<double>(image->GetNumberOfPoints()) *
-      (this->Medium->GetDoublePrecision() ? sizeof(double) : sizeof(float))
+      (this->DoublePrecision ? sizeof(double) : sizeof(float))
                              : 0;
   return bytes > static_cast<double>(this->MediumMemory) * (1 << 20);
 }
@@ -74,38 +73,29 @@ std::vector<double> vtkSchlierenFilter::DescribePieces(vtkDataObject* input, vtk
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::PassToMedium()
+const Choice& vtkSchlierenFilter::Chosen(vtkDataObject* input)
 {
-  this->Medium->SetNumberOfThreads(this->NumberOfThreads);
-  // Otherwise another wavelength would make the same refractivity once more.
-  if (usesWavelength(this->Medium->GetMaker().choice().settings))
+  std::optional<Choice>& chosen = this->Inside->Chosen;
+  if (!chosen)
   {
-    this->Medium->SetWavelength(this->Wavelength);
+    chosen = this->GetMaker().choose(input);
   }
-  for (int index = vtkRefractiveIndex::DENSITY; index <= vtkRefractiveIndex::MASK; ++index)
-  {
-    vtkInformation* selection = this->GetInputArrayInformation(index);
-    if (!(selectionFrom(selection) == selectionFrom(this->Medium->GetInputArrayInformation(index))))
-    {
-      this->Medium->SetInputArrayToProcess(index, selection);
-    }
-  }
+  return *chosen;
 }
 
 //------------------------------------------------------------------------------
 bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
-  this->PassToMedium();
+  inside.Chosen.reset();
   std::vector<double> description = this->DescribeInputs(input, bodies);
-  if (inside.holdsRefractivityOf(description, this->Medium->GetSettings(), this->ColorByField) &&
+  if (inside.holdsRefractivityOf(description, this->GetMediumSettings(), this->ColorByField) &&
     this->UseOwnRanks())
   {
     return true;
   }
   inside.MadeWith.reset();
   inside.FieldGradients.clear();
-  this->Medium->AbortExecuteOff();
   inside.Refractivity = std::make_shared<MadeRefractivity>(); // what was, goes first
   inside.Grid.clear();
   const auto made = this->FindOrMakeRefractivity(input, bodies, description);
@@ -119,7 +109,8 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
     vtkWarningMacro(<< made->Warning << noteOnView(*this, made->FlatAxis));
   }
   inside.Input = std::move(description);
-  inside.MadeWith = this->Medium->GetSettings();
+  inside.UsesWavelength = usesWavelength(this->GetMaker().choice().settings);
+  inside.MadeWith = inside.inUse(this->GetMediumSettings());
   return true;
 }
 
@@ -134,9 +125,10 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
 {
   const bool arePieces = this->Inside->Ranks.areInPieces();
-  MediumMaker& maker = this->Medium->GetMaker();
+  MediumMaker& maker = this->GetMaker();
   RefractivityKey key{ input, bodies, arePieces ? this->DescribePieces(input, bodies) : description,
-    maker.choiceFor(input).settings, this->ColorByField };
+    arePieces ? maker.choiceFor(input).settings : this->Chosen(input).source.choice.settings,
+    this->ColorByField };
   const std::shared_ptr<const MadeRefractivity> found = findRefractivity(key);
   if (found && this->Inside->Ranks.use(found->Source.get()))
   {
@@ -160,31 +152,31 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
-  MediumMaker& maker = this->Medium->GetMaker();
-  auto made = std::make_shared<MadeRefractivity>();
+  MediumMaker& maker = this->GetMaker();
   try
   {
-    const bool isLarge = this->IsLargeImage(input);
     if (inside.Ranks.areInPieces())
     {
       maker.forgetLast();
+      auto made = std::make_shared<MadeRefractivity>();
       made->Source = inside.Ranks.make(bodies, this->ColorByField, made->Warning);
+      vtkTimeStamp now;
+      now.Modified();
+      made->SourceTime = now.GetMTime();
+      made->Mesh = maker.mesh();
+      return made;
     }
-    else if (inside.Ranks.release(); maker.canMakeSource(input, bodies, isLarge))
+    inside.Ranks.release();
+    const Choice& choice = this->Chosen(input);
+    const bool isLarge = this->IsLargeImage(input) && choice.flatAxis < 0;
+    const auto made = maker.make(choice, bodies, this->ColorByField, isLarge);
+    if (isLarge && choice.keepsGrid() && !bodies)
     {
-      made->Source = maker.makeSource(input, bodies, made->Warning, this->ColorByField);
-      if (isLarge && !bodies)
-      {
-        addText(made->Warning,
-          "The image's own grid would take more than MediumMemory, so its medium is a tree within "
-          "MediumTolerance. Set MediumMemory higher for its own grid.");
-      }
+      addText(made->Warning,
+        "The image's own grid would take more than MediumMemory, so its medium is a tree within "
+        "MediumTolerance. Set MediumMemory higher for its own grid.");
     }
-    else
-    {
-      made->Warning = maker.convert(input, made->Image, bodies, Numbers::Differences);
-      mergeMasks(made->Image);
-    }
+    return made;
   }
   catch (const Stopped&)
   {
@@ -192,19 +184,12 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   }
   catch (const std::runtime_error&)
   {
-    if (this->Medium->GetAbortExecute()) // on all ranks
+    if (this->GetAbortExecute()) // on all ranks
     {
       return nullptr;
     }
     throw;
   }
-  vtkTimeStamp now;
-  now.Modified();
-  made->SourceTime = now.GetMTime();
-  made->Mesh = maker.mesh();
-  made->Grid = maker.grid();
-  made->FlatAxis = maker.flatAxis();
-  return made;
 }
 
 //------------------------------------------------------------------------------
@@ -221,9 +206,8 @@ std::function<std::shared_ptr<const schlieren::MediumSource>()> vtkSchlierenFilt
     { return this->Inside->Ranks.gatheredOf(port, this->GetInputDataObject(port, 0)); };
     try
     {
-      return this->Medium->GetMaker().makeSourceOtherwise(inputOf(0),
-        inputOf(vtkRefractiveIndex::BODIES),
-        [this](double) { return this->GetAbortExecute() == 0; });
+      return this->GetMaker().makeSourceOtherwise(
+        inputOf(0), inputOf(BODIES), [this](double) { return this->GetAbortExecute() == 0; });
     }
     catch (const Stopped&)
     {
@@ -242,7 +226,8 @@ void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
   }
   else if (inside.FieldGradients.empty())
   {
+    const MediumMaker& maker = this->GetMaker();
     inside.FieldGradients =
-      fieldGradients(this->Medium->GetMaker(), input, inside.Refractivity->Image);
+      fieldGradients(maker.settings, input, inside.Refractivity->Image, maker.threads());
   }
 }

@@ -2,29 +2,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
-#include "Common/AtTheEnd.h"
 #include "Common/Guarded.h"
-#include "Common/RequestGuard.h"
 #include "Input/InputDescription.h"
-#include "Input/RefractivityOfImage.h"
-#include "Input/SamplingBox.h"
-#include "Ranks/InputsOfRanks.h"
+#include "Input/RefractivityValues.h"
+#include "Ranks/ChoiceOverRanks.h"
+#include "Ranks/PiecesOfRanks.h"
 #include "Sources/MediumMaker.h"
-#include "Walls/GasBoundary.h"
+#include "Sources/RevolvedImage.h"
 
+#include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObjectTypes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMatrix3x3.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPiecewiseFunction.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 using namespace filters;
 
@@ -33,262 +41,246 @@ vtkStandardNewMacro(vtkRefractiveIndex);
 namespace
 {
 
-const char* const noMemory = "There is not enough memory for the refractivity grid. Use a coarser "
-                             "input or smaller SamplingDimensions.";
-
-static_assert(vtkRefractiveIndex::AUTO == static_cast<int>(MediumSettings::Auto) &&
-  vtkRefractiveIndex::GLADSTONE_DALE == static_cast<int>(MediumSettings::GladstoneDale) &&
-  vtkRefractiveIndex::REFRACTIVE_INDEX == static_cast<int>(MediumSettings::RefractiveIndex) &&
-  vtkRefractiveIndex::REFRACTIVITY == static_cast<int>(MediumSettings::Refractivity) &&
-  vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE == static_cast<int>(MediumSettings::Mixture) &&
-  vtkRefractiveIndex::CIDDOR == static_cast<int>(MediumSettings::Ciddor) &&
-  vtkRefractiveIndex::TRANSFER_FUNCTIONS == static_cast<int>(MediumSettings::Curves));
-static_assert(vtkRefractiveIndex::DENSITY == static_cast<int>(MediumSettings::DensityArray) &&
-  vtkRefractiveIndex::INDEX_ARRAY == static_cast<int>(MediumSettings::IndexArray) &&
-  vtkRefractiveIndex::TEMPERATURE == static_cast<int>(MediumSettings::TemperatureArray) &&
-  vtkRefractiveIndex::PRESSURE == static_cast<int>(MediumSettings::PressureArray) &&
-  vtkRefractiveIndex::HUMIDITY == static_cast<int>(MediumSettings::HumidityArray) &&
-  vtkRefractiveIndex::MASK == static_cast<int>(MediumSettings::MaskArray));
-static_assert(vtkRefractiveIndex::OUTSIDE_AUTO == static_cast<int>(Outside::Auto) &&
-  vtkRefractiveIndex::OUTSIDE_BLOCKS == static_cast<int>(Outside::Blocks) &&
-  vtkRefractiveIndex::OUTSIDE_PASSES == static_cast<int>(Outside::Passes));
+using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
 {
-  outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
+  outInfo->Set(Pipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
   outInfo->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);
   outInfo->Set(vtkDataObject::SPACING(), grid->GetSpacing(), 3);
-  outInfo->Set(vtkDataObject::DIRECTION(), grid->GetDirectionMatrix()->GetData(), 9);
+}
+
+/// Copies data and composites of them without their arrays' values. Returns the copy of each dataset.
+std::map<vtkDataObject*, vtkDataObject*> copy(vtkDataObject* input, vtkDataObject* output)
+{
+  auto* from = vtkCompositeDataSet::SafeDownCast(input);
+  auto* to = vtkCompositeDataSet::SafeDownCast(output);
+  if (!from || !to)
+  {
+    output->ShallowCopy(input);
+    return { { input, output } };
+  }
+  std::map<vtkDataObject*, vtkDataObject*> copies;
+  to->CopyStructure(from);
+  to->SetFieldData(from->GetFieldData());
+  const auto place = vtkSmartPointer<vtkCompositeDataIterator>::Take(from->NewIterator());
+  for (place->InitTraversal(); !place->IsDoneWithTraversal(); place->GoToNextItem())
+  {
+    vtkDataObject* one = place->GetCurrentDataObject();
+    const auto other = vtkSmartPointer<vtkDataObject>::Take(one->NewInstance());
+    other->ShallowCopy(one);
+    to->SetDataSet(place, other);
+    copies[one] = other;
+  }
+  return copies;
+}
+
+/// Returns a mask of the visible points or cells.
+vtkSmartPointer<vtkUnsignedCharArray> visibleOf(const Leaf& leaf)
+{
+  auto visible =
+    newMask(leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints());
+  vtkUnsignedCharArray* ghosts = leaf.ofCells ? leaf.data->GetCellGhostArray() : nullptr;
+  for (vtkIdType cell = 0; ghosts && cell < visible->GetNumberOfTuples(); ++cell)
+  {
+    visible->SetValue(cell, ghosts->GetValue(cell) & hiddenCellBits ? 0 : 1);
+  }
+  if (!leaf.ofCells)
+  {
+    hidePoints(leaf.data, visible);
+  }
+  return visible;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkRefractiveIndex::vtkRefractiveIndex()
-  : Maker(std::make_shared<MediumMaker>(
-      [this](double done)
-      {
-        this->UpdateProgress(done);
-        return !this->GetAbortExecute();
-      }))
-  , Guard(std::make_shared<RequestGuard>())
-  , Ranks(std::make_shared<InputsOfRanks>())
+vtkRefractiveIndex::vtkRefractiveIndex() = default;
+
+//------------------------------------------------------------------------------
+vtkRefractiveIndex::~vtkRefractiveIndex() = default;
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
 {
-  this->SetNumberOfInputPorts(2);
-  // Of vtkImageAlgorithm: the active scalars, whatever these are.
-  this->GetInputArrayInformation(DENSITY)->Remove(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
+  this->Superclass::PrintSelf(os, indent);
 }
 
 //------------------------------------------------------------------------------
-MediumMaker& vtkRefractiveIndex::GetMaker()
+int vtkRefractiveIndex::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->Maker->settings = this->GetSettings();
-  this->Maker->numberOfThreads = this->NumberOfThreads;
-  return *this->Maker;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractiveIndex::GetMeshBuilds() { return this->Maker->mesh()->builds; }
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractiveIndex::GetGridPlans() { return this->Maker->gridPlans(); }
-
-//------------------------------------------------------------------------------
-const char* vtkRefractiveIndex::GetGrid() const { return this->Maker->grid().c_str(); }
-
-//------------------------------------------------------------------------------
-const char* vtkRefractiveIndex::GetArraysUsed()
-{
-  this->ArraysUsed = this->GetMaker().choice().message;
-  return this->ArraysUsed.c_str();
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkRefractiveIndex::GetMTime()
-{
-  vtkMTimeType time = this->Superclass::GetMTime();
-  for (vtkPiecewiseFunction* function : this->Functions)
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]); // null after an error upstream
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  const char* type = this->Symmetry == AXISYMMETRIC ? "vtkImageData"
+    : input                                         ? input->GetClassName()
+                                                    : "vtkUnstructuredGrid";
+  if (!output || std::strcmp(output->GetClassName(), type) != 0)
   {
-    time = std::max(time, function ? function->GetMTime() : 0);
-  }
-  return time;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeBool vtkRefractiveIndex::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
-{
-  const auto work = [&] { return this->Superclass::ProcessRequest(request, input, output); };
-  return this->Guard->Process(request, work, noMemory,
-    [&](const std::string& problem) { this->Fail(problem, this->GetTimeOfGrid(), output); });
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::LackInput() { this->Ranks->lackInput(); }
-
-//------------------------------------------------------------------------------
-int vtkRefractiveIndex::FillInputPortInformation(int port, vtkInformation* info)
-{
-  // Any, so that one message says what is wrong with tables and others: VTK says it several times.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-  if (port == BODIES)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(),
+      vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type)));
   }
   return 1;
 }
 
 //------------------------------------------------------------------------------
-int vtkRefractiveIndex::RequestInformation(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkRefractiveIndex::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  vtkInformation* outInfo = outputVector->GetInformationObject(0);
+  if (this->Symmetry == AXISYMMETRIC)
+  {
+    if (this->Grid->GetNumberOfPoints() == 0)
+    {
+      this->Grid->SetDimensions(2, 2, 2); // until the data are there
+    }
+    tellGrid(this->Grid, outputVector->GetInformationObject(0));
+  }
+  return 1;
+}
 
-  vtkNew<vtkImageData> grid;
-  MediumMaker& maker = this->GetMaker();
+//------------------------------------------------------------------------------
+int vtkRefractiveIndex::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  if (this->Symmetry == AXISYMMETRIC)
+  {
+    requestPieces(this, inputVector);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractiveIndex::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  output->Initialize();
+  this->SetAbortExecute(0); // it stays set after an abort
+  const auto work = [&]
+  {
+    const Ranks ranks;
+    shareArrays(ranks, this->GetMaker(), input);
+    if (this->Symmetry != AXISYMMETRIC)
+    {
+      this->Append(input, output);
+      return;
+    }
+    this->Revolve(input, vtkImageData::SafeDownCast(output));
+    // RequestInformation could not know it. Without the second, VTK would crop the output.
+    vtkInformation* outInfo = outputVector->GetInformationObject(0);
+    tellGrid(this->Grid, outInfo);
+    outInfo->Set(Pipeline::UPDATE_EXTENT(), this->Grid->GetExtent(), 6);
+  };
+  const std::pair<vtkMTimeType, double> now{ std::max(this->GetMTime(), upstreamTime(this)),
+    input && input->GetInformation()->Has(vtkDataObject::DATA_TIME_STEP())
+      ? input->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP())
+      : 0 };
+  bool isPiece = this->Symmetry != AXISYMMETRIC; // or the whole, and nothing after an error
+  const auto fail = [&](const std::string& problem)
+  {
+    isPiece = false;
+    output->Initialize();
+    if (isRank0() &&
+      std::exchange(this->FailedAt, now) != now) // once, however often it is requested
+    {
+      vtkErrorMacro(<< problem);
+    }
+  };
   try
   {
-    vtkDataObject* input = vtkDataObject::GetData(inInfo);
-    if (this->Symmetry == NO_SYMMETRY && vtkImageData::SafeDownCast(input) &&
-      inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()) &&
-      inInfo->Has(vtkDataObject::ORIGIN()) && inInfo->Has(vtkDataObject::SPACING()))
+    guarded(work, "There is not enough memory for the refractivity. Use a coarser input.", fail);
+  }
+  catch (const Stopped&)
+  {
+    isPiece = false;
+    output->Initialize();
+  }
+  if (!isPiece)
+  {
+    setComplete(outputVector);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractiveIndex::Append(vtkDataObject* input, vtkDataObject* output)
+{
+  const Ranks ranks;
+  MediumMaker& maker = this->GetMaker();
+  std::vector<PiecesOfRanks::Piece> pieces;
+  for (vtkDataSet* data : dataSetsOf(input))
+  {
+    PiecesOfRanks::Piece piece{};
+    piece.data = data;
+    pieces.push_back(std::move(piece));
+  }
+  const ChoiceOverRanks choice = chooseOverRanks(ranks, maker, pieces, false, false);
+  if (choice.label.empty())
+  {
+    maker.choose(input); // says why there are no data
+  }
+  const auto copies =
+    input ? copy(input, output) : std::map<vtkDataObject*, vtkDataObject*>(); // null after an error
+  Tally tally;
+  bool hasGas = false;
+  for (const Leaf& leaf : choice.source.leaves)
+  {
+    constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+    const auto visible = visibleOf(leaf);
+    vtkSmartPointer<vtkDataArray> values;
+    if (leaf.arrays[0]->GetDataType() == VTK_DOUBLE)
     {
-      // Not the input's own grid: it may be older, or be a part of the whole.
-      vtkNew<vtkImageData> whole;
-      whole->SetExtent(inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()));
-      whole->SetOrigin(inInfo->Get(vtkDataObject::ORIGIN()));
-      whole->SetSpacing(inInfo->Get(vtkDataObject::SPACING()));
-      if (inInfo->Has(vtkDataObject::DIRECTION()))
-      {
-        whole->SetDirectionMatrix(inInfo->Get(vtkDataObject::DIRECTION()));
-      }
-      gridOfImage(whole, maker.willReadCells(input), this->Depth, grid);
-      SamplingBox(this->SamplingBounds).crop(grid);
+      values = convert<vtkDoubleArray>(leaf.arrays, choice.source.model, visible, nowhere, tally);
     }
     else
     {
-      maker.computeGrid(input, grid);
+      values = convert<vtkFloatArray>(leaf.arrays, choice.source.model, visible, nowhere, tally);
     }
+    const unsigned char* gas = visible->GetPointer(0);
+    hasGas = hasGas ||
+      std::any_of(gas, gas + visible->GetNumberOfTuples(), [](unsigned char v) { return v != 0; });
+    vtkDataSetAttributes* attributes =
+      copies.at(leaf.input)
+        ->GetAttributes(leaf.ofCells ? vtkDataObject::CELL : vtkDataObject::POINT);
+    attributes->SetScalars(values);
   }
-  catch (const std::exception&)
+  bool isAnywhere = false;
+  ranks.allGather([&] { return Ranks::Bytes(1, hasGas ? 1 : 0); },
+    [&](Reader& reader) { isAnywhere = reader.Get<char>() != 0 || isAnywhere; });
+  if (!isAnywhere)
   {
-    // It is not known before the input's points and arrays are there; RequestData will. Every grid that
-    // is resampled to holds this one, so that nobody requests more than there will be.
-    grid->SetDimensions(2, 2, 2);
-    if (*std::min_element(this->SamplingDimensions, this->SamplingDimensions + 3) > 1)
-    {
-      grid->SetDimensions(this->SamplingDimensions);
-    }
+    throw std::runtime_error(noGas(choice.label));
   }
-  tellGrid(grid, outInfo);
-  vtkDataObject::SetActiveAttribute(
-    outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS, arrayName, vtkDataSetAttributes::SCALARS);
-  vtkDataObject::SetPointDataActiveScalarInfo(
-    outInfo, this->DoublePrecision ? VTK_DOUBLE : VTK_FLOAT, 1);
-  return 1;
+  const std::string warning = maker.warningOf(choice.source, tally, false);
+  if (!warning.empty() && isRank0())
+  {
+    vtkWarningMacro(<< warning);
+  }
 }
 
 //------------------------------------------------------------------------------
-int vtkRefractiveIndex::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* vtkNotUsed(outputVector))
+void vtkRefractiveIndex::Revolve(vtkDataObject* input, vtkImageData* output)
 {
-  requestPieces(this, inputVector);
-  vtkInformation* inInfo = inputVector[0]->GetInformationObject(0);
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const double time = inInfo && inInfo->Has(Pipeline::UPDATE_TIME_STEP())
-    ? inInfo->Get(Pipeline::UPDATE_TIME_STEP())
-    : 0;
-  this->FailedAt = time == this->RequestedTime ? this->FailedAt : 0;
-  this->RequestedTime = time;
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkRefractiveIndex::RequestData(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkInformation* outInfo = outputVector->GetInformationObject(0);
-  vtkImageData* output = vtkImageData::GetData(outInfo);
-
-  output->Initialize();
-  const AtTheEnd complete([&] { setComplete(outputVector); }); // also of what has failed
-
-  const vtkMTimeType now = this->GetTimeOfGrid();
-  InputsOfRanks& inputsOfRanks = *this->Ranks;
-  FilterRanks& ranks = inputsOfRanks.ranks();
-  const auto begin = [&]
-  {
-    // Of what has failed before, one message is enough.
-    return inputsOfRanks.begin(this, inputVector, this->FailedAt != now);
-  };
-  bool isWanted = false;
-  if (!guarded([&] { isWanted = begin(); }, noMemory,
-        [&](const std::string& problem)
-        {
-          if (isRank0() && this->FailedAt != now)
-          {
-            this->Fail(problem, now, outputVector);
-          }
-        }) ||
-    !isWanted)
-  {
-    return 1;
-  }
+  const Ranks ranks;
   MediumMaker& maker = this->GetMaker();
-  inputsOfRanks.setOwn(
-    maker, vtkDataObject::GetData(inputVector[0]), vtkDataObject::GetData(inputVector[BODIES]));
-  const AtTheEnd forgetOwn([&] { inputsOfRanks.forgetOwn(); });
+  vtkSmartPointer<vtkDataObject> all = input;
+  if (hasOtherRanks())
+  {
+    PiecesOfRanks pieces(ranks, input, arraysOf(maker.choice().settings));
+    const auto gathered = pieces.gather();
+    all = gathered ? gathered.Get() : input;
+  }
   if (!isRank0())
   {
-    ranks.serve(this->NumberOfThreads,
-      [&](const std::vector<char>& request) { return inputsOfRanks.answer(request); });
-    return 1;
+    return;
   }
-  const AtTheEnd end([&] { ranks.end({ false, false }); });
-
-  const auto makeGrid = [&]
+  const Choice choice = maker.choose(all);
+  const auto made = maker.make(choice, nullptr);
+  sampleRevolved(*made->Source, choice, WorkProgress(maker.progress()).part(0.5, 1), output);
+  this->Grid->CopyStructure(output);
+  if (!made->Warning.empty())
   {
-    this->Guard->ThrowEarlier();
-    inputsOfRanks.shareArrays();
-    const InputsOfRanks::Inputs inputs =
-      inputsOfRanks.gather(std::numeric_limits<double>::infinity());
-    this->SetAbortExecute(0); // it stays set after an abort
-    std::string warning;
-    try
-    {
-      warning = maker.convert(inputs.data, output, inputs.bodies, Numbers::Singles);
-    }
-    catch (const Stopped&)
-    {
-      output->Initialize();
-      this->FailedAt = this->GetTimeOfGrid(); // further requests need not wait again
-      return;
-    }
-    if (!warning.empty())
-    {
-      vtkWarningMacro(<< warning);
-    }
-    // Where RequestInformation could not know it. Without the second, VTK would crop the output.
-    tellGrid(output, outInfo);
-    outInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), output->GetExtent(), 6);
-  };
-  guarded(makeGrid, noMemory,
-    [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkRefractiveIndex::GetTimeOfGrid()
-{
-  return std::max(this->GetMTime(), upstreamTime(this));
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractiveIndex::Fail(
-  const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs)
-{
-  this->FailedAt = now;
-  vtkErrorMacro(<< problem);
-  vtkImageData::GetData(outputs)->Initialize();
+    vtkWarningMacro(<< made->Warning);
+  }
 }

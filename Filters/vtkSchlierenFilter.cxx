@@ -12,7 +12,6 @@
 #include "SchlierenFilterInternals.h"
 #include "Settings/QualityPresets.h"
 
-#include "vtkCommand.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -119,8 +118,8 @@ std::optional<double> timeOf(
 }
 
 const char* const noMemory =
-  "There is not enough memory for the refractivity grid or the image. Use a coarser input, smaller "
-  "SamplingDimensions or a smaller ImageSize.";
+  "There is not enough memory for the refractivity or the image. Use a coarser input or a smaller "
+  "ImageSize.";
 
 const char* const noIndexYet = "No image: the refractive index is not known yet";
 
@@ -144,11 +143,7 @@ vtkSchlierenFilter::vtkSchlierenFilter()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
-  // Of vtkImageAlgorithm: the active scalars, whatever these are.
-  this->GetInputArrayInformation(vtkRefractiveIndex::DENSITY)
-    ->Remove(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
   this->vtkSchlierenFilter::SetQuality(INTERACTIVE);
-  this->Medium->AddObserver(vtkCommand::ProgressEvent, this, &vtkSchlierenFilter::OnMediumProgress);
 }
 
 //------------------------------------------------------------------------------
@@ -157,8 +152,8 @@ vtkSchlierenFilter::~vtkSchlierenFilter() = default;
 //------------------------------------------------------------------------------
 double vtkSchlierenFilter::MostGathered()
 {
-  return this->Medium->GetMaker().canUsePieces() ? this->GatherLimit
-                                                 : std::numeric_limits<double>::infinity();
+  return this->GetMaker().canUsePieces() ? this->GatherLimit
+                                         : std::numeric_limits<double>::infinity();
 }
 
 //------------------------------------------------------------------------------
@@ -170,7 +165,7 @@ vtkMTimeType vtkSchlierenFilter::GetMTime()
 //------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetTimeOfProperties()
 {
-  vtkMTimeType time = std::max(this->Superclass::GetMTime(), this->Medium->GetMTime());
+  vtkMTimeType time = this->Superclass::GetMTime();
   return this->GradedFilter ? std::max(time, this->GradedFilter->GetMTime()) : time;
 }
 
@@ -193,79 +188,57 @@ vtkTypeBool vtkSchlierenFilter::ProcessRequest(
 void vtkSchlierenFilter::LackInput() { this->Inside->Ranks.lackInput(); }
 
 //------------------------------------------------------------------------------
-int vtkSchlierenFilter::FillInputPortInformation(int port, vtkInformation* info)
+int vtkSchlierenFilter::FillOutputPortInformation(int, vtkInformation* info)
 {
-  // Any, so that one message says what is wrong with tables and others: VTK says it several times.
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-  if (port == vtkRefractiveIndex::BODIES)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenFilter::OnMediumProgress()
+vtkImageData* vtkSchlierenFilter::GetOutput() { return this->GetOutput(IMAGE_PORT); }
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkSchlierenFilter::GetOutput(int port)
 {
-  this->Progress(mediumFraction * this->Medium->GetProgress());
-  if (this->GetAbortExecute())
-  {
-    this->Medium->AbortExecuteOn();
-  }
+  return vtkImageData::SafeDownCast(this->GetOutputDataObject(port));
+}
+
+//------------------------------------------------------------------------------
+MediumMaker& vtkSchlierenFilter::GetMaker()
+{
+  MediumMaker& maker = this->Superclass::GetMaker();
+  maker.numberOfThreads = this->NumberOfThreads;
+  return maker;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSchlierenFilter::ReportMedium(double done)
+{
+  this->Progress(mediumFraction * done);
+  return !this->GetAbortExecute();
 }
 
 //------------------------------------------------------------------------------
 void vtkSchlierenFilter::Progress(double fraction) { this->UpdateProgress(fraction); }
 
 //------------------------------------------------------------------------------
-int vtkSchlierenFilter::RequestInformation(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkSchlierenFilter::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
   const int extent[6] = { 0, previewPixels(this->ImageSize[0], this->PreviewReduction) - 1, 0,
     previewPixels(this->ImageSize[1], this->PreviewReduction) - 1, 0, 0 };
   double origin[3] = { 0, 0, 0 };
   double spacing[3] = { 1, 1, 1 };
-  try
+  // Where the image lies depends on the input's points: RequestData corrects what is stated here
+  // before the input has been produced.
+  const MadeRefractivity& last = *this->Inside->Refractivity;
+  if (last.IsThere())
   {
-    // Where the image lies depends on the input's points: RequestData corrects what is stated here
-    // before the input has been produced.
-    const InputsOfRanks& ranks = this->Inside->Ranks;
-    if (vtkDataObject* input = ranks.gatheredOf(0, vtkDataObject::GetData(inputVector[0])))
-    {
-      this->PassToMedium();
-      schlieren::Grid grid;
-      int flatAxis = -1;
-      vtkDataObject* bodies = ranks.gatheredOf(vtkRefractiveIndex::BODIES,
-        vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
-      if (this->Inside->holdsRefractivityOf(
-            this->DescribeInputs(input, bodies), this->Medium->GetSettings(), this->ColorByField))
-      {
-        grid = Internals::fieldOf(*this->Inside->Refractivity).grid;
-        flatAxis = this->Inside->Refractivity->FlatAxis;
-      }
-      else
-      {
-        vtkNew<vtkImageData> planned;
-        MediumMaker& maker = this->Medium->GetMaker();
-        if (maker.canMakeSource(input, nullptr, this->IsLargeImage(input)))
-        {
-          maker.computeBox(input, planned);
-        }
-        else
-        {
-          maker.computeGrid(input, planned);
-        }
-        grid = gridFrom(planned);
-        flatAxis = maker.flatAxis();
-      }
-      const schlieren::Frame frame = frameFrom(facing(*this, flatAxis), grid);
-      std::copy(frame.origin.begin(), frame.origin.end(), origin);
-      std::fill_n(spacing, 3, frame.pixelSize);
-    }
-  }
-  catch (const std::exception&) // RequestData will say it
-  {
+    const schlieren::Frame frame =
+      frameFrom(facing(*this, last.FlatAxis), Internals::fieldOf(last).grid);
+    std::copy(frame.origin.begin(), frame.origin.end(), origin);
+    std::fill_n(spacing, 3, frame.pixelSize);
   }
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
@@ -318,7 +291,7 @@ int vtkSchlierenFilter::RequestData(
   histogram->Initialize();
   const AtTheEnd complete([&] { setComplete(outputVector); }); // also of what has failed
 
-  this->PassToMedium();
+  const AtTheEnd forgetChoice([&] { inside.Chosen.reset(); });
   const vtkMTimeType now = this->GetTimeOfImage();
   const auto begin = [&]
   {
@@ -343,8 +316,8 @@ int vtkSchlierenFilter::RequestData(
   {
     withRanks.emplace(inside);
   }
-  inside.Ranks.setOwn(this->Medium->GetMaker(), vtkDataObject::GetData(inputVector[0]),
-    vtkDataObject::GetData(inputVector[vtkRefractiveIndex::BODIES]));
+  inside.Ranks.setOwn(this->GetMaker(), vtkDataObject::GetData(inputVector[0]),
+    vtkDataObject::GetData(inputVector[BODIES]));
   const AtTheEnd forgetOwn([&] { inside.Ranks.forgetOwn(); });
   if (!isRank0())
   {

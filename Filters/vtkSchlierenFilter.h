@@ -51,7 +51,7 @@
  * centre of each bin, whose coordinates are the deflections along u and v, with the array `Rays`
  * (64-bit integers). Empty where HistogramSize is 0.
  *
- * The inputs and the properties of the medium are those of vtkRefractiveIndex. Results are kept
+ * The properties of the medium are those of vtkFlowAlgorithm. Results are kept
  * until something that they depend on changes: another cutoff, k or knife angle needs no
  * re-tracing, and another view keeps the medium.
  *
@@ -64,9 +64,7 @@
 #define vtkSchlierenFilter_h
 
 #include "SchlierenSettings.h" // for the values of the properties
-#include "vtkImageAlgorithm.h"
-#include "vtkNew.h"                    // for vtkNew
-#include "vtkRefractiveIndex.h"        // for the properties handed on
+#include "vtkFlowAlgorithm.h"
 #include "vtkSchlierenFiltersModule.h" // for export macro
 #include "vtkSmartPointer.h"           // for GradedFilter
 
@@ -78,11 +76,13 @@
 #include <string>     // for std::string
 #include <vector>     // for std::vector
 
+class vtkImageData;
 class vtkPiecewiseFunction;
 struct MadeRefractivity;
 
 namespace filters
 {
+struct Choice;
 struct ImageCircumstances;
 struct TimeStep;
 } // namespace filters
@@ -95,12 +95,12 @@ struct Monitor;
 struct Scene;
 } // namespace schlieren
 
-class VTKSCHLIERENFILTERS_EXPORT vtkSchlierenFilter : public vtkImageAlgorithm,
+class VTKSCHLIERENFILTERS_EXPORT vtkSchlierenFilter : public vtkFlowAlgorithm,
                                                       private SchlierenSettings
 {
 public:
   static vtkSchlierenFilter* New();
-  vtkTypeMacro(vtkSchlierenFilter, vtkImageAlgorithm);
+  vtkTypeMacro(vtkSchlierenFilter, vtkFlowAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /// What SetCutoff() takes.
@@ -231,28 +231,20 @@ public:
   };
 
   ///@{
+  /// Returns the image, or the output of another port.
+  vtkImageData* GetOutput();
+  vtkImageData* GetOutput(int port);
+  ///@}
+
   /**
-   * The medium: see vtkRefractiveIndex. SetInputArrayToProcess chooses the arrays
-   * (vtkRefractiveIndex::InputArrays).
+   * Returns the grid of the last image as text. Empty before the first and after a failed one.
    */
-  vtkRefractiveIndexForwardMacro(Medium);
-  virtual double GetGladstoneDaleConstantUsed();
   const char* GetGrid() const;
 
   /**
-   * Returns the arrays in use, see vtkRefractiveIndex.
+   * Wavelength of the light in vacuum, nanometres, for the medium and for interferograms. Default: 632.8.
    */
-  const char* GetArraysUsed();
-  ///@}
-
-  ///@{
-  /**
-   * Wavelength of the light in vacuum, nanometres, for the medium, as in vtkRefractiveIndex, and
-   * for interferograms. Default: 632.8.
-   */
-  vtkSetMacro(Wavelength, double);
-  vtkGetMacro(Wavelength, double);
-  ///@}
+  void SetWavelength(double wavelength) override;
 
   ///@{
   /**
@@ -1045,8 +1037,7 @@ public:
    * Maximum number of cells of a mesh whose pieces are gathered on rank 0 when ParaView runs as
    * several processes. The pieces of larger meshes stay on their ranks, with ghost cells; so do
    * those of images with more than 160 times as many cells, which become a tree of bricks. 0: none
-   * are gathered. Adaptive meshes, 2-D data, and all data with SamplingDimensions or
-   * SamplingBounds are always gathered. Default: 10^6.
+   * are gathered. Adaptive meshes and 2-D data are always gathered. Default: 10^6.
    */
   vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(GatherLimit, int);
@@ -1055,12 +1046,9 @@ public:
 
   ///@{
   /**
-   * Count what this filter has done since it was made: media built, meshes prepared for it, grids
-   * chosen for meshes, and rays traced. Updates that use earlier results add nothing.
+   * Count what this filter has done since it was made: media built and rays traced. Updates that use earlier results add nothing.
    */
   vtkTypeInt64 GetMediumBuilds();
-  vtkTypeInt64 GetMeshBuilds();
-  vtkTypeInt64 GetGridPlans();
   vtkTypeInt64 GetTotalRaysTraced();
   ///@}
 
@@ -1143,6 +1131,9 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+  /// Returns the maker of the medium, with the current settings.
+  VTK_WRAPEXCLUDE filters::MediumMaker& GetMaker() override;
+
   /**
    * Makes the next RequestData() treat this rank as one without input, because something upstream
    * has failed; see vtkSchlierenPipeline.
@@ -1156,7 +1147,8 @@ protected:
   vtkSchlierenFilter();
   ~vtkSchlierenFilter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  bool ReportMedium(double done) override;
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
@@ -1174,10 +1166,8 @@ private:
   void MakeImage(double maxCells, vtkInformationVector* outputs);
   /// Puts the image that was made last on the outputs.
   void ShowLast(vtkInformationVector* outputs);
-  /// Passes the array selections, and the wavelength if it matters, to Medium, which changes only
-  /// if they have.
-  void PassToMedium();
-  void OnMediumProgress();
+  /// Returns what is read of the data, chosen once in an update.
+  const filters::Choice& Chosen(vtkDataObject* input);
   /// Updates the refractivity. Returns false if aborted.
   bool UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies);
   /// Returns the refractivity of another filter, or a new one; null if aborted.
@@ -1229,7 +1219,6 @@ private:
   /// Reports a problem of the inputs and properties at time `now`, and empties the outputs.
   void Fail(const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs);
 
-  vtkNew<vtkRefractiveIndex> Medium;
   std::unique_ptr<Internals> Inside;
 
   vtkSmartPointer<vtkPiecewiseFunction> GradedFilter;

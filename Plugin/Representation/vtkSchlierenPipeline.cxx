@@ -6,7 +6,6 @@
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
-#include "vtkRefractiveIndex.h"
 #include "vtkSchlierenFilter.h"
 
 vtkStandardNewMacro(vtkSchlierenPipeline);
@@ -26,10 +25,6 @@ int vtkSchlierenPipeline::ForwardUpstream(vtkInformation* request)
     if (auto* filter = vtkSchlierenFilter::SafeDownCast(this->Algorithm))
     {
       filter->LackInput();
-    }
-    else if (auto* medium = vtkRefractiveIndex::SafeDownCast(this->Algorithm))
-    {
-      medium->LackInput();
     }
   }
   return 1;

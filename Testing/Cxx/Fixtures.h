@@ -5,6 +5,8 @@
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkExecutive.h"
@@ -146,11 +148,56 @@ inline bool isEmpty(vtkAlgorithm* filter)
   bool allAre = true;
   for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
   {
-    auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(port));
     allAre =
-      allAre && image->GetNumberOfPoints() == 0 && image->GetPointData()->GetNumberOfArrays() == 0;
+      allAre && filter->GetOutputDataObject(port)->GetNumberOfElements(vtkDataObject::POINT) == 0;
   }
   return allAre;
+}
+
+/// A value of the array that vtkRefractiveIndex appends, and the point or the middle of the cell that has it.
+struct PlacedValue
+{
+  Vec place;
+  double value;
+};
+
+/// Lists the values of all datasets of the output.
+inline std::vector<PlacedValue> refractivityOf(vtkRefractiveIndex* filter)
+{
+  std::vector<vtkDataSet*> dataSets;
+  vtkDataObject* output = filter->GetOutputDataObject(0);
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(output))
+  {
+    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      dataSets.push_back(vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()));
+    }
+  }
+  else
+  {
+    dataSets.push_back(vtkDataSet::SafeDownCast(output));
+  }
+  std::vector<PlacedValue> values;
+  for (vtkDataSet* data : dataSets)
+  {
+    vtkDataArray* ofPoints = data->GetPointData()->GetArray("Refractivity");
+    vtkDataArray* ofCells = data->GetCellData()->GetArray("Refractivity");
+    for (vtkIdType i = 0; ofPoints && i < data->GetNumberOfPoints(); ++i)
+    {
+      const double* x = data->GetPoint(i);
+      values.push_back({ { x[0], x[1], x[2] }, ofPoints->GetComponent(i, 0) });
+    }
+    for (vtkIdType i = 0; ofCells && i < data->GetNumberOfCells(); ++i)
+    {
+      double bounds[6];
+      data->GetCellBounds(i, bounds);
+      values.push_back(
+        { { (bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2, (bounds[4] + bounds[5]) / 2 },
+          ofCells->GetComponent(i, 0) });
+    }
+  }
+  return values;
 }
 
 inline double largest(const std::vector<double>& values)

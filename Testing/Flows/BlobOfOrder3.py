@@ -24,8 +24,7 @@ assert data.GetNumberOfCells() == 376 and data.GetCellType(0) == 72, "These are 
 
 schlieren = Schlieren(near, Density=["POINTS", "rho"], GladstoneDaleConstant=K, LengthScale=0.01,
                       AutoAmbientRefractivity=0, AmbientRefractivity=K * AMBIENT,
-                      SamplingDimensions=[60, 40, 40], **EVERY_VOXEL,
-                      ImageSize=[240, 160], ParallelScale=2.5)
+                      **EVERY_VOXEL, ImageSize=[240, 160], ParallelScale=2.5)
 x, y = coordinates(schlieren)
 path = image_array(schlieren, "OpticalPathDifference") / 0.01
 deflection = image_array(schlieren, "Deflection")

@@ -90,7 +90,6 @@ assert np.abs(N - (index_of_water(T) - 1)).max() < 2e-6
 
 # Each bench gives an image, here a small one.
 for bench in benches:
-    bench.SamplingDimensions = [24, 24, 24]
     bench.ImageSize = [32, 32]
     bench.OutsideBlocksLight = 0
     assert np.ptp(image_array(bench, "OpticalPathDifference")) > 0

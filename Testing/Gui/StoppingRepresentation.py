@@ -14,7 +14,6 @@ user = Session()
 user.python("""
 import inside_window
 bench = GetDisplayProperties(FindSource("flow"), GetActiveView()).SchlierenBench
-bench.SamplingDimensions = 3 * [250]
 inside_window.END = click_during(bench.GetClientSideObject(), 0.05, widget("AbortButton"))
 """)
 user.event(DISPLAY + "/Representation/displayRepresentationWidget/comboBox", "set_string", "Schlieren")
@@ -39,7 +38,7 @@ user.event(DISPLAY + "/Representation/displayRepresentationWidget/comboBox", "se
 user.python(f"""
 view, display = GetActiveView(), GetDisplayProperties(FindSource("flow"), GetActiveView())
 bench = display.SchlierenBench
-bench.SamplingDimensions = 3 * [0]
+bench.GladstoneDaleConstant = 3e-4
 Render(view)
 until(lambda: information(display, "SchlierenFinished") == 1 and information(bench, "PictureCount") > 0)
 assert information(bench, "MediumBuilds") == 1
@@ -48,7 +47,7 @@ with open({REPORT!r}, "w") as file:
 """)
 user.play("""
 from paraview.simple import *
-flow = Tetrahedralize(Input=Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData"), registrationName="flow")
+flow = Tetrahedralize(Input=Calculator(Input=Wavelet(WholeExtent=3 * [-24, 24]), ResultArrayName="rho", Function="RTData"), registrationName="flow")
 display = Show(flow)
 display.SetRepresentationType("Outline")
 ResetCamera()

@@ -84,7 +84,7 @@ def watch(*_):
         QTimer.singleShot(0, press)
 QApplication.setActiveWindow(widget())
 tag, builds = algorithm.AddObserver("ProgressEvent", watch), information(bench, "MediumBuilds")
-bench.SamplingDimensions = 3 * [250]
+bench.GladstoneDaleConstant = 3e-4
 Render(FindView("Schlieren View"))
 algorithm.RemoveObserver(tag)
 assert pressed and all(0 < progress < 1 for progress in pressed), pressed

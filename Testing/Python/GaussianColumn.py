@@ -35,25 +35,22 @@ refractivity.UpdatePipeline()
 image = output(refractivity)
 n = vtk_to_numpy(image.GetPointData().GetArray("Refractivity"))
 rho = vtk_to_numpy(output(source).GetPointData().GetArray("rho"))
-assert n.dtype == np.float32 and np.array_equal(n, (CONSTANT * rho).astype(np.float32))
-assert vtk_to_numpy(image.GetPointData().GetArray("vtkValidPointMask")).min() == 1
+assert n.dtype == rho.dtype and np.allclose(n, CONSTANT * rho, rtol=1e-6, atol=0)
 chained = Schlieren(refractivity)
 one_ray_per_pixel(chained)
 direct = Schlieren(source)
 direct.Density = ["POINTS", "rho"]
 one_ray_per_pixel(direct)
 for name in ("Intensity", "Deflection", "OpticalPathDifference", "Displacement", "BlockedFraction"):
-    # The array between them is in single precision.
     of_chain, of_one = image_array(chained, name), image_array(direct, name)
     assert np.abs(of_chain - of_one).max() <= 2e-5 * np.abs(of_one).max(), name
 
-# Resampled, when the source is not an image.
+# The same cells, when the source is not an image.
 points = AppendDatasets(source)
 points.UpdatePipeline()
-resampled = Schlieren(points)
-resampled.Density = ["POINTS", "rho"]
-resampled.SamplingDimensions = [64, 64, 64]
-one_ray_per_pixel(resampled)
-errors = column_errors(resampled)
-print("resampled: relative errors: deflection %.2e, optical path %.2e" % errors)
+of_mesh = Schlieren(points)
+of_mesh.Density = ["POINTS", "rho"]
+one_ray_per_pixel(of_mesh)
+errors = column_errors(of_mesh)
+print("mesh: relative errors: deflection %.2e, optical path %.2e" % errors)
 assert max(errors) < 8e-3

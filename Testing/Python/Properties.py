@@ -178,15 +178,13 @@ bench.FocalPoint = []
 assert np.allclose(output(bench).GetOrigin(), centred)
 
 # A body: its shadow, and no other image without it.
-for proxy in (bench, RefractiveIndex(source, Density=["POINTS", "rho"])):
-    chained = proxy if proxy is bench else Schlieren(proxy, ImageSize=[48, 32])
-    free = image_array(chained, "Deflection")
-    proxy.Bodies = Sphere(Radius=0.4)
-    blocked = image_array(chained, "BlockedFraction") * output(chained).GetSpacing()[0]**2
-    assert abs(blocked.sum() / (np.pi * 0.4**2) - 1) < 0.2, blocked.sum()
-    proxy.Bodies = None
-    assert np.array_equal(image_array(chained, "Deflection"), free)
-    assert image_array(chained, "BlockedFraction").max() == 0
+free = image_array(bench, "Deflection")
+bench.Bodies = Sphere(Radius=0.4)
+blocked = image_array(bench, "BlockedFraction") * output(bench).GetSpacing()[0]**2
+assert abs(blocked.sum() / (np.pi * 0.4**2) - 1) < 0.2, blocked.sum()
+bench.Bodies = None
+assert np.array_equal(image_array(bench, "Deflection"), free)
+assert image_array(bench, "BlockedFraction").max() == 0
 with_body = Schlieren(Input=source, Bodies=Sphere(Radius=0.4), Density=["POINTS", "rho"])
 assert image_array(with_body, "BlockedFraction").max() == 1
 

@@ -51,25 +51,32 @@ def open_flow(options, scratch, messages):
 
 
 def new_medium(reader, array, options):
-    """The refractivity on a regular grid, made when it is needed."""
+    """The data with their refractivity, made when it is needed."""
     medium = pv.RefractiveIndex(Input=reader)
     configure(medium, array, options)
     return medium
 
 
+def is_axisymmetric(options):
+    return dict(options.settings).get("Symmetry", "None") != "None"
+
+
 def bounds_of(reader, medium, options):
-    """Those of the data; of 2-D and axisymmetric data, of what the filter makes of them."""
+    """Those of the data; of axisymmetric data, of the body of revolution; of a plane, with its depth."""
     bounds = list(reader.GetDataInformation().GetBounds())
     extent = np.array(bounds[1::2]) - bounds[0::2]
     flat = int(extent.argmin())
     is_flat = extent[flat] <= 1e-9 * extent.max()
-    if not is_flat and dict(options.settings).get("Symmetry", "None") == "None":
-        return bounds
     if is_flat and not options.view:
         options.view = VIEWS["xyz"[flat]] if flat != 1 else VIEWS["-y"]
-    medium.UpdatePipeline()
-    made = list(medium.GetDataInformation().GetBounds())
-    return made if made[0] < made[1] else bounds
+    if is_axisymmetric(options):
+        medium.UpdatePipeline()
+        made = list(medium.GetDataInformation().GetBounds())
+        return made if made[0] < made[1] else bounds
+    if is_flat:
+        depth = dict(options.settings).get("Depth", 0) or np.delete(extent, flat).min()
+        bounds[2 * flat:2 * flat + 2] = bounds[2 * flat] - depth / 2, bounds[2 * flat] + depth / 2
+    return bounds
 
 
 def configure(proxy, array, options):

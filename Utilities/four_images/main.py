@@ -22,6 +22,7 @@ import numpy as np  # noqa: E402
 import paraview.simple as pv  # noqa: E402
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
+from vtkmodules.vtkFiltersCore import vtkCellDataToPointData  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGReader  # noqa: E402
 
 from bench import (bounds_of, check_light, load_plugin, new_bench, new_medium, open_flow,  # noqa: E402
@@ -53,12 +54,23 @@ def bench_images(reader, array, frame, options, messages):
 
 
 def refractivity(medium, clear, messages):
-    """n - 1 on a regular grid, as the tracer sees it; solids get the value that will be clear."""
+    """n - 1 on a regular grid, of data in a plane in it; what is not gas gets the value that will be clear."""
+    if not output_of(medium, "computation of the refractive index", messages).IsA("vtkImageData"):
+        bounds = np.array(medium.GetDataInformation().GetBounds())
+        lengths = bounds[1::2] - bounds[0::2]
+        medium = pv.ResampleToImage(Input=medium, SamplingDimensions=[
+            max(1, round(256 * length / lengths.max())) for length in lengths])
     fetched = output_of(medium, "computation of the refractive index", messages)
     image = vtkImageData()
     image.ShallowCopy(fetched)
+    if not image.GetPointData().HasArray("Refractivity"):
+        cells = vtkCellDataToPointData()
+        cells.SetInputData(image)
+        cells.Update()
+        image.ShallowCopy(cells.GetOutput())
     values = vtk_to_numpy(image.GetPointData().GetArray("Refractivity")).astype(np.float32)
-    solid = vtk_to_numpy(image.GetPointData().GetArray("vtkValidPointMask")) == 0
+    mask = image.GetPointData().GetArray("vtkValidPointMask")
+    solid = ~np.isfinite(values) | (vtk_to_numpy(mask) == 0 if mask else False)
     low, high = float(values[~solid].min()), float(values[~solid].max())
     values[solid] = clear
     clean = numpy_to_vtk(values, deep=True)
@@ -87,7 +99,7 @@ def volume_rendering(medium, frame):
     view.CameraParallelScale = frame.scale
 
     representation = pv.Show(producer, view)
-    representation.SetRepresentationType("Volume")
+    representation.SetRepresentationType("Volume" if min(image.GetDimensions()) > 1 else "Slice")
     pv.ColorBy(representation, ("POINTS", "Refractivity"))
     representation.SetScalarBarVisibility(view, False)
     color = pv.GetColorTransferFunction("Refractivity")

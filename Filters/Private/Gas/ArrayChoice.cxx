@@ -352,6 +352,10 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
       settings.Arrays[index] = {};
     }
   }
+  if (!usesWavelength(settings))
+  {
+    settings.Wavelength = S().Wavelength; // nor does that of light that nothing disperses
+  }
   choice.message = inWords(settings);
   return choice;
 }

@@ -304,16 +304,9 @@ std::string mediumInWords(const schlieren::MediumStatistics& medium)
 }
 
 //------------------------------------------------------------------------------
-void addGrid(vtkImageData* output, const char* grid, vtkImageData* refractivity)
+void addGrid(vtkImageData* output, const char* grid)
 {
   addFieldValue<vtkStringArray>(output, "Grid", std::string(grid));
-  if (vtkDataArray* used = refractivity->GetFieldData()->GetArray("SamplingDimensions"))
-  {
-    vtkNew<vtkIntArray> dimensions;
-    dimensions->DeepCopy(used);
-    dimensions->SetName("MediumDimensions");
-    output->GetFieldData()->AddArray(dimensions);
-  }
 }
 
 //------------------------------------------------------------------------------

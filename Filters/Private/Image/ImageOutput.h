@@ -19,7 +19,7 @@ double largestLength(const schlieren::PixelArray<float>& pairs);
 void dropIdleBounds(schlieren::Image& image);
 
 /// Makes `output` the image with the arrays and field data that vtkSchlierenFilter promises, except
-/// Color, Grid, MediumDimensions and infinite bounds. Moves all of the image's arrays but `color`.
+/// Color, Grid and infinite bounds. Moves all of the image's arrays but `color`.
 void setOutput(vtkImageData* output, schlieren::Image& image);
 
 /// The mapping of light to the bytes of Color.
@@ -48,8 +48,8 @@ void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium);
 /// Returns statistics as text: "1234 leaves on levels 1 to 5, ...".
 std::string mediumInWords(const schlieren::MediumStatistics& medium);
 
-/// Adds how the refractivity's grid was chosen and, if it was resampled, its dimensions.
-void addGrid(vtkImageData* output, const char* grid, vtkImageData* refractivity);
+/// Adds the medium in words.
+void addGrid(vtkImageData* output, const char* grid);
 
 /// Makes `output` the histogram: a point at each bin's deflection (u, v), with the array Rays.
 /// Empty without a histogram.

@@ -61,7 +61,7 @@ Sent chooseOwn(MediumMaker& maker, ChoiceOverRanks& choice, bool hasFields)
   Sent own;
   try
   {
-    choice.source = maker.choose(choice.data, &asTheyAre);
+    choice.source = chooseSource(maker.settings, maker.known(), choice.data, &asTheyAre);
   }
   catch (const ArraysMissing& problem) // other ranks may have them
   {
@@ -84,6 +84,24 @@ Sent chooseOwn(MediumMaker& maker, ChoiceOverRanks& choice, bool hasFields)
 }
 
 } // namespace
+
+void shareArrays(const Ranks& ranks, MediumMaker& maker, vtkDataObject* own)
+{
+  if (ranks.count() == 1 || !isOpen(maker.settings))
+  {
+    return;
+  }
+  std::vector<FlowArray> all;
+  ranks.allGather(
+    [&]
+    {
+      std::vector<char> bytes;
+      putArrays(flowArraysOf(dataSetsOf(own), true), bytes);
+      return bytes;
+    },
+    [&](Reader& reader) { addArrays(all, getArrays(reader)); });
+  maker.known().SetOfRanks(std::move(all));
+}
 
 ChoiceOverRanks chooseOverRanks(const Ranks& ranks, MediumMaker& maker,
   const std::vector<PiecesOfRanks::Piece>& pieces, bool areImages, bool hasFields)

@@ -27,6 +27,9 @@ struct ChoiceOverRanks
   std::string label;                      ///< see Source::label; that of any rank
 };
 
+/// Lets all ranks choose among the arrays of all.
+void shareArrays(const Ranks& ranks, MediumMaker& maker, vtkDataObject* own);
+
 /// Chooses arrays on all ranks, and finds the ranges on all ranks of fields that are relative to
 /// them. Throws ArraysMissing if no rank has them.
 ChoiceOverRanks chooseOverRanks(const Ranks& ranks, MediumMaker& maker,

@@ -7,6 +7,7 @@
 #include "Input/GatheredData.h"
 #include "Input/InputDescription.h"
 #include "Input/RefractivitySource.h"
+#include "Ranks/ChoiceOverRanks.h"
 #include "Ranks/PiecesOfRanks.h"
 #include "Sources/MediumMaker.h"
 
@@ -257,20 +258,6 @@ void InputsOfRanks::release()
   }
 }
 
-void InputsOfRanks::answerArrays()
-{
-  std::vector<FlowArray> all;
-  this->All.all().allGather(
-    [&]
-    {
-      std::vector<char> bytes;
-      putArrays(flowArraysOf(dataSetsOf(this->Own[0]), true), bytes);
-      return bytes;
-    },
-    [&](Reader& reader) { addArrays(all, getArrays(reader)); });
-  this->Maker->known().SetOfRanks(std::move(all));
-}
-
 std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
 {
   Reader reader(request);
@@ -278,7 +265,7 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
   switch (reader.Get<std::uint32_t>())
   {
     case ShareArrays:
-      this->answerArrays();
+      filters::shareArrays(ranks, *this->Maker, this->Own[0]);
       break;
     case Locate:
     case Gather:

@@ -62,7 +62,7 @@ public:
   /// Returns all of an input, of which rank 0 has `own`, after it has been gathered. At any time.
   vtkDataObject* gatheredOf(int port, vtkDataObject* own) const;
 
-  /// Makes the source of data that stay on their ranks. `warning`: see MediumMaker::makeSource().
+  /// Makes the source of data that stay on their ranks. `warning`: for the user.
   /// Throws std::runtime_error.
   std::shared_ptr<const schlieren::MediumSource> make(
     vtkDataObject* bodies, bool hasFields, std::string& warning);
@@ -77,7 +77,6 @@ public:
 
 private:
   void requestOfAll(const std::vector<char>& message);
-  void answerArrays();
 
   MediumMaker* Maker = nullptr; // between setOwn() and forgetOwn()
   FilterRanks All;

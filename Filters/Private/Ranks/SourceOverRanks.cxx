@@ -81,9 +81,9 @@ std::unique_ptr<ImagePiece> makePieceOfImage(MediumMaker& maker, const ChoiceOve
       --extents.own[high];
     }
   }
-  return maker.makePieceOfImage(refractivity, extents,
-    turnedBack(bodies, gridFrom(refractivity).direction), choice.data, choice.source,
-    !choice.ofFields.empty(), choice.ofFields);
+  return pieceOfImage(maker, refractivity, extents,
+    turnedBack(bodies, gridFrom(refractivity).direction), choice.data, !choice.ofFields.empty(),
+    choice.ofFields);
 }
 
 /// The properties of all pieces.

@@ -4,12 +4,10 @@
 
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
-#include "Common/Threads.h"
 #include "Gas/RefractivityModels.h"
+#include "Input/RefractivityOfImage.h"
 #include "Input/RefractivitySource.h"
 #include "Input/RefractivityValues.h"
-#include "Sources/GridOfSource.h"
-#include "Sources/MediumMaker.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
@@ -122,39 +120,6 @@ void probe(vtkImageData* image, vtkImageData* grid)
   image->ShallowCopy(prober->GetOutput());
 }
 
-/// Does forFieldImages() for data other than images.
-void forSampledFields(MediumMaker& maker, vtkDataObject* input, const Source& source,
-  vtkImageData* refractivity, const std::function<void(std::size_t, vtkImageData*)>& take)
-{
-  std::string reportedBefore;
-  const auto made = maker.makeSourceOfCells(source, input, nullptr, reportedBefore, true);
-  std::vector<float> all;
-  vtkSMPTools::LocalScope(
-    loopsWith(maker.threads()), [&] { all = fieldsAtGrid(*made, WorkProgress(), refractivity); });
-  const vtkIdType points = refractivity->GetNumberOfPoints();
-  for (int field = 0; field < made->fields(); ++field)
-  {
-    vtkNew<vtkFloatArray> values;
-    values->SetName(arrayName);
-    setTuples(values, points);
-    std::copy_n(all.begin() + field * points, points, values->GetPointer(0));
-    const auto valid = newMask(points);
-    for (vtkIdType point = 0; point < points; ++point)
-    {
-      if (!std::isfinite(values->GetValue(point)))
-      {
-        values->SetValue(point, 0);
-        valid->SetValue(point, 0);
-      }
-    }
-    vtkNew<vtkImageData> image;
-    image->CopyStructure(refractivity);
-    image->GetPointData()->AddArray(values);
-    image->GetPointData()->AddArray(valid);
-    take(static_cast<std::size_t>(field), image);
-  }
-}
-
 } // namespace
 
 std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataObject* input)
@@ -250,48 +215,39 @@ void bringToCells(Source& field)
   }
 }
 
-void forFieldImages(MediumMaker& maker, vtkDataObject* input, const Source& source,
-  vtkImageData* refractivity, const std::function<void(std::size_t, vtkImageData*)>& take,
+void forFieldImages(const MediumSettings& medium, vtkDataObject* input, vtkImageData* refractivity,
+  const std::function<void(std::size_t, vtkImageData*)>& take,
   const std::vector<FieldMean::Range>& ranges)
 {
-  const MediumSettings& medium = maker.settings;
   requireFields(medium);
   const schlieren::Grid grid = gridFrom(refractivity);
-  if (!maker.keepsGrid(source))
+  for (std::size_t number = 0; number < medium.Fields.size(); ++number)
   {
-    forSampledFields(maker, input, source, refractivity, take);
-    return;
-  }
-  for (std::size_t field = 0; field < medium.Fields.size(); ++field)
-  {
-    MediumMaker reader;
-    reader.settings = settingsOfField(medium, field, ranges);
-    std::copy_n(medium.SamplingBounds, 6, reader.settings.SamplingBounds);
-    reader.numberOfThreads = maker.threads();
+    Source field = sourceOfField(settingsOfField(medium, number, ranges), input);
+    std::get<FieldMean>(field.model).findRanges(field.leaves);
     vtkNew<vtkImageData> values;
-    reader.convert(input, values, nullptr, Numbers::Singles);
+    convertImage(field, Numbers::Singles, values);
     if (!isSameGrid(grid, gridFrom(values)))
     {
       probe(values, refractivity);
     }
-    take(field, values);
+    take(number, values);
   }
 }
 
 std::vector<float> fieldGradients(
-  MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity)
+  const MediumSettings& medium, vtkDataObject* input, vtkImageData* refractivity, int threads)
 {
-  const int threads = maker.threads();
   const schlieren::Grid grid = gridFrom(refractivity);
-  const std::size_t count = maker.settings.Fields.size();
+  const std::size_t count = medium.Fields.size();
   const auto points = static_cast<std::size_t>(refractivity->GetNumberOfPoints());
   // Counts, for a field at a time, an array's values, the field's and a mask; or all results.
   constexpr std::size_t bytesOfField = sizeof(double) + sizeof(float) + 1;
   requireMemory(static_cast<double>(points * (2 * count * sizeof(float) + bytesOfField)),
     "The fields that color the image, on a grid of " + std::to_string(points) + " points,",
-    "Give fewer Fields or smaller SamplingDimensions.");
+    "Give fewer Fields or a coarser input.");
   std::vector<float> gradients(count * points, 0);
-  forFieldImages(maker, input, maker.choose(input), refractivity,
+  forFieldImages(medium, input, refractivity,
     [&](std::size_t field, vtkImageData* values)
     {
       schlieren::gradientMagnitudes(grid,

@@ -20,8 +20,6 @@ class vtkImageData;
 namespace filters
 {
 
-class MediumMaker;
-
 /// Computes the Fields of a medium that tint images. A field is its transfer function's value, if
 /// the medium is made with these; else it is relative to its range. User errors are thrown as
 /// std::runtime_error with a message for the user.
@@ -44,17 +42,16 @@ std::vector<Source> fieldSources(const MediumSettings& medium, vtkDataObject* in
 /// Averages point values over cells.
 void bringToCells(Source& field);
 
-/// Calls take(number, image) for each field in the form of a refractivity, on the grid of
-/// `refractivity`, which `maker` has made of `source` from `input`. `ranges`: those of all ranks;
-/// empty: there is one.
-void forFieldImages(MediumMaker& maker, vtkDataObject* input, const Source& source,
-  vtkImageData* refractivity, const std::function<void(std::size_t, vtkImageData*)>& take,
+/// Calls take(number, image) for each field of `medium` in the form of a refractivity, on the grid of
+/// `refractivity`, which has been made of `input`. `ranges`: those of all ranks; empty: there is one.
+void forFieldImages(const MediumSettings& medium, vtkDataObject* input, vtkImageData* refractivity,
+  const std::function<void(std::size_t, vtkImageData*)>& take,
   const std::vector<FieldMean::Range>& ranges = {});
 
-/// Returns the gradients of the fields on the grid of `refractivity`, which `maker` has made from
-/// `input`, for schlieren::FieldGradients::values.
+/// Returns the gradients of the fields of `medium` on the grid of `refractivity`, which has been made
+/// of `input`, for schlieren::FieldGradients::values.
 std::vector<float> fieldGradients(
-  MediumMaker& maker, vtkDataObject* input, vtkImageData* refractivity);
+  const MediumSettings& medium, vtkDataObject* input, vtkImageData* refractivity, int threads);
 
 /// Returns three `values` for each field or, without any, hues of the golden section (numbers times
 /// 0.618 of the circle, from red), which are distinct for any number of fields, and stay when

@@ -7,32 +7,25 @@
 #include "Common/Threads.h"
 #include "Input/FlatBodies.h"
 #include "Input/FlatData.h"
-#include "Input/InputDescription.h"
 #include "Input/OneLayer.h"
 #include "Input/RefractivityOfImage.h"
-#include "Input/SamplingBox.h"
 #include "Sources/AmrPiece.h"
 #include "Sources/FieldTints.h"
-#include "Sources/GridOfSource.h"
 #include "Sources/Mirrored.h"
 #include "Sources/PreparedLeaves.h"
-#include "Sources/Revolution.h"
 #include "Sources/RevolvedSource.h"
 #include "Walls/BodyTriangles.h"
 
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
-#include "vtkIntArray.h"
 #include "vtkMatrix3x3.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkSMPTools.h"
+#include "vtkTimeStamp.h"
 #include "vtkUnsignedCharArray.h"
 
 #include "Schlieren.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -43,28 +36,25 @@ namespace filters
 namespace
 {
 
-/// Throws if memory does not suffice for a grid's arrays and their computation.
-void requireMemoryFor(
-  vtkImageData* grid, bool isDouble, std::size_t bytesToMake, const std::string& remedy)
+/// Throws if memory does not suffice for the arrays of an image.
+void requireMemoryFor(vtkImageData* grid, bool isDouble)
 {
   int points[3];
   grid->GetDimensions(points);
-  const std::size_t bytes = bytesToMake + 1 + (isDouble ? sizeof(double) : sizeof(float));
+  const std::size_t bytes = 1 + (isDouble ? sizeof(double) : sizeof(float));
   requireMemory(static_cast<double>(bytes) * points[0] * points[1] * points[2],
     "The refractivity on a grid of " + std::to_string(points[0]) + " x " +
       std::to_string(points[1]) + " x " + std::to_string(points[2]) + " points",
-    remedy);
+    "Use a coarser input.");
 }
 
-const char* const fewerPoints =
-  "Give smaller SamplingDimensions (zeros: chosen from the data), or SamplingBounds of a part of "
-  "the data.";
-
-/// Returns the coordinate axis across the plane of the data; -1: there is none.
-int planeOf(const Source& source)
+bool hasGas(vtkImageData* refractivity)
 {
-  return source.image && !source.image->GetDirectionMatrix()->IsIdentity() ? -1
-                                                                           : flatAxisOf(source);
+  const unsigned char* valid =
+    vtkUnsignedCharArray::SafeDownCast(refractivity->GetPointData()->GetArray(maskName))
+      ->GetPointer(0);
+  return std::any_of(
+    valid, valid + refractivity->GetNumberOfPoints(), [](unsigned char v) { return v != 0; });
 }
 
 /// Makes the source of an image. `bodies`: in its axes; may be null.
@@ -143,31 +133,26 @@ WorkProgress MediumMaker::progressOf(double from, double to) const
 }
 
 //------------------------------------------------------------------------------
-Source MediumMaker::choose(vtkDataObject* input, const Source* like)
+Choice MediumMaker::choose(vtkDataObject* input)
 {
-  return chooseSource(this->settings, this->Known, input, like);
+  Choice choice{ input, chooseSource(this->settings, this->Known, input), {}, -1 };
+  Source& source = choice.source;
+  if (auto* mean = std::get_if<FieldMean>(&source.model))
+  {
+    mean->findRanges(source.leaves);
+  }
+  if (this->settings.isAxisymmetric())
+  {
+    choice.revolution = revolutionOf(source); // throws if there is none
+  }
+  const int flat = flatAxisOf(source); // throws without volume and plane
+  const bool isTurned = source.image && !source.image->GetDirectionMatrix()->IsIdentity();
+  choice.flatAxis = isTurned ? -1 : flat;
+  return choice;
 }
 
 //------------------------------------------------------------------------------
-bool MediumMaker::willReadCells(vtkDataObject* image)
-{
-  try
-  {
-    return this->choose(image).leaves[0].ofCells;
-  }
-  catch (const std::runtime_error&)
-  {
-    return selectionsFrom(this->choice().settings)[0].cellsFirst;
-  }
-}
-
-//------------------------------------------------------------------------------
-void MediumMaker::forgetLast()
-{
-  this->Grid.clear();
-  this->FlatAxis = -1;
-  leave(this->Mesh);
-}
+void MediumMaker::forgetLast() { leave(this->Mesh); }
 
 //------------------------------------------------------------------------------
 std::string MediumMaker::warningOf(const Source& source, const Tally& tally, bool bodiesMissed)
@@ -196,234 +181,83 @@ std::string MediumMaker::warningOf(const Source& source, const Tally& tally, boo
 }
 
 //------------------------------------------------------------------------------
-void MediumMaker::computeGrid(vtkDataObject* input, vtkImageData* structure)
+std::shared_ptr<MadeRefractivity> MediumMaker::make(
+  const Choice& choice, vtkDataObject* bodies, bool withFields, bool isLarge)
 {
-  const Source source = this->choose(input);
-  this->FlatAxis = planeOf(source);
-  if (this->settings.isAxisymmetric())
+  auto made = std::make_shared<MadeRefractivity>();
+  made->FlatAxis = choice.flatAxis;
+  const auto work = [&]
   {
-    gridOf(revolutionOf(source), source, this->settings.SamplingDimensions,
-      SamplingBox(this->settings.SamplingBounds), structure);
-  }
-  else if (source.image)
-  {
-    gridOfImage(source.image, source.leaves[0].ofCells, source.depth, structure);
-    SamplingBox(this->settings.SamplingBounds).crop(structure);
-  }
-  else
-  {
-    const GridPlan& plan = this->planGrid(source, input);
-    plan.amr ? gridOf(*plan.amr, structure) : gridOf(plan.resampling, structure);
-  }
-}
-
-//------------------------------------------------------------------------------
-void MediumMaker::computeBox(vtkDataObject* input, vtkImageData* structure)
-{
-  const Source source = this->choose(input);
-  this->FlatAxis = planeOf(source);
-  if (this->settings.isAxisymmetric())
-  {
-    boxOf(revolutionOf(source), structure);
-    return;
-  }
-  gridOf(boxOf(source), structure);
-}
-
-//------------------------------------------------------------------------------
-const MediumMaker::GridPlan& MediumMaker::planGrid(const Source& source, vtkDataObject* input)
-{
-  GridPlan& plan = this->Plan;
-  std::vector<double> described = describeInput(input, 0);
-  if (plan.input != described || plan.settings != source.choice.settings)
-  {
-    plan.input.clear();
-    ++plan.count;
-    const SamplingBox box(this->settings.SamplingBounds);
-    plan.amr = planAmr(source, this->settings.SamplingDimensions, box);
-    if (!plan.amr)
+    if (!choice.keepsGrid())
     {
-      plan.resampling = planResampling(source, this->settings.SamplingDimensions, box);
+      made->Source = this->sourceOfCells(choice, bodies, withFields, made->Warning);
+      return;
     }
-    plan.settings = source.choice.settings;
-    plan.input = std::move(described);
-  }
-  return plan;
+    this->makeImage(choice, *made);
+    if (bodies || isLarge)
+    {
+      made->Source = this->sourceOfImage(choice, made->Image, bodies, withFields, made->Warning);
+      made->Image->Initialize();
+      made->Grid.clear();
+    }
+  };
+  vtkSMPTools::LocalScope(loopsWith(this->threads()), work);
+  made->Mesh = this->Mesh;
+  vtkTimeStamp now;
+  now.Modified();
+  made->SourceTime = now.GetMTime();
+  return made;
 }
 
 //------------------------------------------------------------------------------
-void MediumMaker::fillFromImage(
-  Source source, Numbers numbers, vtkDataObject* bodies, vtkImageData* output, std::string& warning)
-{
-  leave(this->Mesh);
-  if (auto* fields = std::get_if<FieldMean>(&source.model))
-  {
-    fields->findRanges(source.leaves);
-  }
-  gridOfImage(source.image, source.leaves[0].ofCells, source.depth, output);
-  requireMemoryFor(output, this->settings.DoublePrecision, 0, "Use a coarser input.");
-  const Tally tally = convertImage(source, numbers, output);
-  SamplingBox(this->settings.SamplingBounds).crop(output);
-  bool bodiesMissed = false;
-  if (bodies)
-  {
-    vtkNew<vtkImageData> refractivity;
-    refractivity->ShallowCopy(output);
-    mergeMasks(refractivity);
-    const auto own = turnedBack(bodies, gridFrom(output).direction);
-    const auto withBodies = sourceOf(std::make_unique<const ImagePiece>(refractivity,
-                                       ImagePiece::extentsOf(output), own, this->threads()),
-      own);
-    this->progressOf(0.5, 1).reach(0.4);
-    bodiesMissed =
-      !withBodies->meetsBodies() || !maskWalls(*withBodies, this->progressOf(0.7, 1), output);
-  }
-  warning = this->warningOf(source, tally, bodiesMissed);
-  const int flat = flatAxisOf(source);
-  addText(warning, flat < 0 ? noteOnWedge(source) : warningOfExtrusion(source, flat));
-}
-
-//------------------------------------------------------------------------------
-void MediumMaker::fillFromSource(const Source& source, vtkDataObject* input, Numbers numbers,
-  vtkDataObject* bodies, vtkImageData* output, std::string& warning, std::string& note)
-{
-  if (this->settings.isAxisymmetric())
-  {
-    note = "of the body of revolution";
-    gridOf(revolutionOf(source), source, this->settings.SamplingDimensions,
-      SamplingBox(this->settings.SamplingBounds), output);
-  }
-  else
-  {
-    const GridPlan& plan = this->planGrid(source, input);
-    note = plan.amr ? plan.amr->note : plan.resampling.note;
-    plan.amr ? gridOf(*plan.amr, output) : gridOf(plan.resampling, output);
-  }
-  constexpr std::size_t bytesToFill = sizeof(double) + 3;
-  requireMemoryFor(output, this->settings.DoublePrecision, bytesToFill, fewerPoints);
-  const auto made = this->makeSourceOfCells(source, input, bodies, warning, false);
-  fillGrid(*made, numbers, bodies != nullptr, this->progressOf(0.5, 1), output);
-}
-
-//------------------------------------------------------------------------------
-std::string MediumMaker::convert(
-  vtkDataObject* input, vtkImageData* output, vtkDataObject* bodies, Numbers numbers)
-{
-  output->Initialize();
-  this->Grid.clear();
-  return this->convert(this->choose(input), input, output, bodies, numbers);
-}
-
-//------------------------------------------------------------------------------
-std::string MediumMaker::convert(const Source& source, vtkDataObject* input, vtkImageData* output,
-  vtkDataObject* bodies, Numbers numbers)
+void MediumMaker::makeImage(const Choice& choice, MadeRefractivity& made)
 {
   this->progressOf(0, 1).reach(0.05);
-  numbers = this->settings.DoublePrecision ? Numbers::Doubles : numbers;
-  this->FlatAxis = planeOf(source);
-  std::string warning, note = "the data's own";
-  vtkSMPTools::LocalScope(loopsWith(this->threads()),
-    [&]
-    {
-      this->keepsGrid(source)
-        ? this->fillFromImage(source, numbers, bodies, output, warning)
-        : this->fillFromSource(source, input, numbers, bodies, output, warning, note);
-    });
-  const unsigned char* valid =
-    vtkUnsignedCharArray::SafeDownCast(output->GetPointData()->GetArray(maskName))->GetPointer(0);
-  if (std::none_of(
-        valid, valid + output->GetNumberOfPoints(), [](unsigned char v) { return v != 0; }))
+  leave(this->Mesh);
+  const Source& source = choice.source;
+  vtkImageData* image = made.Image;
+  gridOfImage(source.image, source.leaves[0].ofCells, source.depth, image);
+  requireMemoryFor(image, this->settings.DoublePrecision);
+  const Tally tally = convertImage(
+    source, this->settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, image);
+  made.Warning = this->warningOf(source, tally, false);
+  const int flat = flatAxisOf(source);
+  addText(made.Warning, flat < 0 ? noteOnWedge(source) : warningOfExtrusion(source, flat));
+  if (!hasGas(image))
   {
-    throw std::runtime_error(bodies ? bodiesCoverAll : noGas(source.label));
+    throw std::runtime_error(noGas(source.label));
   }
-
-  int dimensions[3];
-  output->GetDimensions(dimensions);
-  this->Grid = std::to_string(dimensions[0]) + " x " + std::to_string(dimensions[1]) + " x " +
-    std::to_string(dimensions[2]) + " points: " + note;
-  vtkNew<vtkIntArray> used;
-  used->SetName("SamplingDimensions");
-  used->SetNumberOfComponents(3);
-  used->InsertNextTypedTuple(dimensions);
-  output->GetFieldData()->AddArray(used);
-  return warning;
+  mergeMasks(image);
+  const int* points = image->GetDimensions();
+  made.Grid = std::to_string(points[0]) + " x " + std::to_string(points[1]) + " x " +
+    std::to_string(points[2]) + " points: the data's own";
 }
 
 //------------------------------------------------------------------------------
-bool MediumMaker::canMakeSource(vtkDataObject* input, vtkDataObject* bodies, bool imagesToo)
+std::unique_ptr<ImagePiece> pieceOfImage(const MediumMaker& maker, vtkImageData* refractivity,
+  const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input, bool withFields,
+  const std::vector<FieldMean::Range>& ranges)
 {
-  // Flattens single layers only in images, where that is fast, and with Symmetry.
-  static const Source asTheyAre;
-  const bool matters =
-    this->settings.isAxisymmetric() || vtkImageData::SafeDownCast(input) != nullptr;
-  const Source source = this->choose(input, matters ? nullptr : &asTheyAre);
-  if (this->settings.isAxisymmetric())
-  {
-    revolutionOf(source); // throws if there is none
-    return !this->wantsGrid();
-  }
-  const int flat = flatAxisOf(source); // throws without volume and plane
-  if (this->wantsGrid() || source.image)
-  {
-    return flat < 0 && (bodies || (imagesToo && !this->wantsGrid()));
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool MediumMaker::hasDimensions() const
-{
-  const int* given = this->settings.SamplingDimensions;
-  return std::any_of(given, given + 3, [](int count) { return count != 0; });
-}
-
-//------------------------------------------------------------------------------
-bool MediumMaker::canUsePieces() const
-{
-  return !this->hasDimensions() && !SamplingBox::isWanted(this->settings.SamplingBounds) &&
-    !this->settings.isAxisymmetric(); // planes are small
-}
-
-//------------------------------------------------------------------------------
-bool MediumMaker::wantsGrid() const
-{
-  return SamplingBox(this->settings.SamplingBounds).isGiven() || this->hasDimensions();
-}
-
-//------------------------------------------------------------------------------
-std::unique_ptr<ImagePiece> MediumMaker::makePieceOfImage(vtkImageData* refractivity,
-  const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input,
-  const Source& source, bool withFields, const std::vector<FieldMean::Range>& ranges)
-{
-  const int threads = this->threads();
+  const int threads = maker.threads();
   auto piece = std::make_unique<ImagePiece>(refractivity, extents, bodies, threads);
   if (withFields)
   {
     forFieldImages(
-      *this, input, source, refractivity,
+      maker.settings, input, refractivity,
       [&](std::size_t, vtkImageData* field) { piece->addField(field, threads); }, ranges);
   }
   return piece;
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfImage(const Source& source,
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
+std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfImage(const Choice& choice,
+  vtkImageData* refractivity, vtkDataObject* bodies, bool withFields, std::string& warning)
 {
-  vtkNew<vtkImageData> refractivity;
-  warning = this->convert(source, input, refractivity, nullptr, Numbers::Differences);
-  this->Grid.clear();
-  mergeMasks(refractivity);
-  std::shared_ptr<const PieceSource> made;
-  const auto make = [&]
-  {
-    const auto own = turnedBack(bodies, gridFrom(refractivity).direction);
-    made = sourceOf(this->makePieceOfImage(refractivity, ImagePiece::extentsOf(refractivity), own,
-                      input, source, withFields),
-      own);
-    this->progressOf(0, 1).reach(1);
-  };
-  vtkSMPTools::LocalScope(loopsWith(this->threads()), make);
+  const auto own = turnedBack(bodies, gridFrom(refractivity).direction);
+  auto made = sourceOf(pieceOfImage(*this, refractivity, ImagePiece::extentsOf(refractivity), own,
+                         choice.input, withFields),
+    own);
+  this->progressOf(0, 1).reach(1);
   if (!made->hasGas())
   {
     throw std::runtime_error(bodiesCoverAll);
@@ -436,17 +270,6 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfImage(co
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSource(
-  vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
-{
-  const Source source = this->choose(input);
-  const bool isGrid =
-    this->keepsGrid(source) || (this->wantsGrid() && !this->settings.isAxisymmetric());
-  return isGrid ? this->makeSourceOfImage(source, input, bodies, warning, withFields)
-                : this->makeSourceOfCells(source, input, bodies, warning, withFields);
-}
-
-//------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOtherwise(
   vtkDataObject* input, vtkDataObject* bodies, Progress progress)
 {
@@ -456,20 +279,16 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOtherwise(
     ? MediumSettings::Coarser
     : MediumSettings::Smooth;
   other.numberOfThreads = this->numberOfThreads;
-  const Source source = other.choose(input);
-  if (other.keepsGrid(source) || other.wantsGrid() || findLevels(source.leaves))
-  {
-    return nullptr;
-  }
-  std::string warning; // as that of the settings
-  return other.makeSourceOfCells(source, input, bodies, warning, false);
+  const Choice choice = other.choose(input);
+  return choice.keepsGrid() || findLevels(choice.source.leaves)
+    ? nullptr
+    : other.make(choice, bodies)->Source;
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const PieceSource> MediumMaker::makeOf(
-  Source source, std::vector<Source> fields, vtkDataObject* bodies, double depth, Tally& tally)
+std::shared_ptr<const PieceSource> MediumMaker::makeOf(Source source, std::vector<Source> fields,
+  int flat, double depth, vtkDataObject* bodies, Tally& tally)
 {
-  const int flat = this->FlatAxis;
   const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat, depth);
   const auto outside = static_cast<Outside>(this->settings.Outside);
   std::optional<AmrLevels> levels = findLevels(source.leaves);
@@ -501,54 +320,40 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOfCells(
-  Source source, vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields)
+std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfCells(
+  const Choice& choice, vtkDataObject* bodies, bool withFields, std::string& warning)
 {
-  std::optional<Revolution> revolution;
-  if (this->settings.isAxisymmetric())
+  Source source = choice.source;
+  const int flat = choice.flatAxis;
+  const double depth = flat < 0 ? 0 : depthOf(source, flat);
+  const std::string ofShape = choice.revolution ? choice.revolution->note
+    : flat >= 0                                 ? warningOfExtrusion(source, flat)
+                                                : noteOnWedge(source);
+  std::vector<Source> fields;
+  if (withFields)
   {
-    revolution = revolutionOf(source);
+    fields = fieldSources(source.choice.settings, choice.input, source);
   }
-  this->FlatAxis = flatAxisOf(source);
-  const double depth = this->FlatAxis < 0 ? 0 : depthOf(source, this->FlatAxis);
-  this->Grid.clear();
-  const std::string ofShape = revolution ? revolution->note
-    : this->FlatAxis >= 0                ? warningOfExtrusion(source, this->FlatAxis)
-                                         : noteOnWedge(source);
-  Tally tally;
-  std::shared_ptr<const PieceSource> made;
-  const auto make = [&]
+  if (choice.revolution)
   {
-    if (auto* mean = std::get_if<FieldMean>(&source.model))
+    source = mirrored(source, *choice.revolution);
+    for (Source& field : fields)
     {
-      mean->findRanges(source.leaves);
+      field = mirrored(field, *choice.revolution);
     }
-    std::vector<Source> fields;
-    if (withFields)
-    {
-      fields = fieldSources(source.choice.settings, input, source);
-    }
-    if (revolution)
-    {
-      source = mirrored(source, *revolution);
-      for (Source& field : fields)
-      {
-        field = mirrored(field, *revolution);
-      }
-    }
-    this->progressOf(0, 1).reach(0.02);
-    made = this->makeOf(source, std::move(fields), bodies, depth, tally);
-  };
-  vtkSMPTools::LocalScope(loopsWith(this->threads()), make);
+  }
+  this->progressOf(0, 1).reach(0.02);
+  Tally tally;
+  const auto made = this->makeOf(source, std::move(fields), flat, depth, bodies, tally);
   if (!made->hasGas())
   {
     throw std::runtime_error(noGas(source.label));
   }
   warning = this->warningOf(source, tally, bodies && !made->meetsBodies());
   addText(warning, ofShape);
-  if (revolution)
+  if (choice.revolution)
   {
-    return std::make_shared<RevolvedSource>(made, *revolution);
+    return std::make_shared<RevolvedSource>(made, *choice.revolution);
   }
   return made;
 }

@@ -3,7 +3,6 @@
 #include "Sources/Revolution.h"
 
 #include "Input/FlatData.h"
-#include "Sources/SamplingGrid.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellData.h"
@@ -265,51 +264,6 @@ Revolution revolutionOf(const Source& source)
   }
   revolution.note = text.str();
   return revolution;
-}
-
-void boxOf(const Revolution& revolution, vtkImageData* structure)
-{
-  const schlieren::Box box = revolution.box();
-  structure->Initialize();
-  structure->SetDimensions(2, 2, 2);
-  structure->SetOrigin(box.low.data());
-  structure->SetSpacing(
-    box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
-}
-
-void gridOf(const Revolution& revolution, const Source& source, const int samplingDimensions[3],
-  const SamplingBox& box, vtkImageData* structure)
-{
-  std::array<int, 3> points = requireDimensions(samplingDimensions);
-  const schlieren::Box all = revolution.box();
-  const double bounds[6] = { all.low[0], all.high[0], all.low[1], all.high[1], all.low[2],
-    all.high[2] };
-  const std::array<double, 6> wanted = box.within(bounds);
-  double cells = 0;
-  for (const Leaf& leaf : source.leaves)
-  {
-    cells += static_cast<double>(leaf.data->GetNumberOfCells());
-  }
-  const double area = (revolution.high - revolution.low) * revolution.radius;
-  double edge = std::sqrt(area / std::max(1., cells)), volume = 1, spacing[3];
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    volume *= wanted[2 * axis + 1] - wanted[2 * axis];
-  }
-  edge = std::max(edge, std::cbrt(volume / maxVoxels));
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double length = wanted[2 * axis + 1] - wanted[2 * axis];
-    points[axis] = points[axis] > 0
-      ? points[axis]
-      : std::max(2, 1 + static_cast<int>(std::min(std::ceil(length / edge), 1e6)));
-    spacing[axis] = length / (points[axis] - 1);
-  }
-  requireFits(points);
-  structure->Initialize();
-  structure->SetDimensions(points.data());
-  structure->SetOrigin(wanted[0], wanted[2], wanted[4]);
-  structure->SetSpacing(spacing);
 }
 
 } // namespace filters

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Input/RefractivitySource.h"
-#include "Input/SamplingBox.h"
 
 #include "Schlieren.h"
 
@@ -30,11 +29,5 @@ struct Revolution
 
 /// Returns the chosen or best axis. Throws for data that are not flat or have no such axis.
 Revolution revolutionOf(const Source& source);
-
-/// Makes the bounds with two points along each axis, or with as many as the plane's cells suggest
-/// or as are given: see vtkRefractiveIndex::SetSamplingDimensions.
-void boxOf(const Revolution& revolution, vtkImageData* structure);
-void gridOf(const Revolution& revolution, const Source& source, const int samplingDimensions[3],
-  const SamplingBox& box, vtkImageData* structure);
 
 } // namespace filters

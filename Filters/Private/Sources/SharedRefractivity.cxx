@@ -41,6 +41,12 @@ MadeRefractivity::MadeRefractivity() = default;
 MadeRefractivity::~MadeRefractivity() = default;
 
 //------------------------------------------------------------------------------
+bool MadeRefractivity::IsThere() const
+{
+  return this->Source || this->Image->GetNumberOfPoints() > 0;
+}
+
+//------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& key)
 {
   const std::lock_guard<std::mutex> lock(entries().Mutex);

@@ -31,12 +31,15 @@ struct MadeRefractivity
   MadeRefractivity();
   ~MadeRefractivity();
 
+  /// Returns whether it has been made.
+  bool IsThere() const;
+
   vtkNew<vtkImageData> Image;
   std::shared_ptr<const schlieren::MediumSource> Source; ///< for meshes, instead of Image
   vtkMTimeType SourceTime = 0;
   std::shared_ptr<filters::KeptMesh> Mesh; ///< of Source
   std::string Grid;                        ///< about Image, as text
-  int FlatAxis = -1;                       ///< see MediumMaker::flatAxis()
+  int FlatAxis = -1;                       ///< see Choice
   std::string Warning;                     ///< for each filter that uses it
 };
 

@@ -26,7 +26,6 @@ vtkSmartPointer<Index> filterOf(int model)
   addPointArray(image, "Z", [](const Vec&) { return 0.5; });
   auto filter = vtkSmartPointer<Index>::New();
   filter->SetInputDataObject(image);
-  filter->DoublePrecisionOn();
   filter->SetIndexModel(model);
   filter->SetInputArrayToProcess(
     Index::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");

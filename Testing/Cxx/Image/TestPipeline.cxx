@@ -73,9 +73,13 @@ TEST(Pipeline, OutputIsAsDocumented)
   EXPECT_TRUE(vtkStringArray::SafeDownCast(field->GetAbstractArray("PathModel")));
 }
 
+// Of the data of the last image: what others are is known with them.
 TEST(Pipeline, InformationHasTheGeometryBeforehand)
 {
   auto filter = bench(columnImage(32), 20);
+  filter->Update();
+  filter->SetImageSize(30, 20);
+  filter->SetParallelScale(0.7);
   filter->UpdateInformation();
   vtkInformation* info = filter->GetOutputInformation(0);
   double origin[3], spacing[3];
@@ -143,50 +147,6 @@ TEST(Pipeline, OutputsAreNotTurnedWithTheInput)
     EXPECT_TRUE(std::equal(unturned, unturned + 9, output->GetDirectionMatrix()->GetData()))
       << port;
   }
-}
-
-TEST(Pipeline, AGridForAMeshIsChosenOnce)
-{
-  auto image = columnImage(12);
-  vtkNew<vtkPoints> points;
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    points->InsertNextPoint(image->GetPoint(i));
-  }
-  vtkNew<vtkStructuredGrid> mesh;
-  mesh->SetDimensions(12, 12, 12);
-  mesh->SetPoints(points);
-  mesh->GetPointData()->ShallowCopy(image->GetPointData());
-
-  auto filter = bench(mesh, 16);
-  vtkNew<vtkRefractiveIndex> refractivity;
-  refractivity->SetInputData(mesh);
-  refractivity->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-  refractivity->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  // The filter takes a mesh as it is, unless it is given a grid.
-  const auto expectPlans = [&](int count, int ofFilter)
-  {
-    for (vtkAlgorithm* algorithm :
-      { static_cast<vtkAlgorithm*>(filter), static_cast<vtkAlgorithm*>(refractivity) })
-    {
-      algorithm->UpdateInformation();
-      algorithm->Update();
-      algorithm->Update();
-    }
-    EXPECT_EQ(filter->GetGridPlans(), ofFilter);
-    EXPECT_EQ(refractivity->GetGridPlans(), count);
-  };
-  expectPlans(1, 0);
-  filter->SetKnifeEdgeAngle(30);
-  expectPlans(1, 0);
-  mesh->GetPointData()->GetArray("N")->Modified();
-  mesh->Modified();
-  expectPlans(2, 0);
-  filter->SetSamplingDimensions(20, 21, 22);
-  refractivity->SetSamplingDimensions(20, 21, 22);
-  expectPlans(3, 1);
-  EXPECT_EQ(refractivity->GetOutput()->GetDimensions()[1], 21);
 }
 
 TEST(Pipeline, NothingIsDoneTwice)
@@ -396,22 +356,22 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   std::ostringstream text;
   filter->Print(text);
   for (const char* name :
-    { "IndexModel", "GladstoneDaleConstant", "DensityScale", "SamplingDimensions", "SamplingBounds",
-      "Depth", "Symmetry", "SymmetryAxis", "SymmetryOrigin", "Outside", "Reconstruction",
-      "MediumTolerance", "MediumMemory", "LengthScale", "AutoAmbientRefractivity",
-      "AmbientRefractivity", "ViewDirection", "ViewUp", "FaceFlatData", "FocalPoint",
-      "ParallelScale", "ImageSize", "Wavelength", "Cutoff", "KnifeEdgeAngle", "CutoffOffset",
-      "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale", "KFromOptics", "FocalLength",
-      "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter", "ColorFilterImage",
-      "FringeMode", "FringeSpacing", "FringeAngle", "BeamAngle", "WhiteLight", "ScreenDistance",
-      "FocusOffset", "LightSource", "SourceDistance", "SourceShape", "LightModel", "Bandwidth",
-      "CoherenceSamples", "PhasePlateDiameter", "PhasePlateDelay", "PhasePlateTransmission",
-      "BackgroundPattern", "BackgroundDistance", "BackgroundPeriod", "BackgroundAngle",
-      "BackgroundImage", "FNumber", "LensFocalLength", "FocusDistance", "SensorWidth",
-      "LensDiffraction", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth", "FilmEstimator",
-      "NoiseFilter", "NoiseFilterRadius", "HistogramSize", "MemoryBudget", "Quality", "PathModel",
-      "StepSize", "HomogeneityTolerance", "SamplesPerPixel", "Precision", "TargetError",
-      "TargetNorm", "ErrorEstimate", "DataError", "Seed", "Device", "NumberOfThreads" })
+    { "IndexModel", "GladstoneDaleConstant", "DensityScale", "Depth", "Symmetry", "SymmetryAxis",
+      "SymmetryOrigin", "Outside", "Reconstruction", "MediumTolerance", "MediumMemory",
+      "LengthScale", "AutoAmbientRefractivity", "AmbientRefractivity", "ViewDirection", "ViewUp",
+      "FaceFlatData", "FocalPoint", "ParallelScale", "ImageSize", "Wavelength", "Cutoff",
+      "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale",
+      "KFromOptics", "FocalLength", "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter",
+      "ColorFilterImage", "FringeMode", "FringeSpacing", "FringeAngle", "BeamAngle", "WhiteLight",
+      "ScreenDistance", "FocusOffset", "LightSource", "SourceDistance", "SourceShape", "LightModel",
+      "Bandwidth", "CoherenceSamples", "PhasePlateDiameter", "PhasePlateDelay",
+      "PhasePlateTransmission", "BackgroundPattern", "BackgroundDistance", "BackgroundPeriod",
+      "BackgroundAngle", "BackgroundImage", "FNumber", "LensFocalLength", "FocusDistance",
+      "SensorWidth", "LensDiffraction", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth",
+      "FilmEstimator", "NoiseFilter", "NoiseFilterRadius", "HistogramSize", "MemoryBudget",
+      "Quality", "PathModel", "StepSize", "HomogeneityTolerance", "SamplesPerPixel", "Precision",
+      "TargetError", "TargetNorm", "ErrorEstimate", "DataError", "Seed", "Device",
+      "NumberOfThreads" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }

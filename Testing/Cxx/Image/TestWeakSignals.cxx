@@ -92,12 +92,9 @@ TEST(WeakSignals, AreRightOnGrids)
   EXPECT_LT(errorOf(filter, 1), 1e-3);
 }
 
-TEST(WeakSignals, AreRightInABoxAndWhereTheSurroundingsAreGiven)
+TEST(WeakSignals, AreRightWhereTheSurroundingsAreGiven)
 {
   auto filter = benchOfSound(soundOnPoints());
-  filter->SetSamplingBounds(0, 0.9 * length, 0, 0.02, 0, depth);
-  EXPECT_LT(errorOf(filter), 1e-3);
-  filter = benchOfSound(soundOnPoints());
   filter->SetAutoAmbientRefractivity(false);
   filter->SetAmbientRefractivity(gladstoneDale * atRest);
   EXPECT_LT(errorOf(filter), 1e-3);
@@ -118,19 +115,15 @@ TEST(WeakSignals, AreRightOfARefractivityThatWasMadeBefore)
   before->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
   before->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  before->SetDoublePrecision(true);
   before->Update();
   auto filter = benchOfSound(before->GetOutputDataObject(0));
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Refractivity");
   EXPECT_LT(errorOf(filter), 1e-3);
-  // What the filter gives itself is N.
-  before->SetDoublePrecision(false);
-  before->Update();
   EXPECT_NEAR(arrayOf(before, "Refractivity")->GetComponent(0, 0), gladstoneDale * atRest, 1e-11);
 }
 
-TEST(WeakSignals, AreRightWithBodiesAndOfResampledMeshes)
+TEST(WeakSignals, AreRightWithBodiesAndOfMeshes)
 {
   auto filter = benchOfSound(soundOnPoints());
   filter->SetInputDataObject(
@@ -142,8 +135,8 @@ TEST(WeakSignals, AreRightWithBodiesAndOfResampledMeshes)
   append->AddInputData(soundOnPoints());
   append->Update();
   filter = benchOfSound(append->GetOutput());
-  filter->SetSamplingDimensions(321, 5, 5);
-  EXPECT_LT(errorOf(filter), 1e-3);
+  filter->SetMediumTolerance(1e-4);
+  EXPECT_LT(errorOf(filter), 1e-2); // of the cells' gradients, with four cells across
 }
 
 TEST(WeakSignals, AreRightOnLevels)
@@ -167,18 +160,11 @@ TEST(WeakSignals, AreRightOnLevels)
       0, number, vtkAMRBox(block->GetOrigin(), block->GetDimensions(), spacing, origin));
     amr->SetDataSet(0, number, block);
   }
-  for (const int given : { 0, 1 })
-  {
-    auto filter = benchOfSound(amr);
-    filter->SetInputArrayToProcess(
-      vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
-    filter->SetMediumTolerance(1e-4);
-    if (given)
-    {
-      filter->SetSamplingDimensions(320, 4, 4);
-    }
-    EXPECT_LT(errorOf(filter, given ? 0.75 * depth : depth), 2e-3) << given;
-  }
+  auto filter = benchOfSound(amr);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
+  filter->SetMediumTolerance(1e-4);
+  EXPECT_LT(errorOf(filter), 2e-3);
 }
 
 } // namespace

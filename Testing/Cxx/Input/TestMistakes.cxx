@@ -240,12 +240,6 @@ std::vector<Mistake> mistakes()
       { "BeamAngle is -3 degrees", "FringeSpacing" }, [](Filter* f) { f->SetBeamAngle(3); } },
     { "NanAmbient", [](Filter* f) { f->SetAmbientRefractivity(nan); }, { "ambient" },
       [](Filter* f) { f->SetAmbientRefractivity(0); } },
-    { "NanBounds", [](Filter* f) { f->SetSamplingBounds(nan, 1, 0, 1, 0, 1); },
-      { "SamplingBounds", "finite" }, [](Filter* f) { f->SetSamplingBounds(0, 0, 0, 0, 0, 0); } },
-    { "EndlessBounds",
-      [](Filter* f)
-      { f->SetSamplingBounds(0, 1, 0, 1, 0, std::numeric_limits<double>::infinity()); },
-      { "SamplingBounds", "finite" }, [](Filter* f) { f->SetSamplingBounds(0, 0, 0, 0, 0, 0); } },
     { "NoLength", [](Filter* f) { f->SetLengthScale(0); }, { "LengthScale" },
       [](Filter* f) { f->SetLengthScale(1); } },
   };

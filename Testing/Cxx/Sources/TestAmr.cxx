@@ -122,11 +122,10 @@ TEST(Amr, DeepLevelsHaveTheValuesOfTheBall)
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
   const auto amr = deepBall(ball);
-  ASSERT_TRUE(filter->GetMaker().canMakeSource(amr, nullptr, false));
-  std::string warning;
-  const auto source = filter->GetMaker().makeSource(amr, nullptr, warning);
+  const auto made = filter->GetMaker().make(filter->GetMaker().choose(amr), nullptr);
+  const auto source = made->Source;
   ASSERT_TRUE(source);
-  EXPECT_EQ(warning, "");
+  EXPECT_EQ(made->Warning, "");
   EXPECT_LT(std::abs(source->ambient()), 1e-12);
   const double finest = 2. / 32 / 16;
   // In the finest level, over its border at 0.0625, and with voxels that are coarser than cells.
@@ -170,8 +169,7 @@ TEST(Amr, ShocksDoNotOvershoot)
   filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
-  std::string warning;
-  const auto source = filter->GetMaker().makeSource(amr, nullptr, warning);
+  const auto source = filter->GetMaker().make(filter->GetMaker().choose(amr), nullptr)->Source;
   const schlieren::Lattice lattice{ { -0.4, -0.4, -0.4 }, { 0.013, 0.013, 0.013 }, { 61, 61, 61 } };
   std::vector<double> values(static_cast<std::size_t>(lattice.size()));
   std::vector<schlieren::Place> places(values.size());
@@ -209,60 +207,6 @@ TEST(Amr, BodiesInDeepLevelsCastSharpShadows)
   const double pixel = 0.2 / 200;
   const double area = std::accumulate(blocked.begin(), blocked.end(), 0.) * pixel * pixel;
   EXPECT_NEAR(area / (pi * 0.05 * 0.05), 1, 0.01);
-}
-
-TEST(Amr, GridIsThatOfTheFinestLevel)
-{
-  vtkNew<vtkRefractiveIndex> filter;
-  filter->SetInputDataObject(ballOnLevels(8, { { 0, 8, true }, { 4, 8, true } }));
-  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-  filter->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
-  for (const int points : { 16, 40, 5 })
-  {
-    if (points != 16)
-    {
-      filter->SetSamplingDimensions(points, points, points);
-    }
-    filter->Update();
-    auto* grid = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
-    EXPECT_EQ(grid->GetDimensions()[0], points);
-    EXPECT_NEAR(grid->GetOrigin()[1], -1 + 1. / points, 1e-12);
-    EXPECT_NEAR(grid->GetSpacing()[2], 2. / points, 1e-12);
-  }
-}
-
-TEST(Amr, GridOfABoxIsThatOfItsCells)
-{
-  vtkNew<vtkRefractiveIndex> filter;
-  filter->SetInputDataObject(ballOnLevels(8, { { 0, 8, true }, { 4, 8, true } }));
-  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-  filter->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
-  filter->Update();
-  vtkNew<vtkImageData> whole;
-  whole->DeepCopy(filter->GetOutputDataObject(0));
-
-  filter->SetSamplingBounds(-0.2, 0.3, 0, 0, 0.5, 2); // cells of 1/8 cover it
-  filter->Update();
-  auto* part = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
-  EXPECT_EQ(part->GetDimensions()[0], 5);
-  EXPECT_EQ(part->GetDimensions()[1], 16);
-  EXPECT_EQ(part->GetDimensions()[2], 4);
-  for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)
-  {
-    const vtkIdType same = whole->FindPoint(part->GetPoint(i));
-    ASSERT_GE(same, 0);
-    EXPECT_EQ(part->GetPointData()->GetScalars()->GetComponent(i, 0),
-      whole->GetPointData()->GetScalars()->GetComponent(same, 0));
-  }
-
-  filter->SetSamplingDimensions(20, 16, 8);
-  filter->Update();
-  const double* bounds = part->GetBounds();
-  EXPECT_NEAR(bounds[0], -0.25 + 0.5 * 0.625 / 20, 1e-12);
-  EXPECT_NEAR(bounds[1], 0.375 - 0.5 * 0.625 / 20, 1e-12);
-  EXPECT_NEAR(bounds[5], 1 - 0.5 * 0.5 / 8, 1e-12);
 }
 
 TEST(Amr, BlocksOfOneLevelMatchTheClosedForm)

@@ -3,7 +3,6 @@
 //
 // Two-dimensional data are extruded across their plane, by Depth.
 #include "Fixtures.h"
-#include "Sources/MediumMaker.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkDataSetTriangleFilter.h"
@@ -125,15 +124,6 @@ TEST(Flat, ImageIsAColumnFromTheSide)
   filter->Update();
   EXPECT_LT(compareWithColumn(filter, GaussianColumn(), { 0, 0, 1 }).deflection, 1e-3);
   EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
-  vtkNew<vtkImageData> grid;
-  vtkNew<vtkRefractiveIndex> medium;
-  medium->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-  medium->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  medium->SetDepth(1);
-  medium->GetMaker().computeGrid(filter->GetInputDataObject(0, 0), grid);
-  EXPECT_EQ(grid->GetBounds()[2], height - 0.5);
-  EXPECT_EQ(grid->GetBounds()[3], height + 0.5);
 }
 
 TEST(Flat, MeshesAreAsDeepAsGiven)

@@ -417,14 +417,6 @@ TEST(FlatFlows, BodiesAreCutByThePlane)
   }
 }
 
-TEST(FlatFlows, SamplingDimensionsMakeAGrid)
-{
-  auto filter = flatBench(cylinderMesh({ 2 }), 32);
-  filter->SetSamplingDimensions(65, 65, 2);
-  filter->Update();
-  EXPECT_EQ(gridOf(filter).find("65 x 65 x 2 points"), 0u) << gridOf(filter);
-}
-
 TEST(FlatFlows, MaskedCellsAreBodies)
 {
   const Plane plane{ 0 };

@@ -124,14 +124,14 @@ vtkSmartPointer<vtkRefractiveIndex> reader()
   filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  filter->SetNumberOfThreads(2);
   return filter;
 }
 
 Source sourceOf(vtkRefractiveIndex* filter, vtkDataObject* input, vtkDataObject* bodies = nullptr)
 {
-  std::string warning;
-  return filter->GetMaker().makeSource(input, bodies, warning);
+  filters::MediumMaker& maker = filter->GetMaker();
+  maker.numberOfThreads = 2;
+  return maker.make(maker.choose(input), bodies)->Source;
 }
 
 /// The source of prepared meshes.

@@ -345,8 +345,6 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
         f->AddFieldRange(3);
       } },
     { "RefractivityScale", fields, [](F* f) { f->SetRefractivityScale(1e-4); } },
-    { "SamplingDimensions", nullptr, [](F* f) { f->SetSamplingDimensions(9, 9, 9); } },
-    { "SamplingBounds", nullptr, [](F* f) { f->SetSamplingBounds(-0.5, 1, -1, 1, -1, 1); } },
     { "Mask", nullptr, [](F* f) { array(f, R::MASK, "mask"); } },
     { "MaskThreshold", [](F* f) { array(f, R::MASK, "mask"); },
       [](F* f) { f->SetMaskThreshold(0.1); } },

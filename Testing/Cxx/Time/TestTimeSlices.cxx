@@ -349,7 +349,7 @@ TEST(TimeSlices, RefineLeavesTheMediumToUpdates)
         data->GetPointData()->GetArray("N")->SetComponent(2345, 0, 3e-4);
         data->GetPointData()->GetArray("N")->Modified();
       } },
-    { "model", [](vtkSchlierenFilter* filter) { filter->SetSamplingDimensions(9, 9, 9); } },
+    { "model", [](vtkSchlierenFilter* filter) { filter->SetGladstoneDaleConstant(1); } },
     { "a field that tints", [](vtkSchlierenFilter* filter) { filter->ColorByFieldOn(); } }
   };
   for (const auto& [what, change] : changes)

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Bodies that are given as surfaces.
+#include "Sources/MediumMaker.h"
 #include "Surfaces.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
-#include "vtkCylinderSource.h"
 #include "vtkLineSource.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiBlockDataSet.h"
@@ -17,7 +17,6 @@
 #include "vtkThreshold.h"
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
-#include "vtkTriangleFilter.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <array>
@@ -93,22 +92,31 @@ Shadow shadowOf(vtkSchlierenFilter* filter)
   return shadow;
 }
 
-/// The masked points of the grid that vtkRefractiveIndex makes.
-std::vector<bool> solidsOf(vtkDataObject* flow, vtkDataObject* bodies)
+/// The points of an image where the medium has no gas.
+std::vector<bool> solidsOf(vtkImageData* flow, vtkDataObject* bodies)
 {
-  vtkNew<vtkRefractiveIndex> filter;
-  filter->SetInputDataObject(flow);
-  filter->SetInputDataObject(vtkRefractiveIndex::BODIES, bodies);
-  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-  filter->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  filter->Update();
-  std::vector<bool> solids;
-  const std::vector<double> n = valuesOf(filter, "Refractivity");
-  for (const double valid : valuesOf(filter, "vtkValidPointMask"))
+  filters::MediumMaker maker;
+  maker.settings.IndexModel = MediumSettings::Refractivity;
+  maker.settings.Arrays[MediumSettings::IndexArray].name = "N";
+  const auto source = maker.make(maker.choose(flow), bodies)->Source;
+  schlieren::Lattice lattice;
+  const std::array<double, 9> direction = source->direction();
+  const double* first = flow->GetPoint(0);
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    EXPECT_EQ(n[solids.size()] == 0, valid == 0);
-    solids.push_back(valid == 0);
+    lattice.points[axis] = flow->GetDimensions()[axis];
+    lattice.spacing[axis] = flow->GetSpacing()[axis];
+    lattice.first[axis] =
+      direction[axis] * first[0] + direction[3 + axis] * first[1] + direction[6 + axis] * first[2];
+  }
+  const auto size = static_cast<std::size_t>(lattice.size());
+  std::vector<double> n(size);
+  std::vector<schlieren::Place> places(size);
+  source->sample(lattice, n.data(), places.data(), nullptr);
+  std::vector<bool> solids;
+  for (const schlieren::Place place : places)
+  {
+    solids.push_back(place == schlieren::Place::Wall);
   }
   return solids;
 }
@@ -197,51 +205,6 @@ TEST(Bodies, BodiesMayOverlapNestAndReachOut)
   }
   EXPECT_EQ(solidsOf(uniform(), together(parts)), any);
   EXPECT_EQ(solidsOf(uniform(), blocks), any);
-}
-
-// Corners on the grid: points in the body and on it.
-TEST(Bodies, ABoxOnTheGridKeepsItsVolume)
-{
-  const std::vector<bool> solids = solidsOf(uniform(33), box({ 0.5, 0.25, 1 }));
-  EXPECT_EQ(std::count(solids.begin(), solids.end(), true), 9 * 5 * 17);
-}
-
-// Walls through points of the grid, but for rounding, are even.
-TEST(Bodies, WallsOnTheGridHaveNoHolesAndNoBumps)
-{
-  vtkNew<vtkCylinderSource> cylinder; // along y
-  cylinder->SetRadius(0.51);
-  cylinder->SetHeight(0.5);
-  cylinder->SetResolution(100);
-  vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputConnection(cylinder->GetOutputPort());
-  triangles->Update();
-  vtkPoints* points = triangles->GetOutput()->GetPoints();
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> rounding(-1e-7, 1e-7);
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    const double* x = points->GetPoint(i);
-    points->SetPoint(i, x[0], x[1] + rounding(random), x[2]);
-  }
-  const auto flow = uniform(33);
-  const std::vector<bool> solids = solidsOf(flow, triangles->GetOutput());
-  std::array<int, 33> layers{};
-  int wholeLayer = 0;
-  for (std::size_t i = 0; i < solids.size(); ++i)
-  {
-    const double* x = flow->GetPoint(static_cast<vtkIdType>(i));
-    const bool isFarFromEdges = std::hypot(x[0], x[2]) < 0.4;
-    layers[i / 33 % 33] += isFarFromEdges && solids[i] ? 1 : 0;
-    wholeLayer += isFarFromEdges && x[1] == 0 ? 1 : 0;
-  }
-  int solidLayers = 0;
-  for (const int count : layers)
-  {
-    solidLayers += count > 0 ? 1 : 0;
-    EXPECT_TRUE(count == 0 || count == wholeLayer) << count;
-  }
-  EXPECT_EQ(solidLayers, 9);
 }
 
 namespace
@@ -541,14 +504,6 @@ TEST(Bodies, AMistakeIsSaidOnce)
     expectOneMessage(
       filter.Get(), [&](vtkSchlierenFilter* f) { f->SetInputDataObject(1, wrong); },
       { word, "odies" }, [](vtkSchlierenFilter* f) { f->SetInputDataObject(1, sphere(0.4)); });
-    vtkNew<vtkRefractiveIndex> index;
-    index->SetInputDataObject(filter->GetInputDataObject(0, 0));
-    index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-    index->SetInputArrayToProcess(
-      vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-    expectOneMessage(
-      index.Get(), [&](vtkRefractiveIndex* f) { f->SetInputDataObject(1, wrong); },
-      { word, "odies" }, [](vtkRefractiveIndex* f) { f->SetInputDataObject(1, sphere(0.4)); });
   }
 }
 
@@ -562,30 +517,16 @@ TEST(Bodies, OutsideOfTheDataIsWarnedOf)
     EXPECT_FALSE(isEmpty(filter));
     ASSERT_EQ(complaints->Warnings.size(), 1u);
     EXPECT_NE(complaints->Warnings[0].find("outside the data"), std::string::npos);
-    vtkNew<vtkRefractiveIndex> index; // on a grid
-    index->SetInputDataObject(filter->GetInputDataObject(0, 0));
-    index->SetInputDataObject(1, filter->GetInputDataObject(1, 0));
-    index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-    index->SetInputArrayToProcess(
-      vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-    auto ofIndex = vtkSmartPointer<Complaints>::Take(new Complaints(index));
-    index->Update();
-    ASSERT_EQ(ofIndex->Warnings.size(), 1u);
-    EXPECT_NE(ofIndex->Warnings[0].find("outside the data"), std::string::npos);
   }
 }
 
 TEST(Bodies, ThoseMuchLargerThanTheDataAreAMistake)
 {
-  vtkNew<vtkRefractiveIndex> index;
-  index->SetInputDataObject(uniform(11));
-  index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-  index->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  auto filter = benchWith(uniform(11), nullptr, 16);
   expectOneMessage(
-    index.Get(), [](vtkRefractiveIndex* f) { f->SetInputDataObject(1, sphere(1e30)); },
+    filter.Get(), [](vtkSchlierenFilter* f) { f->SetInputDataObject(1, sphere(1e30)); },
     { "Bodies", "unit of length" },
-    [](vtkRefractiveIndex* f) { f->SetInputDataObject(1, sphere(0.4)); });
+    [](vtkSchlierenFilter* f) { f->SetInputDataObject(1, sphere(0.4)); });
 }
 
 // Faces twice, faces of no area, three faces at an edge, random triangles: no crash, and light is blocked.

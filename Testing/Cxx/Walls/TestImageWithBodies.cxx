@@ -283,25 +283,3 @@ TEST(ImageWithBodies, FieldsTintAsInTheGrid)
     EXPECT_LT(std::sqrt(square / static_cast<double>(grid.size())), limit);
   }
 }
-
-// Bodies have their own silhouettes there, too.
-TEST(ImageWithBodies, OfGridsThatAreGiven)
-{
-  const auto body = sphere(0.2, { 0.3, 0.1, 0.2 });
-  auto filter = benchWith(ballImage(), body);
-  const double bounds[6] = { -0.8, 0.8, -0.8, 0.8, -0.8, 0.8 };
-  const auto grid = [&]
-  {
-    filter->Update();
-    return filter->GetOutput()
-      ->GetFieldData()
-      ->GetAbstractArray("Grid")
-      ->GetVariantValue(0)
-      .ToString();
-  };
-  EXPECT_NE(grid().find("bricks"), std::string::npos) << grid();
-  filter->SetSamplingBounds(bounds);
-  EXPECT_NE(grid().find("bricks"), std::string::npos) << grid();
-  filter->SetInputDataObject(vtkRefractiveIndex::BODIES, nullptr);
-  EXPECT_EQ(grid().find("bricks"), std::string::npos) << grid();
-}

@@ -182,7 +182,7 @@ TEST(Solids, LightThatDoesNotComeOutIsSaid)
   EXPECT_EQ(complaints->Warnings.size(), 1u);
 }
 
-// Resampled: blanked cells of a curvilinear grid, and a ball that an unstructured grid leaves out.
+// Blanked cells of a curvilinear grid, and a ball that an unstructured grid leaves out.
 TEST(Solids, HiddenCellsOfAStructuredGridBlockLight)
 {
   vtkNew<vtkImageDataToPointSet> convert;
@@ -193,7 +193,6 @@ TEST(Solids, HiddenCellsOfAStructuredGridBlockLight)
   addPointArray(grid, "N", gas);
   blankCellsInBall(grid.Get());
   auto filter = bench(grid, 40);
-  filter->SetSamplingDimensions(61, 61, 61);
   expectBallInUniformGas(filter, 2 * 0.05);
 }
 
@@ -205,7 +204,6 @@ TEST(Solids, CellValuesThatAreNanBlockLight)
   append->SetInputData(image);
   append->Update();
   auto filter = bench(append->GetOutput(), 40);
-  filter->SetSamplingDimensions(61, 61, 61);
   expectBallInUniformGas(filter, 2 * 0.05);
 }
 
@@ -251,54 +249,12 @@ TEST(Solids, OutsideOfTheMeshMayLetLightPass)
   for (vtkUnstructuredGrid* mesh : { hidden.Get(), nan.Get(), nanCells.Get() })
   {
     auto filter = bench(mesh, 40);
-    filter->SetSamplingDimensions(61, 61, 61);
     filter->SetOutsideBlocksLight(false);
     expectBallInUniformGas(filter, 2 * 0.05);
     filter->SetOutsideBlocksLight(true);
     filter->Update();
     EXPECT_EQ(arrayOf(filter, "BlockedFraction")->GetComponent(0, 0), 1);
   }
-}
-
-// The option of RefractiveIndex, whose output is the input of Schlieren, whose own option is left alone.
-TEST(Solids, WhatIsOutsideIsHandedOn)
-{
-  auto direct = bench(shell(), 40);
-  direct->SetOutsideBlocksLight(false);
-  direct->SetSamplingDimensions(61, 61, 61);
-  direct->SetViewDirection(0.3, 0.4, -1);
-  direct->Update();
-  vtkNew<vtkRefractiveIndex> index;
-  index->SetInputDataObject(direct->GetInputDataObject(0, 0));
-  index->SetSamplingDimensions(61, 61, 61);
-  index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-  index->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  index->SetOutside(vtkRefractiveIndex::OUTSIDE_BLOCKS);
-  index->Update();
-  EXPECT_EQ(arrayOf(index, "TransparentPointMask"), nullptr);
-  index->OutsideBlocksLightOff();
-  index->Update();
-  const std::vector<double> outside = valuesOf(index, "TransparentPointMask");
-  const std::vector<double> valid = valuesOf(index, "vtkValidPointMask");
-  auto* grid = vtkImageData::SafeDownCast(index->GetOutputDataObject(0));
-  for (std::size_t i = 0; i < outside.size(); ++i)
-  {
-    Vec x;
-    grid->GetPoint(static_cast<vtkIdType>(i), x.data());
-    const double r = std::sqrt(dot(x, x));
-    EXPECT_TRUE(valid[i] == 0 || outside[i] == 0);
-    EXPECT_TRUE(r > 0.8 || outside[i] == 0) << r;
-    EXPECT_TRUE(r < 1 || outside[i] == 1) << r;
-  }
-  auto chained = bench(nullptr, 40);
-  chained->SetInputConnection(index->GetOutputPort());
-  chained->SetViewDirection(0.3, 0.4, -1);
-  chained->Update();
-  // Of the former's output, the digits of single precision.
-  EXPECT_LT(
-    relativeDifference(valuesOf(chained, "Intensity"), valuesOf(direct, "Intensity")), 1e-4);
-  EXPECT_EQ(valuesOf(chained, "BlockedFraction"), valuesOf(direct, "BlockedFraction"));
 }
 
 // Blocks of images that leave a corner of their box out; hidden cells block light all the same.

@@ -1,68 +1,74 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a mesh becomes on a grid. Isoparametric cells interpolate linear fields exactly, however their points
+// What a mesh has on a lattice. Isoparametric cells interpolate linear fields exactly, however their points
 // are moved: that is the truth here.
 #include "CellMeshes.h"
 #include "Sources/MediumMaker.h"
-#include "WatchedProgress.h"
+#include "Walls/GasBoundary.h"
 
 #include "vtkDataSetTriangleFilter.h"
 
 namespace
 {
 
-vtkSmartPointer<vtkRefractiveIndex> reader(int n = 21, int threads = 2)
-{
-  auto filter = vtkSmartPointer<vtkRefractiveIndex>::New();
-  filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-  filter->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  filter->SetSamplingDimensions(n, n, n);
-  filter->SetDoublePrecision(true);
-  filter->SetNumberOfThreads(threads);
-  return filter;
-}
-
+/// What the source of a mesh has on a lattice over all of it.
 struct Sampled
 {
-  std::vector<double> values, valid;
-  vtkSmartPointer<vtkImageData> image = vtkSmartPointer<vtkImageData>::New();
+  std::vector<Vec> points;
+  std::vector<double> values;
+  std::vector<schlieren::Place> places;
 };
 
-Sampled sampled(vtkRefractiveIndex* filter, vtkDataObject* mesh)
+/// `n`: points along each axis; of data in a plane z, which are the same along it, one.
+Sampled sampled(vtkDataObject* mesh, int n = 21, int threads = 2)
 {
-  Sampled result;
-  filter->GetMaker().convert(mesh, result.image, nullptr, filters::Numbers::Singles);
-  for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
+  filters::MediumMaker maker;
+  maker.settings.IndexModel = MediumSettings::Refractivity;
+  maker.settings.Arrays[MediumSettings::IndexArray].name = "N";
+  maker.settings.Outside = static_cast<int>(filters::Outside::Passes);
+  maker.numberOfThreads = threads;
+  const auto source = maker.make(maker.choose(mesh), nullptr)->Source;
+  const schlieren::Box box = source->bounds();
+  schlieren::Lattice lattice;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    vtkPointData* arrays = result.image->GetPointData();
-    result.values.push_back(arrays->GetArray("Refractivity")->GetComponent(i, 0));
-    result.valid.push_back(arrays->GetArray("vtkValidPointMask")->GetComponent(i, 0));
+    const bool isAcross = source->isFlat() && axis == 2;
+    const double length = box.high[axis] - box.low[axis];
+    lattice.points[axis] = isAcross ? 1 : n;
+    lattice.first[axis] = box.low[axis] + (isAcross ? length / 2 : 0);
+    lattice.spacing[axis] = length / (n - 1);
+  }
+  Sampled result;
+  const auto size = static_cast<std::size_t>(lattice.size());
+  result.values.resize(size);
+  result.places.resize(size);
+  source->sample(lattice, result.values.data(), result.places.data(), nullptr);
+  for (int k = 0; k < lattice.points[2]; ++k)
+  {
+    for (int j = 0; j < lattice.points[1]; ++j)
+    {
+      for (int i = 0; i < lattice.points[0]; ++i)
+      {
+        result.points.push_back({ lattice.first[0] + i * lattice.spacing[0],
+          lattice.first[1] + j * lattice.spacing[1], lattice.first[2] + k * lattice.spacing[2] });
+      }
+    }
   }
   return result;
 }
 
 /// The largest error where a linear field is sampled in all of its box, relative to the largest value.
-double errorOf(const Sampled& result)
+double errorOf(const Sampled& result, bool isFlat)
 {
   double error = 0;
-  int holes = 0;
-  for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
+  for (std::size_t i = 0; i < result.points.size(); ++i)
   {
-    Vec x;
-    result.image->GetPoint(i, x.data());
-    const auto at = static_cast<std::size_t>(i);
-    if (result.valid[at] == 0)
-    {
-      ++holes;
-    }
-    else
-    {
-      error = std::max(error, std::abs(result.values[at] - linear(x)));
-    }
+    Vec x = result.points[i];
+    x[2] = isFlat ? 0 : x[2];
+    EXPECT_EQ(result.places[i], schlieren::Place::Gas);
+    error = std::max(error, std::abs(result.values[i] - linear(x)));
   }
-  EXPECT_EQ(holes, 0);
   return error / 3.25e-4;
 }
 
@@ -81,7 +87,7 @@ class MeshCells : public testing::TestWithParam<Kind>
 
 } // namespace
 
-// Straight and moved; on a grid that has points on faces, edges and corners of the straight cells.
+// Straight and moved; on a lattice that has points on faces, edges and corners of the straight cells.
 TEST_P(MeshCells, InterpolateLinearFieldsExactlyAndLeaveNoHoles)
 {
   const Kind& kind = GetParam();
@@ -89,26 +95,7 @@ TEST_P(MeshCells, InterpolateLinearFieldsExactlyAndLeaveNoHoles)
   {
     const auto cells = cut(unitCell(kind.type, kind.count), *kind.frames);
     const Mesh mesh = meshOf(kind.type, 2, cells, by, kind.isFlat);
-    if (kind.isFlat)
-    {
-      auto filter = reader();
-      filter->SetSamplingDimensions(21, 21, 0);
-      const Sampled result = sampled(filter, mesh);
-      double error = 0;
-      for (vtkIdType i = 0; i < result.image->GetNumberOfPoints(); ++i)
-      {
-        Vec x;
-        result.image->GetPoint(i, x.data());
-        x[2] = 0;
-        ASSERT_EQ(result.valid[static_cast<std::size_t>(i)], 1);
-        error = std::max(error, std::abs(result.values[static_cast<std::size_t>(i)] - linear(x)));
-      }
-      EXPECT_LT(error, 1e-7 * 3e-4) << by;
-    }
-    else
-    {
-      EXPECT_LT(errorOf(sampled(reader(), mesh)), 1e-7) << by;
-    }
+    EXPECT_LT(errorOf(sampled(mesh), kind.isFlat), 1e-7) << by;
   }
 }
 
@@ -158,20 +145,20 @@ Mesh tetrahedra(int n = 20, double by = 0)
 
 } // namespace
 
-// Most points of the grid are shared by several cells, of which any other would give another value.
-TEST(GridOfMesh, AnyNumberOfThreadsGivesTheSameValues)
+// Most points of the lattice are shared by several cells, of which any other would give another value.
+TEST(SampledMesh, AnyNumberOfThreadsGivesTheSameValues)
 {
   const Mesh mesh = tetrahedra(20, 0.1);
-  const Sampled one = sampled(reader(21, 1), mesh);
+  const Sampled one = sampled(mesh, 21, 1);
   for (const int threads : { 2, 7 })
   {
-    const Sampled more = sampled(reader(21, threads), mesh);
+    const Sampled more = sampled(mesh, 21, threads);
     EXPECT_EQ(more.values, one.values) << threads;
-    EXPECT_EQ(more.valid, one.valid) << threads;
+    EXPECT_EQ(more.places, one.places) << threads;
   }
 }
 
-TEST(GridOfMesh, HiddenCellsAreABody)
+TEST(SampledMesh, HiddenCellsAreABody)
 {
   const Mesh mesh = tetrahedra();
   vtkNew<vtkUnsignedCharArray> ghosts;
@@ -185,40 +172,25 @@ TEST(GridOfMesh, HiddenCellsAreABody)
     ghosts->SetValue(i, isCut ? vtkDataSetAttributes::HIDDENCELL : 0);
   }
   mesh->GetCellData()->AddArray(ghosts);
-  auto filter = reader(31);
-  filter->SetOutsideBlocksLight(false);
-  const Sampled result = sampled(filter, mesh);
-  EXPECT_FALSE(result.image->GetPointData()->HasArray("TransparentPointMask"));
-  EXPECT_GT(std::count(result.valid.begin(), result.valid.end(), 0.), 10 * 10 * 31);
+  const Sampled result = sampled(mesh, 31);
+  const auto count = [&](schlieren::Place place)
+  { return std::count(result.places.begin(), result.places.end(), place); };
+  EXPECT_EQ(count(schlieren::Place::Window), 0);
+  EXPECT_GT(count(schlieren::Place::Wall), 10 * 10 * 31);
 }
 
 // The medium and all of the fields that tint it.
-TEST(GridOfMesh, TintsReadTheMeshOnce)
+TEST(SampledMesh, TintsReadTheMeshOnce)
 {
   const Mesh mesh = tetrahedra();
+  addPointArray(mesh, "N", [](const Vec& x) { return 1e-4 * x[0] * x[1]; });
   addPointArray(mesh, "A", [](const Vec& x) { return x[0]; });
   addPointArray(mesh, "B", [](const Vec& x) { return x[1]; });
   auto filter = bench(mesh);
   filter->AddField("A");
   filter->AddField("B");
-  filter->SetSamplingDimensions(21, 21, 21);
   filter->SetColorByField(true);
   filter->Update();
   EXPECT_FALSE(isEmpty(filter));
   EXPECT_EQ(filter->GetMeshBuilds(), 1);
-}
-
-TEST(GridOfMesh, StopsAndStartsAnew)
-{
-  auto filter = reader(64, 1);
-  const Mesh mesh = tetrahedra();
-  filter->SetInputData(mesh);
-  {
-    const WatchedProgress watch(filter, 0.3);
-    filter->Update();
-    EXPECT_TRUE(isEmpty(filter));
-  }
-  filter->Modified();
-  filter->Update();
-  EXPECT_FALSE(isEmpty(filter));
 }

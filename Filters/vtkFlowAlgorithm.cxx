@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkFlowAlgorithm.h"
+
+#include "Gas/GasChoices.h"
+#include "Settings/SelectionFromInformation.h"
+#include "Sources/MediumMaker.h"
+#include "Walls/GasBoundary.h"
+#include "vtkGasTable.h"
+
+#include "vtkInformation.h"
+#include "vtkPiecewiseFunction.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <sstream>
+#include <string>
+
+using namespace filters;
+
+static_assert(vtkFlowAlgorithm::AUTO == static_cast<int>(MediumSettings::Auto) &&
+  vtkFlowAlgorithm::GLADSTONE_DALE == static_cast<int>(MediumSettings::GladstoneDale) &&
+  vtkFlowAlgorithm::REFRACTIVE_INDEX == static_cast<int>(MediumSettings::RefractiveIndex) &&
+  vtkFlowAlgorithm::REFRACTIVITY == static_cast<int>(MediumSettings::Refractivity) &&
+  vtkFlowAlgorithm::GLADSTONE_DALE_MIXTURE == static_cast<int>(MediumSettings::Mixture) &&
+  vtkFlowAlgorithm::CIDDOR == static_cast<int>(MediumSettings::Ciddor) &&
+  vtkFlowAlgorithm::TRANSFER_FUNCTIONS == static_cast<int>(MediumSettings::Curves));
+static_assert(vtkFlowAlgorithm::DENSITY == static_cast<int>(MediumSettings::DensityArray) &&
+  vtkFlowAlgorithm::INDEX_ARRAY == static_cast<int>(MediumSettings::IndexArray) &&
+  vtkFlowAlgorithm::TEMPERATURE == static_cast<int>(MediumSettings::TemperatureArray) &&
+  vtkFlowAlgorithm::PRESSURE == static_cast<int>(MediumSettings::PressureArray) &&
+  vtkFlowAlgorithm::HUMIDITY == static_cast<int>(MediumSettings::HumidityArray) &&
+  vtkFlowAlgorithm::MASK == static_cast<int>(MediumSettings::MaskArray));
+static_assert(vtkFlowAlgorithm::OUTSIDE_AUTO == static_cast<int>(Outside::Auto) &&
+  vtkFlowAlgorithm::OUTSIDE_BLOCKS == static_cast<int>(Outside::Blocks) &&
+  vtkFlowAlgorithm::OUTSIDE_PASSES == static_cast<int>(Outside::Passes));
+
+//------------------------------------------------------------------------------
+vtkFlowAlgorithm::vtkFlowAlgorithm()
+  : Maker(std::make_shared<MediumMaker>([this](double done) { return this->ReportMedium(done); }))
+{
+}
+
+//------------------------------------------------------------------------------
+vtkFlowAlgorithm::~vtkFlowAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+bool vtkFlowAlgorithm::ReportMedium(double done)
+{
+  this->UpdateProgress(done);
+  return !this->GetAbortExecute();
+}
+
+//------------------------------------------------------------------------------
+MediumMaker& vtkFlowAlgorithm::GetMaker()
+{
+  this->Maker->settings = this->GetMediumSettings();
+  return *this->Maker;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkFlowAlgorithm::GetMeshBuilds() { return this->Maker->mesh()->builds; }
+
+//------------------------------------------------------------------------------
+const char* vtkFlowAlgorithm::GetArraysUsed()
+{
+  this->ArraysUsed = this->GetMaker().choice().message;
+  return this->ArraysUsed.c_str();
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkFlowAlgorithm::GetMTime()
+{
+  vtkMTimeType time = this->Superclass::GetMTime();
+  for (vtkPiecewiseFunction* function : this->Functions)
+  {
+    time = std::max(time, function ? function->GetMTime() : 0);
+  }
+  return time;
+}
+
+//------------------------------------------------------------------------------
+int vtkFlowAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  // Any, so that one message says what is wrong with tables and others: VTK says it several times.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  if (port == BODIES)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkFlowAlgorithm::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  return 1; // VTK makes what FillOutputPortInformation() names
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  std::ostringstream settings;
+  print(settings, 0, this->GetMediumSettings());
+  std::istringstream lines(settings.str());
+  for (std::string line; std::getline(lines, line);)
+  {
+    os << indent << line << "\n";
+  }
+  os << indent << "ArraysUsed: " << this->GetArraysUsed() << "\n";
+}
+
+//------------------------------------------------------------------------------
+MediumSettings vtkFlowAlgorithm::GetMediumSettings()
+{
+  MediumSettings settings = *this;
+  for (int index = DENSITY; index <= MASK; ++index)
+  {
+    settings.Arrays[static_cast<std::size_t>(index)] =
+      selectionFrom(this->GetInputArrayInformation(index));
+  }
+  for (vtkPiecewiseFunction* function : this->Functions)
+  {
+    TransferCurve& curve = settings.TransferFunctions.emplace_back();
+    for (int i = 0; function && i < function->GetSize(); ++i)
+    {
+      function->GetNodeValue(i, curve.nodes.emplace_back().data());
+    }
+    curve.isClamped = !function || function->GetClamping();
+    curve.isLogarithmic = function && function->GetUseLogScale();
+  }
+  return settings;
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::AddMixtureArray(const char* name)
+{
+  this->MixtureArrays.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::ClearMixtureArrays()
+{
+  this->MixtureArrays.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::AddMixtureGas(const char* name)
+{
+  this->MixtureGases.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::ClearMixtureGases()
+{
+  this->MixtureGases.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+double vtkFlowAlgorithm::GetGladstoneDaleConstantUsed()
+{
+  return isCustom(this->Gas) ? this->GladstoneDaleConstant
+                             : vtkGasTable::GetConstant(this->Gas, this->Wavelength);
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::AddMixtureConstant(double constant)
+{
+  this->MixtureConstants.push_back(constant);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::ClearMixtureConstants()
+{
+  this->MixtureConstants.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::AddMixtureMolarMass(double molarMass)
+{
+  this->MixtureMolarMasses.push_back(molarMass);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::ClearMixtureMolarMasses()
+{
+  this->MixtureMolarMasses.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::AddField(const char* name)
+{
+  this->Fields.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::ClearFields()
+{
+  this->Fields.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::AddTransferFunction(vtkPiecewiseFunction* function)
+{
+  this->Functions.emplace_back(function);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::ClearTransferFunctions()
+{
+  this->Functions.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::AddFieldRange(double value)
+{
+  this->FieldRanges.push_back(value);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkFlowAlgorithm::ClearFieldRanges()
+{
+  this->FieldRanges.clear();
+  this->Modified();
+}
