@@ -131,12 +131,6 @@ void vtkSchlierenFilter::SetGradedFilter(vtkPiecewiseFunction* function)
 vtkPiecewiseFunction* vtkSchlierenFilter::GetGradedFilter() const { return this->GradedFilter; }
 
 //------------------------------------------------------------------------------
-double vtkSchlierenFilter::GetKScaleOfOptics() { return kOfOptics(*this); }
-
-//------------------------------------------------------------------------------
-double vtkSchlierenFilter::GetCutoffOffsetOfOptics() { return offsetOfOptics(*this); }
-
-//------------------------------------------------------------------------------
 double vtkSchlierenFilter::GetGladstoneDaleConstantUsed()
 {
   this->PassToMedium();

@@ -254,13 +254,11 @@ public:
 
   ///@{
   /**
-   * For moist air: the relative humidity, 0 to 1, used without an array of it (default: 0), and
-   * the carbon dioxide in parts per million (default: 450).
+   * For moist air: the relative humidity, 0 to 1, used without an array of it (default: 0). Its
+   * carbon dioxide is 450 parts per million.
    */
   vtkSetMacro(RelativeHumidity, double);
   vtkGetMacro(RelativeHumidity, double);
-  vtkSetMacro(CO2, double);
-  vtkGetMacro(CO2, double);
   ///@}
 
   ///@{
@@ -382,22 +380,6 @@ public:
 
   ///@{
   /**
-   * Outside for older scripts: 0 is OUTSIDE_PASSES, 1 is OUTSIDE_BLOCKS, negative: no change.
-   */
-  void SetOutsideBlocksLight(int blocks)
-  {
-    if (blocks >= 0)
-    {
-      this->SetOutside(blocks > 0 ? OUTSIDE_BLOCKS : OUTSIDE_PASSES);
-    }
-  }
-  bool GetOutsideBlocksLight() { return this->Outside != OUTSIDE_PASSES; }
-  void OutsideBlocksLightOn() { this->SetOutsideBlocksLight(1); }
-  void OutsideBlocksLightOff() { this->SetOutsideBlocksLight(0); }
-  ///@}
-
-  ///@{
-  /**
    * Depth of data in one plane, or one cell thick, in data units, half of it on each side of the
    * plane. Deflection and optical path are proportional to it. 0 (the default): the thickness of
    * the cells, or, for a plane, the length of its shorter side. Ignored with Symmetry.
@@ -481,24 +463,6 @@ public:
    */
   vtkSetMacro(MaskThreshold, double);
   vtkGetMacro(MaskThreshold, double);
-  ///@}
-
-  /// Reconstructions between the points of a mesh.
-  enum Reconstructions
-  {
-    SMOOTH = 0,
-    LINEAR_IN_CELLS = 1
-  };
-
-  ///@{
-  /**
-   * Reconstruction between the points of a mesh, one of Reconstructions: SMOOTH (the default) is
-   * exact for quadratic fields, by least-squares gradients at the points, and bounded by the
-   * values around a cell; LINEAR_IN_CELLS is the cells' own interpolation, whose gradient jumps
-   * between cells, visibly in a shadowgraph.
-   */
-  vtkSetClampMacro(Reconstruction, int, SMOOTH, LINEAR_IN_CELLS);
-  vtkGetMacro(Reconstruction, int);
   ///@}
 
   ///@{
@@ -611,7 +575,6 @@ private:
   vtkForwardPropertyMacro(inner, StagnationTemperature, double);                          \
   vtkForwardPropertyMacro(inner, StagnationPressure, double);                             \
   vtkForwardPropertyMacro(inner, RelativeHumidity, double);                               \
-  vtkForwardPropertyMacro(inner, CO2, double);                                            \
   vtkForwardListMacro(inner, Field, Fields, const char*);                                 \
   vtkForwardListMacro(inner, TransferFunction, TransferFunctions, vtkPiecewiseFunction*); \
   vtkForwardListMacro(inner, FieldRange, FieldRanges, double);                            \
@@ -627,8 +590,6 @@ private:
     this->inner->SetSymmetryOrigin(x, y, z);                                              \
   }                                                                                       \
   vtkForwardPropertyMacro(inner, Outside, int);                                           \
-  vtkForwardPropertyMacro(inner, OutsideBlocksLight, int);                                \
-  vtkForwardPropertyMacro(inner, Reconstruction, int);                                    \
   vtkForwardVectorMacro(inner, SamplingDimensions, int, 3);                               \
   virtual void SetSamplingDimensions(int x, int y, int z)                                 \
   {                                                                                       \

@@ -92,5 +92,5 @@ assert np.abs(N - (index_of_water(T) - 1)).max() < 2e-6
 for bench in benches:
     bench.SamplingDimensions = [24, 24, 24]
     bench.ImageSize = [32, 32]
-    bench.OutsideBlocksLight = 0
+    bench.Outside = "Passes"
     assert np.ptp(image_array(bench, "OpticalPathDifference")) > 0

@@ -73,9 +73,9 @@ for source in (column, tetrahedra):
     spacing = output(boxed).GetSpacing()[2]
     assert abs(made[4] - box[4]) <= spacing and abs(made[5] - box[5]) <= spacing, made
     whole = Schlieren(source, IndexModel="Refractivity", IndexArray=["POINTS", "N"], ViewDirection=[0, 0, -1],
-                      Cutoff="Shadowgraph", SamplesPerPixel=1, AutoAmbientRefractivity=0)
+                      Cutoff="Shadowgraph", SamplesPerPixel=1, AmbientRefractivity=0)
     part = Schlieren(source, IndexModel="Refractivity", IndexArray=["POINTS", "N"], ViewDirection=[0, 0, -1],
-                     Cutoff="Shadowgraph", SamplesPerPixel=1, AutoAmbientRefractivity=0, SamplingBounds=box)
+                     Cutoff="Shadowgraph", SamplesPerPixel=1, AmbientRefractivity=0, SamplingBounds=box)
     bent, ofPart = (np.abs(image_array(bench, "Deflection")).max() for bench in (whole, part))
     # Light along z meets as much of the column as is in the box.
     expected = math.erf(0.5 * (made[5] - made[4]) / RADIUS) / math.erf(1 / RADIUS)

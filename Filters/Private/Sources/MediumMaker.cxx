@@ -447,25 +447,6 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSource(
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOtherwise(
-  vtkDataObject* input, vtkDataObject* bodies, Progress progress)
-{
-  MediumMaker other(std::move(progress));
-  other.settings = this->choiceFor(input).settings;
-  other.settings.Reconstruction = other.settings.Reconstruction == MediumSettings::Smooth
-    ? MediumSettings::Coarser
-    : MediumSettings::Smooth;
-  other.numberOfThreads = this->numberOfThreads;
-  const Source source = other.choose(input);
-  if (other.keepsGrid(source) || other.wantsGrid() || findLevels(source.leaves))
-  {
-    return nullptr;
-  }
-  std::string warning; // as that of the settings
-  return other.makeSourceOfCells(source, input, bodies, warning, false);
-}
-
-//------------------------------------------------------------------------------
 std::shared_ptr<const PieceSource> MediumMaker::makeOf(
   Source source, std::vector<Source> fields, vtkDataObject* bodies, double depth, Tally& tally)
 {
@@ -483,11 +464,10 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(
         field = extruded(field, flat, depth);
       }
     }
-    const auto reconstruction = reconstructionOf(this->settings);
-    const PreparedLeaves leaves = preparedLeaves(source, fields, reconstruction, tally);
+    const PreparedLeaves leaves = preparedLeaves(source, fields, tally);
     this->progressOf(0, 1).reach(0.1);
     return sourceOfMeshes(
-      leaves, { reconstruction, outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
+      leaves, { outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
   }
   if (flat >= 0)
   {

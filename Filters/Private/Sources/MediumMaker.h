@@ -91,17 +91,13 @@ public:
   ///
   /// Keeps what depends on the mesh alone until the next data: the order of cells, neighbours of
   /// points, the boundary. Meshes are compared by their content, not by times: points, cells, what
-  /// hides them, valid values, bodies, Outside and Reconstruction.
+  /// hides them, valid values, bodies and Outside.
   std::shared_ptr<const schlieren::MediumSource> makeSource(
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields = false);
   /// Makes the source of data whose grid is not kept, whatever grid the settings have. `source`:
   /// chosen from `input`.
   std::shared_ptr<const schlieren::MediumSource> makeSourceOfCells(Source source,
     vtkDataObject* input, vtkDataObject* bodies, std::string& warning, bool withFields);
-  /// Makes the source of meshes that are continued otherwise between their points: smoothly with gradients of a lower
-  /// order, or smoothly where the settings have them linear in cells. Null for other data. `progress`: may cancel.
-  std::shared_ptr<const schlieren::MediumSource> makeSourceOtherwise(
-    vtkDataObject* input, vtkDataObject* bodies, Progress progress);
   /// Makes the piece of an image, or of a rank's piece of it, on whose grid `refractivity` has been
   /// made of `source`. `bodies`: see ImagePiece. `ranges`: see forFieldImages().
   std::unique_ptr<ImagePiece> makePieceOfImage(vtkImageData* refractivity,

@@ -171,11 +171,10 @@ TEST(TransferFunctions, OfAMeshAreFormedBeforeResampling)
   toMesh->Update();
   auto filter = mean(toMesh->GetOutput(), { "A" });
   filter->AddTransferFunction(curve({ { 0, 0 }, { 0.5, 1 }, { 1, 0 } }));
-  filter->SetReconstruction(vtkRefractiveIndex::LINEAR_IN_CELLS);
   filter->SetSamplingDimensions(11, 11, 11);
   EXPECT_LT(
     largestError(filter, [](const Vec& x) { return scale * std::min(1 - std::abs(x[0]), 0.8); }),
-    1e-6);
+    0.05); // smooth gradients round what is cut off; without the cut it would be 0.2
 }
 
 // What is left out does not stretch the ranges either.

@@ -41,7 +41,7 @@ vtkSmartPointer<vtkStructuredGrid> shells(double most)
 vtkSmartPointer<vtkSchlierenFilter> farField(double most, double tolerance)
 {
   auto filter = bench(shells(most), 32);
-  filter->SetOutsideBlocksLight(false);
+  filter->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
   filter->SetSamplingDimensions(65, 65, 65); // a grid, whose cubes may be skipped
   filter->SetHomogeneityTolerance(tolerance);
   filter->SetPathModel(vtkSchlierenFilter::STRAIGHT);

@@ -186,7 +186,7 @@ TEST(GridOfMesh, HiddenCellsAreABody)
   }
   mesh->GetCellData()->AddArray(ghosts);
   auto filter = reader(31);
-  filter->SetOutsideBlocksLight(false);
+  filter->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
   const Sampled result = sampled(filter, mesh);
   EXPECT_FALSE(result.image->GetPointData()->HasArray("TransparentPointMask"));
   EXPECT_GT(std::count(result.valid.begin(), result.valid.end(), 0.), 10 * 10 * 31);

@@ -24,7 +24,7 @@ double gas(const Vec&) { return 2.7e-4; }
 /// Uniform gas around a ball: light is blocked where the ball is, and bent nowhere.
 void expectBallInUniformGas(vtkSchlierenFilter* filter, double edge)
 {
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   filter->Update();
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
   vtkDataArray* blocked = arrayOf(filter, "BlockedFraction");
@@ -252,9 +252,9 @@ TEST(Solids, OutsideOfTheMeshMayLetLightPass)
   {
     auto filter = bench(mesh, 40);
     filter->SetSamplingDimensions(61, 61, 61);
-    filter->SetOutsideBlocksLight(false);
+    filter->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
     expectBallInUniformGas(filter, 2 * 0.05);
-    filter->SetOutsideBlocksLight(true);
+    filter->SetOutside(vtkRefractiveIndex::OUTSIDE_BLOCKS);
     filter->Update();
     EXPECT_EQ(arrayOf(filter, "BlockedFraction")->GetComponent(0, 0), 1);
   }
@@ -264,7 +264,7 @@ TEST(Solids, OutsideOfTheMeshMayLetLightPass)
 TEST(Solids, WhatIsOutsideIsHandedOn)
 {
   auto direct = bench(shell(), 40);
-  direct->SetOutsideBlocksLight(false);
+  direct->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
   direct->SetSamplingDimensions(61, 61, 61);
   direct->SetViewDirection(0.3, 0.4, -1);
   direct->Update();
@@ -277,7 +277,7 @@ TEST(Solids, WhatIsOutsideIsHandedOn)
   index->SetOutside(vtkRefractiveIndex::OUTSIDE_BLOCKS);
   index->Update();
   EXPECT_EQ(arrayOf(index, "TransparentPointMask"), nullptr);
-  index->OutsideBlocksLightOff();
+  index->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
   index->Update();
   const std::vector<double> outside = valuesOf(index, "TransparentPointMask");
   const std::vector<double> valid = valuesOf(index, "vtkValidPointMask");
@@ -316,10 +316,11 @@ TEST(Solids, WhatBlocksLeaveOutMayLetLightPass)
   }
   vtkUniformGrid::SafeDownCast(blocks->GetBlock(0))->BlankCell(2, 2, 2);
   auto filter = bench(blocks, 20);
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   for (const bool outsideBlocks : { true, false })
   {
-    filter->SetOutsideBlocksLight(outsideBlocks);
+    filter->SetOutside(
+      outsideBlocks ? vtkRefractiveIndex::OUTSIDE_BLOCKS : vtkRefractiveIndex::OUTSIDE_PASSES);
     filter->Update();
     auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
     const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
@@ -420,7 +421,7 @@ TEST(Solids, MasksOfBlocksThatHaveNoneAreEmpty)
   auto filter = bench(blocks, 40);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "mask");
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   filter->Update();
   const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
   const double* pixel = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetSpacing();
