@@ -124,9 +124,6 @@ struct Lens
   /// From the pupil to the plane in focus, data units, with a perspective; unset: Cutoff::Background the pattern, others
   /// what Scene::focusOffset says.
   std::optional<double> focusDistance;
-  /// Whether its aperture spreads light by diffraction, at Scene::wavelength: a Gaussian for the Airy disc, where its standard
-  /// deviation is half a pixel or more.
-  bool diffracts = false;
 };
 
 /// Everything about the bench that is not the medium.
@@ -169,24 +166,19 @@ struct Scene
     0; ///< full width of the spectrum around wavelength of waves, metres; less than wavelength
   int coherenceSamples =
     32; ///< points of an extended source that is not on a screen, whose waves do not interfere; 1 ... 1024
-  FilmEstimator filmEstimator = FilmEstimator::Sheet; ///< how rays become light in pixels
-  NoiseFilter noiseFilter = NoiseFilter::None;        ///< removes the image's grain
-  double noiseFilterRadius = 2;                       ///< pixels
+  double smoothingRadius =
+    0;                     ///< of the image, pixels: twice a Gaussian's standard deviation; 0: none
   int histogramSize = 0;   ///< bins along each axis of Image::histogram; 0: none
   int samplesPerPixel = 4; ///< rays, 1 or more
   std::uint32_t seed = 1;  ///< of the rays' places in pixels and on the source
 
-  /// The error that the pixels whose light crosses the data shall keep; 0: that of the settings below. It chooses
+  /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the settings below. It chooses
   /// interpolation, stepSize, homogeneityTolerance, samplesPerPixel, mediumTolerance (no coarser than 0.01) and precision,
   /// and says in Image::accuracy what is reached. Its unit is that which the image is read in: of an interferogram fringes;
   /// of Cutoff::Background pixels of displacement; else the fraction of full scale, of a shadowgraph of undisturbed light,
   /// not counting what light displaced by 0.05 pixels explains.
   double targetError = 0;
-  /// Which of these pixels. For the largest error all of them are tried, which takes several times as long as the image.
-  ErrorNorm errorNorm = ErrorNorm::Percentile99;
   bool estimatesErrors = false; ///< with a targetError: those of all pixels, in Accuracy::estimate
-  /// With a targetError: Accuracy::ofData, the difference that Interpolation::Quadratic makes, or Field::makeOtherSource.
-  bool estimatesDataError = false;
 
   PathModel pathModel = PathModel::Refracted;             ///< straight or refracted rays
   Integrator integrator = Integrator::Leapfrog;           ///< of refracted rays

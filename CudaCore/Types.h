@@ -47,13 +47,6 @@ enum class Integrator
   Adaptive ///< four gradients a step, third order; steps are as long as Scene::adaptiveTolerance allows
 };
 
-/// Of which pixels an image's error is.
-enum class ErrorNorm
-{
-  Percentile99, ///< all but the worst of a hundred
-  Largest
-};
-
 enum class Precision
 {
   Single,
@@ -93,21 +86,6 @@ enum class LightModel
   Rays,  ///< straight: incoherent light
   Waves, ///< diffracted: laser light, see WaveReport
   Auto   ///< as waves where a pixel is fine enough to show that, and an image of waves can be made
-};
-
-/// How rays become an image.
-enum class FilmEstimator
-{
-  Sheet, ///< the quadrilaterals between neighbouring rays carry the light, folds added up
-  Photon ///< divides each ray's light between the four pixels around where it lands
-};
-
-enum class NoiseFilter
-{
-  None,
-  Gaussian, ///< standard deviation: half the radius
-  Mean,     ///< over a disc
-  Cone ///< Jensen 1996: a cone that encloses as many samples as the radius does of one per pixel
 };
 
 /// A regular grid of sample points. Point (i, j, k) lies at origin + direction (i hx, j hy, k hz).

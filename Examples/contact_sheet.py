@@ -213,9 +213,11 @@ def take_tiles(take, frame, options, scratch):
     source = {"SourceShape": "Disc", "FocalLength": 1, "SourceWidth": 1e3 / k, "KnifeEdgeAngle": 90}
     knife_tile("disc knife", "Knife edge, 90°, round source", f"{1e3 / k:.2g} mm at f = 1 m",
                **source)
-    bins = min(frame.width, frame.height, 2048)
-    shot = take.shoot(port=1, HistogramSize=bins)
-    rays = shot["Rays"].astype(float)
+    shot = take.shoot(port=1)
+    bins = min(frame.width, frame.height, 256)
+    into = np.arange(256) * bins // 256
+    rays = np.zeros((bins, bins))
+    np.add.at(rays, (into[:, None], into[None, :]), shot["Rays"].astype(float))
     square = np.full((frame.height, frame.width, 3), 24, np.uint8)
     left = (frame.width - bins) // 2
     square[:bins, left:left + bins] = grey(np.log1p(rays), np.log1p(rays.max()))
@@ -236,8 +238,7 @@ def take_tiles(take, frame, options, scratch):
                 ScreenDistance=caustic / 8)
     shadow_tile("far", "Screen where the light focuses", f"{length(caustic)} behind it")
     shadow_tile("diverging", "The same screen in diverging light",
-                f"from {length(4 * frame.depth)} before the middle", LightSource="Diverging",
-                SourceDistance=4 * frame.depth)
+                f"from {length(4 * frame.depth)} before the middle", SourceDistance=4 * frame.depth)
     blur = 8 * pixel
     shadow_tile("disc", "Round source", f"blurs what is {length(caustic)} off by 8 pixels",
                 SourceShape="Disc", FocalLength=1, SourceWidth=1e3 * blur / caustic,
@@ -255,10 +256,10 @@ def take_tiles(take, frame, options, scratch):
     fringe_tile("infinite", "Infinite fringes",
                 f"path differences of {np.ptp(paths) * 1e9 / wavelength:.3g} wavelengths")
     spacing = frame.height * pixel / 16
-    fringe_tile("finite", "Finite fringes", f"{length(spacing)} apart", FringeMode="Finite",
-                FringeSpacing=spacing, FringeAngle=90)
+    fringe_tile("finite", "Finite fringes", f"{length(spacing)} apart", FringeSpacing=spacing,
+                FringeAngle=90)
     fringe_tile("upright", "Finite fringes", f"{length(spacing)} apart, upright",
-                FringeMode="Finite", FringeSpacing=spacing, FringeAngle=0)
+                FringeSpacing=spacing, FringeAngle=0)
     fringe_tile("white", "White light", "colours of the first few orders", WhiteLight=1)
 
     away = 8 * pixel / strong
@@ -288,14 +289,11 @@ def take_tiles(take, frame, options, scratch):
 
     beyond = 2.5 * caustic
     group(f"Film: a shadowgraph from few rays, the screen {length(beyond)} behind the flow")
-    one = {"SamplesPerPixel": 1, "FilmEstimator": "Photon", "ScreenDistance": beyond}
-    shadow_tile("photons", "Photons, 1 ray per pixel", "splatting over four pixels", **one)
-    shadow_tile("cone", "Photons, cone filter", "the same, spread over 2 pixels", NoiseFilter="Cone",
-                NoiseFilterRadius=2, **one)
-    shadow_tile("sheet", "Sheet, 1 ray per pixel", "light between neighbouring rays",
-                SamplesPerPixel=1, FilmEstimator="Sheet", ScreenDistance=beyond)
-    shadow_tile("many", "Photons, 64 rays per pixel", "to compare with", SamplesPerPixel=64,
-                FilmEstimator="Photon", ScreenDistance=beyond)
+    shadow_tile("one", "1 ray per pixel", "light between neighbouring rays", SamplesPerPixel=1,
+                ScreenDistance=beyond)
+    shadow_tile("smoothed", "Smoothed", "the same, radius of 4 pixels", SamplesPerPixel=1, SmoothingRadius=4,
+                ScreenDistance=beyond)
+    shadow_tile("many", "64 rays per pixel", "to compare with", SamplesPerPixel=64, ScreenDistance=beyond)
     return groups
 
 

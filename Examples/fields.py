@@ -45,6 +45,6 @@ schlieren.ParallelScale = 6
 schlieren.ImageSize = [240, 200]
 schlieren.Quality = "Publication"
 schlieren.SamplesPerPixel = 4  # a small image: not as many as the preset has
-schlieren.OutsideBlocksLight = 0  # the round reactor lies in a box
+schlieren.Outside = "Passes"  # the round reactor lies in a box
 schlieren.UpdatePipeline()
 SaveData("fields.png", proxy=schlieren)  # the array Color

@@ -63,8 +63,8 @@ def heating_coil():
 def reactor():
     flow = read(ExodusIIReader, "disk_exodus", "disk_out_ref.ex2", PointVariables=["Temp"])
     gas = Calculator(flow, ResultArrayName="rho", Function="101325 * 2.016e-3 / (8.314463 * Temp)")
-    return dict(Input=gas, Density=["POINTS", "rho"], GladstoneDaleConstant=1.54e-3, LengthScale=0.01, OutsideBlocksLight=0,
-                Cutoff="Interferogram", FringeMode="Finite", FringeSpacing=0.7, FringeAngle=90, ViewDirection=[0, 1, 0],
+    return dict(Input=gas, Density=["POINTS", "rho"], GladstoneDaleConstant=1.54e-3, LengthScale=0.01, Outside="Passes",
+                Cutoff="Interferogram", FringeSpacing=0.7, FringeAngle=90, ViewDirection=[0, 1, 0],
                 ViewUp=[0, 0, 1], FocalPoint=[0, 0, 5.1], ParallelScale=5)
 
 

@@ -94,7 +94,6 @@ struct MediumSettings
   double StagnationTemperature = 0; ///< 0: Temperature is an array
   double StagnationPressure = 101325;
   double RelativeHumidity = 0;
-  double CO2 = 450;
   double Wavelength = 632.8;
   std::vector<std::string> Fields;
   std::vector<TransferCurve> TransferFunctions;
@@ -107,8 +106,6 @@ struct MediumSettings
   int SymmetryAxis = 0; ///< 0: chosen; 1 to 3: x, y, z
   double SymmetryOrigin[3] = { 0, 0, 0 };
   int Outside = 0;
-  int Reconstruction = Smooth; ///< one of these, of which Coarser is for MediumMaker alone
-  static constexpr int Smooth = 0, LinearInCells = 1, Coarser = 2;
   bool DoublePrecision = false;
 
   /// Returns whether the model needs a pressure that no array has.
@@ -152,7 +149,6 @@ struct MediumSettings
     use("StagnationTemperature", &S::StagnationTemperature);
     use("StagnationPressure", &S::StagnationPressure);
     use("RelativeHumidity", &S::RelativeHumidity);
-    use("CO2", &S::CO2);
     use("Wavelength", &S::Wavelength);
     use("Fields", &S::Fields);
     use("TransferFunctions", &S::TransferFunctions);
@@ -165,7 +161,6 @@ struct MediumSettings
     use("SymmetryAxis", &S::SymmetryAxis);
     use("SymmetryOrigin", &S::SymmetryOrigin);
     use("Outside", &S::Outside);
-    use("Reconstruction", &S::Reconstruction);
     use("DoublePrecision", &S::DoublePrecision);
   }
 

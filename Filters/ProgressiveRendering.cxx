@@ -240,8 +240,7 @@ std::optional<double> vtkSchlierenFilter::KeptK()
   }
   return this->Inside->KLock.For(this->LockK,
     this->CircumstancesOf(
-      { static_cast<double>(this->Cutoff), static_cast<double>(this->AutoAmbientRefractivity),
-        this->AutoAmbientRefractivity ? 0 : this->AmbientRefractivity,
+      { static_cast<double>(this->Cutoff), std::max(this->AmbientRefractivity, -1.),
         static_cast<double>(this->ExitInto),
         this->ExitInto == EXIT_CUSTOM ? this->ExitRefractivity : 0 },
       settingsOfRays(*this)));
@@ -250,8 +249,7 @@ std::optional<double> vtkSchlierenFilter::KeptK()
 //------------------------------------------------------------------------------
 std::optional<double> vtkSchlierenFilter::KeptAmbient()
 {
-  this->Inside->AmbientLock.For(
-    this->LockAmbient ? LOCK_OVER_TIME : LOCK_OFF, this->CircumstancesOf({}, {}));
+  this->Inside->AmbientLock.For(LOCK_OVER_TIME, this->CircumstancesOf({}, {}));
   // Given at the time that it was found, it would make another medium of the same data.
   return this->Inside->AmbientLock.GetKept();
 }
@@ -263,7 +261,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   Internals& inside = *this->Inside;
   inside.Done = 0;
   schlieren::Field field = Internals::fieldOf(*inside.Refractivity);
-  field.ambient = this->AutoAmbientRefractivity ? this->KeptAmbient() : this->AmbientRefractivity;
+  field.ambient = this->AmbientRefractivity <= -1 ? this->KeptAmbient() : this->AmbientRefractivity;
   inside.FindsAmbient = !field.ambient;
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene =
@@ -286,7 +284,6 @@ schlieren::Image vtkSchlierenFilter::Begin(
     field.gradients = { static_cast<int>(fields),
       inside.Refractivity->Source ? nullptr : inside.FieldGradients.data(), field.version };
   }
-  field.makeOtherSource = this->OtherSource();
   if (isPreview)
   {
     makePreview(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));

@@ -128,12 +128,6 @@ void vtkSchlierenFilter::SetGradedFilter(vtkPiecewiseFunction* function)
 vtkPiecewiseFunction* vtkSchlierenFilter::GetGradedFilter() const { return this->GradedFilter; }
 
 //------------------------------------------------------------------------------
-double vtkSchlierenFilter::GetKScaleOfOptics() { return kOfOptics(*this); }
-
-//------------------------------------------------------------------------------
-double vtkSchlierenFilter::GetCutoffOffsetOfOptics() { return offsetOfOptics(*this); }
-
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetWavelength(double wavelength)
 {
   this->SchlierenSettings::Wavelength = wavelength;

@@ -193,30 +193,6 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
 }
 
 //------------------------------------------------------------------------------
-std::function<std::shared_ptr<const schlieren::MediumSource>()> vtkSchlierenFilter::OtherSource()
-{
-  Internals& inside = *this->Inside;
-  if (!this->DataError || !inside.Refractivity->Source || inside.Ranks.areInPieces())
-  {
-    return {};
-  }
-  return [this]() -> std::shared_ptr<const schlieren::MediumSource>
-  {
-    const auto inputOf = [this](int port)
-    { return this->Inside->Ranks.gatheredOf(port, this->GetInputDataObject(port, 0)); };
-    try
-    {
-      return this->GetMaker().makeSourceOtherwise(
-        inputOf(0), inputOf(BODIES), [this](double) { return this->GetAbortExecute() == 0; });
-    }
-    catch (const Stopped&)
-    {
-      return nullptr;
-    }
-  };
-}
-
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
 {
   Internals& inside = *this->Inside;

@@ -14,9 +14,7 @@
 struct SurroundingsSettings
 {
   double LengthScale = 1;
-  bool AutoAmbientRefractivity = true;
-  double AmbientRefractivity = 0;
-  bool LockAmbient = true;
+  double AmbientRefractivity = -1; ///< up to -1: found
   int ExitInto = 0;
   double ExitRefractivity = 2.7e-4;
   double Wavelength = 632.8;
@@ -25,9 +23,7 @@ struct SurroundingsSettings
   void visit(const Visit& use) const
   {
     use("LengthScale", this->LengthScale);
-    use("AutoAmbientRefractivity", this->AutoAmbientRefractivity);
     use("AmbientRefractivity", this->AmbientRefractivity);
-    use("LockAmbient", this->LockAmbient);
     use("ExitInto", this->ExitInto);
     use("ExitRefractivity", this->ExitRefractivity);
     use("Wavelength", this->Wavelength);
@@ -64,8 +60,6 @@ struct OpticsSettings
 {
   // Values without an enumeration in the tracer.
   static constexpr int lockOff = 0, lockAlways = 2; // LockK
-  static constexpr int finiteFringes = 1;           // FringeMode
-  static constexpr int divergingLight = 1;          // LightSource
   static constexpr int scenePattern = 3;            // BackgroundPattern
   static constexpr int lightOfRays = 0;             // LightModel
 
@@ -82,14 +76,11 @@ struct OpticsSettings
   double SourceLength = 10;
   double CutoffPosition = 0;
   std::string ColorFilterImage;
-  int FringeMode = 0;
   double FringeSpacing = 0;
   double FringeAngle = 0;
-  double BeamAngle = 0;
   bool WhiteLight = false;
   double ScreenDistance = -1;
   double FocusOffset = 0;
-  int LightSource = 0;
   double SourceDistance = 0;
   int SourceShape = 0;
   int LightModel = lightOfRays;
@@ -107,7 +98,6 @@ struct OpticsSettings
   double LensFocalLength = 50;
   double FocusDistance = 0;
   double SensorWidth = 0;
-  bool LensDiffraction = false;
   bool ColorByField = false;
   std::vector<double> FieldColors;
 
@@ -127,14 +117,11 @@ struct OpticsSettings
     use("SourceLength", this->SourceLength);
     use("CutoffPosition", this->CutoffPosition);
     use("ColorFilterImage", this->ColorFilterImage);
-    use("FringeMode", this->FringeMode);
     use("FringeSpacing", this->FringeSpacing);
     use("FringeAngle", this->FringeAngle);
-    use("BeamAngle", this->BeamAngle);
     use("WhiteLight", this->WhiteLight);
     use("ScreenDistance", this->ScreenDistance);
     use("FocusOffset", this->FocusOffset);
-    use("LightSource", this->LightSource);
     use("SourceDistance", this->SourceDistance);
     use("SourceShape", this->SourceShape);
     use("LightModel", this->LightModel);
@@ -152,7 +139,6 @@ struct OpticsSettings
     use("LensFocalLength", this->LensFocalLength);
     use("FocusDistance", this->FocusDistance);
     use("SensorWidth", this->SensorWidth);
-    use("LensDiffraction", this->LensDiffraction);
     use("ColorByField", this->ColorByField);
     use("FieldColors", this->FieldColors);
   }
@@ -166,11 +152,9 @@ struct AccuracySettings
   double StepSize = 0;
   double HomogeneityTolerance = 0;
   int SamplesPerPixel = 0;
-  int FilmEstimator = 0;
   int Precision = 0;
   double MediumTolerance = 0;
   double TargetError = 0;
-  bool AutoTargetError = false;
 
   template <class Visit>
   void visit(const Visit& use) const
@@ -179,24 +163,17 @@ struct AccuracySettings
     use("StepSize", this->StepSize);
     use("HomogeneityTolerance", this->HomogeneityTolerance);
     use("SamplesPerPixel", this->SamplesPerPixel);
-    use("FilmEstimator", this->FilmEstimator);
     use("Precision", this->Precision);
     use("MediumTolerance", this->MediumTolerance);
     use("TargetError", this->TargetError);
-    use("AutoTargetError", this->AutoTargetError);
   }
 };
 
 struct FilmSettings
 {
-  int NoiseFilter = 0;
-  double NoiseFilterRadius = 2;
-  int HistogramSize = 256;
-  int Seed = 1;
+  double SmoothingRadius = 0;
   int PreviewReduction = 1;
-  int TargetNorm = 0;
   bool ErrorEstimate = false;
-  bool DataError = false;
   double FullWell = 0;
   double Exposure = 0.8;
   double ReadNoise = 10;
@@ -206,14 +183,9 @@ struct FilmSettings
   template <class Visit>
   void visit(const Visit& use) const
   {
-    use("NoiseFilter", this->NoiseFilter);
-    use("NoiseFilterRadius", this->NoiseFilterRadius);
-    use("HistogramSize", this->HistogramSize);
-    use("Seed", this->Seed);
+    use("SmoothingRadius", this->SmoothingRadius);
     use("PreviewReduction", this->PreviewReduction);
-    use("TargetNorm", this->TargetNorm);
     use("ErrorEstimate", this->ErrorEstimate);
-    use("DataError", this->DataError);
     use("FullWell", this->FullWell);
     use("Exposure", this->Exposure);
     use("ReadNoise", this->ReadNoise);
@@ -225,7 +197,6 @@ struct FilmSettings
 /// Resources for computing, which images do not depend on.
 struct ResourceSettings
 {
-  int MemoryBudget = 1024;
   int MediumMemory = 1024;
   int Device = 0;
   int NumberOfThreads = 0;
@@ -235,7 +206,6 @@ struct ResourceSettings
   template <class Visit>
   void visit(const Visit& use) const
   {
-    use("MemoryBudget", this->MemoryBudget);
     use("MediumMemory", this->MediumMemory);
     use("Device", this->Device);
     use("NumberOfThreads", this->NumberOfThreads);

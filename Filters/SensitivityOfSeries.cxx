@@ -80,9 +80,7 @@ void vtkSchlierenFilter::FitKOverSeries()
   this->LockK = LOCK_OFF;
   this->SamplesPerPixel = 1; // k is chosen from the first ray of each pixel
   this->TargetError = 0;
-  this->AutoTargetError = false;
   this->ErrorEstimate = false;
-  this->DataError = false;
   double k = 0;
   for (std::size_t i = 0; i < times.size(); ++i)
   {

@@ -224,13 +224,11 @@ public:
 
   ///@{
   /**
-   * For moist air: the relative humidity, 0 to 1, used without an array of it (default: 0), and
-   * the carbon dioxide in parts per million (default: 450).
+   * For moist air: the relative humidity, 0 to 1, used without an array of it (default: 0). Its
+   * carbon dioxide is 450 parts per million.
    */
   vtkSetMacro(RelativeHumidity, double);
   vtkGetMacro(RelativeHumidity, double);
-  vtkSetMacro(CO2, double);
-  vtkGetMacro(CO2, double);
   ///@}
 
   ///@{
@@ -310,22 +308,6 @@ public:
    */
   vtkSetClampMacro(Outside, int, OUTSIDE_AUTO, OUTSIDE_PASSES);
   vtkGetMacro(Outside, int);
-  ///@}
-
-  ///@{
-  /**
-   * Outside for older scripts: 0 is OUTSIDE_PASSES, 1 is OUTSIDE_BLOCKS, negative: no change.
-   */
-  void SetOutsideBlocksLight(int blocks)
-  {
-    if (blocks >= 0)
-    {
-      this->SetOutside(blocks > 0 ? OUTSIDE_BLOCKS : OUTSIDE_PASSES);
-    }
-  }
-  bool GetOutsideBlocksLight() { return this->Outside != OUTSIDE_PASSES; }
-  void OutsideBlocksLightOn() { this->SetOutsideBlocksLight(1); }
-  void OutsideBlocksLightOff() { this->SetOutsideBlocksLight(0); }
   ///@}
 
   ///@{
@@ -413,24 +395,6 @@ public:
    */
   vtkSetMacro(MaskThreshold, double);
   vtkGetMacro(MaskThreshold, double);
-  ///@}
-
-  /// Reconstructions between the points of a mesh.
-  enum Reconstructions
-  {
-    SMOOTH = 0,
-    LINEAR_IN_CELLS = 1
-  };
-
-  ///@{
-  /**
-   * Reconstruction between the points of a mesh, one of Reconstructions: SMOOTH (the default) is
-   * exact for quadratic fields, by least-squares gradients at the points, and bounded by the
-   * values around a cell; LINEAR_IN_CELLS is the cells' own interpolation, whose gradient jumps
-   * between cells, visibly in a shadowgraph.
-   */
-  vtkSetClampMacro(Reconstruction, int, SMOOTH, LINEAR_IN_CELLS);
-  vtkGetMacro(Reconstruction, int);
   ///@}
 
   /**

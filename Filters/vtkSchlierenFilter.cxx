@@ -68,17 +68,9 @@ static_assert(sameValue(Self::EXIT_AUTO, schlieren::ExitInto::Auto) &&
   sameValue(Self::EXIT_SURROUNDINGS, schlieren::ExitInto::Surroundings) &&
   sameValue(Self::EXIT_AIR, schlieren::ExitInto::Air) &&
   sameValue(Self::EXIT_CUSTOM, schlieren::ExitInto::Custom));
-static_assert(sameValue(Self::SHEET, schlieren::FilmEstimator::Sheet) &&
-  sameValue(Self::PHOTON, schlieren::FilmEstimator::Photon));
-static_assert(sameValue(Self::NO_FILTER, schlieren::NoiseFilter::None) &&
-  sameValue(Self::GAUSSIAN, schlieren::NoiseFilter::Gaussian) &&
-  sameValue(Self::MEAN, schlieren::NoiseFilter::Mean) &&
-  sameValue(Self::CONE, schlieren::NoiseFilter::Cone));
 static_assert(Self::LOCK_OFF == OpticsSettings::lockOff &&
-  Self::LOCK_ALWAYS == OpticsSettings::lockAlways &&
-  Self::FINITE_FRINGES == OpticsSettings::finiteFringes &&
-  Self::DIVERGING == OpticsSettings::divergingLight &&
-  Self::SCENE == OpticsSettings::scenePattern && Self::LIGHT_RAYS == OpticsSettings::lightOfRays);
+  Self::LOCK_ALWAYS == OpticsSettings::lockAlways && Self::SCENE == OpticsSettings::scenePattern &&
+  Self::LIGHT_RAYS == OpticsSettings::lightOfRays);
 
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.
 constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
@@ -252,8 +244,7 @@ int vtkSchlierenFilter::RequestInformation(
 
   // What the histogram covers depends on the light: RequestData says it.
   vtkInformation* histogramInfo = outputVector->GetInformationObject(HISTOGRAM_PORT);
-  const int bins[6] = { 0, this->HistogramSize - 1, 0, this->HistogramSize - 1, 0,
-    std::min(this->HistogramSize, 1) - 1 };
+  const int bins[6] = { 0, histogramBins - 1, 0, histogramBins - 1, 0, 0 };
   histogramInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), bins, 6);
   histogramInfo->Set(vtkDataObject::DIRECTION(), unturned, 9);
   vtkDataObject::SetActiveAttribute(

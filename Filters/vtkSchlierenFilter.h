@@ -49,7 +49,7 @@
  *
  * The second output is the histogram of the light on the cutoff plane: an image with a point at the
  * centre of each bin, whose coordinates are the deflections along u and v, with the array `Rays`
- * (64-bit integers). Empty where HistogramSize is 0.
+ * (64-bit integers), 256 bins along both axes.
  *
  * The properties of the medium are those of vtkFlowAlgorithm. Results are kept
  * until something that they depend on changes: another cutoff, k or knife angle needs no
@@ -126,13 +126,6 @@ public:
     LOCK_ALWAYS = 2
   };
 
-  /// What SetFringeMode() takes.
-  enum FringeModes
-  {
-    INFINITE_FRINGES = 0,
-    FINITE_FRINGES = 1
-  };
-
   /// What SetExitInto() takes.
   enum Exits
   {
@@ -140,13 +133,6 @@ public:
     EXIT_SURROUNDINGS = 1,
     EXIT_AIR = 2,
     EXIT_CUSTOM = 3
-  };
-
-  /// What SetLightSource() takes.
-  enum LightSources
-  {
-    COLLIMATED = 0,
-    DIVERGING = 1
   };
 
   /// What SetSourceShape() takes.
@@ -172,22 +158,6 @@ public:
     STRIPES = 1,
     PICTURE = 2,
     SCENE = 3
-  };
-
-  /// What SetFilmEstimator() takes.
-  enum FilmEstimators
-  {
-    SHEET = 0,
-    PHOTON = 1
-  };
-
-  /// What SetNoiseFilter() takes.
-  enum NoiseFilters
-  {
-    NO_FILTER = 0,
-    GAUSSIAN = 1,
-    MEAN = 2,
-    CONE = 3
   };
 
   /// The image, and the histogram of the cutoff plane.
@@ -256,31 +226,16 @@ public:
 
   ///@{
   /**
-   * Whether the ambient refractivity is the median over the domain's boundary. Default: on.
-   */
-  vtkSetMacro(AutoAmbientRefractivity, bool);
-  vtkGetMacro(AutoAmbientRefractivity, bool);
-  vtkBooleanMacro(AutoAmbientRefractivity, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Ambient refractivity n - 1, used if AutoAmbientRefractivity is off. Default: 0.
+   * Ambient refractivity n - 1. Up to -1, which is the default and no refractivity: the median over
+   * the domain's boundary, found for the first image and kept at all other times, so that all
+   * fringes of a series refer to the same light. It is found again for other data or another
+   * medium. LockedAmbient is the ambient kept from an earlier image, else 0; setting it (as state
+   * files do) sets that of the next image, where 0 means that it is found.
    */
   vtkSetMacro(AmbientRefractivity, double);
   vtkGetMacro(AmbientRefractivity, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether an automatic ambient refractivity, found for the first image, is kept at all other
-   * times, so that all fringes of a series refer to the same light. It is found again for other
-   * data or another medium. Default: on. LockedAmbient is the ambient kept from an earlier image,
-   * else 0; setting it (as state files do) sets that of the next image, where 0 means automatic.
-   */
-  vtkSetMacro(LockAmbient, bool);
-  vtkGetMacro(LockAmbient, bool);
-  vtkBooleanMacro(LockAmbient, bool);
+  void SetLockedAmbient(double ambient);
+  double GetLockedAmbient() const;
   ///@}
 
   ///@{
@@ -297,8 +252,6 @@ public:
   vtkGetMacro(ExitInto, int);
   vtkSetMacro(ExitRefractivity, double);
   vtkGetMacro(ExitRefractivity, double);
-  void SetLockedAmbient(double ambient);
-  double GetLockedAmbient() const;
   ///@}
 
   ///@{
@@ -541,12 +494,8 @@ public:
 
   ///@{
   /**
-   * Return k and the offset (as a fraction of the source's image) that follow from FocalLength,
-   * SourceWidth and CutoffPosition, even if KFromOptics is off; NaN where there is none.
-   * KScaleUsed is the k of the last image; 0 before the first, after errors, and without a cutoff.
+   * Returns the k of the last image; 0 before the first, after errors, and without a cutoff.
    */
-  double GetKScaleOfOptics();
-  double GetCutoffOffsetOfOptics();
   vtkGetMacro(KScaleUsed, double);
   ///@}
 
@@ -579,21 +528,16 @@ public:
 
   ///@{
   /**
-   * Fringes of an interferogram, one of FringeModes. INFINITE_FRINGES (the default): undisturbed
-   * light is bright everywhere. FINITE_FRINGES: a tilted reference beam adds straight fringes,
-   * FringeSpacing apart (data units on the film, positive; 0, the default: a tenth of the image's
-   * height) along FringeAngle (degrees; 0, the default, is u, 90 is v). If the angle between the
-   * beams, BeamAngle, is given (degrees, above 0 to 180; 0, the default: not given), the spacing
-   * is wavelength / (2 sin(BeamAngle / 2)).
+   * Fringes of an interferogram. FringeSpacing 0, the default: they are infinite, undisturbed light
+   * is bright everywhere. Otherwise a tilted reference beam adds straight fringes, so far apart
+   * (data units on the film; negative: so many are in the image's height) along FringeAngle
+   * (degrees; 0, the default, is u, 90 is v). Beams that cross at an angle have the spacing
+   * wavelength / (2 sin(angle / 2)).
    */
-  vtkSetClampMacro(FringeMode, int, INFINITE_FRINGES, FINITE_FRINGES);
-  vtkGetMacro(FringeMode, int);
   vtkSetMacro(FringeSpacing, double);
   vtkGetMacro(FringeSpacing, double);
   vtkSetMacro(FringeAngle, double);
   vtkGetMacro(FringeAngle, double);
-  vtkSetMacro(BeamAngle, double);
-  vtkGetMacro(BeamAngle, double);
   ///@}
 
   ///@{
@@ -618,12 +562,10 @@ public:
 
   ///@{
   /**
-   * The light, one of LightSources: COLLIMATED (the default), or DIVERGING from a point
-   * SourceDistance before the middle of the data (data units, outside of the data; 0, the default:
-   * ten data depths). Ignored with a ViewAngle, where light diverges from the pupil.
+   * Light diverges from a point at this distance before the middle of the data (data units,
+   * outside of the data); 0, the default: it is collimated. Ignored with a ViewAngle, where light
+   * diverges from the pupil.
    */
-  vtkSetClampMacro(LightSource, int, COLLIMATED, DIVERGING);
-  vtkGetMacro(LightSource, int);
   vtkSetMacro(SourceDistance, double);
   vtkGetMacro(SourceDistance, double);
   ///@}
@@ -737,16 +679,6 @@ public:
   vtkGetMacro(SensorWidth, double);
   ///@}
 
-  ///@{
-  /**
-   * Whether the lens also blurs by diffraction at Wavelength, by a Gaussian like its Airy disc, if
-   * its standard deviation is at least half a pixel. Default: off.
-   */
-  vtkSetMacro(LensDiffraction, bool);
-  vtkGetMacro(LensDiffraction, bool);
-  vtkBooleanMacro(LensDiffraction, bool);
-  ///@}
-
   /**
    * Sets the pupil of a view's camera instead of FNumber and FocusDistance: its diameter and the
    * distance of what is in focus, data units. `diameter` 0 (the default): there is none.
@@ -760,7 +692,7 @@ public:
    * much of them light 1 fills (Exposure, positive; default: 0.8), the standard deviation of what
    * reading adds (ReadNoise, electrons; default: 10), the exponent of its curve (Gamma, positive;
    * default: 1, linear) and the bits of its values (BitDepth, 1 to 16; default: 8). The value is
-   * (electrons / FullWell) ^ (1 / Gamma) of the full scale; Seed chooses the noise.
+   * (electrons / FullWell) ^ (1 / Gamma) of the full scale.
    */
   vtkSetMacro(FullWell, double);
   vtkGetMacro(FullWell, double);
@@ -875,15 +807,6 @@ public:
 
   ///@{
   /**
-   * Estimator of the film, one of FilmEstimators: SHEET draws the light between neighbouring rays,
-   * PHOTON splats each ray on the four pixels around it.
-   */
-  vtkSetClampMacro(FilmEstimator, int, SHEET, PHOTON);
-  vtkGetMacro(FilmEstimator, int);
-  ///@}
-
-  ///@{
-  /**
    * Floating-point precision of tracing, one of Precisions. With DOUBLE and no target error, the
    * steps of refracted rays are adaptive.
    */
@@ -903,11 +826,12 @@ public:
 
   ///@{
   /**
-   * Error that 99 % (see TargetNorm) of the pixels whose light crosses the data shall keep, in the unit that the image
+   * Error that 99 % of the pixels whose light crosses the data shall keep, in the unit that the image
    * is read in: of an interferogram fringes; with Background Oriented pixels of displacement; else a
    * fraction of full scale, of a shadowgraph of the undisturbed light (what light displaced by 0.05
-   * pixels explains does not count). 0, the default: off. It chooses StepSize, SamplesPerPixel (up to
-   * 64), MediumTolerance (0.01 to 0.0003), HomogeneityTolerance (0), cubic splines and
+   * pixels explains does not count). Negative: what cannot be seen, 0.02 fringes or pixels, else
+   * 0.004. 0, the default: off. It chooses StepSize, SamplesPerPixel (up to 64), MediumTolerance
+   * (0.01 to 0.0003), HomogeneityTolerance (0), cubic splines and
    * Precision, whatever these properties are, by tracing some thousand pixels with several settings,
    * and verifies its choice with others. The image's field data say what is reached: ErrorReached,
    * ErrorLargest (of the pixels that were traced) and ErrorLimit, what contributes most. ErrorReached
@@ -919,50 +843,13 @@ public:
 
   ///@{
   /**
-   * Whether TargetError is, whatever its value, the error that cannot be seen: 0.02 fringes or pixels, else 0.004.
-   * Default: off.
-   */
-  vtkSetMacro(AutoTargetError, bool);
-  vtkGetMacro(AutoTargetError, bool);
-  vtkBooleanMacro(AutoTargetError, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Of which pixels TargetError and ErrorReached are, one of TargetNorms. Default: Percentile99. LargestError tries the
-   * settings with all pixels, which takes several times as long as the image.
-   */
-  enum TargetNorms
-  {
-    Percentile99, ///< all but the worst of a hundred
-    LargestError  ///< all
-  };
-  vtkSetClampMacro(TargetNorm, int, Percentile99, LargestError);
-  vtkGetMacro(TargetNorm, int);
-  ///@}
-
-  ///@{
-  /**
-   * Whether an image with a TargetError (or AutoTargetError) has the array `ErrorEstimate` (float): the error of each pixel,
+   * Whether an image with a TargetError has the array `ErrorEstimate` (float): the error of each pixel,
    * in the unit of TargetError; 0 where its light does not cross the data. Default: off. All pixels are then made with
    * finer settings, too, which takes several times as long as the image.
    */
   vtkSetMacro(ErrorEstimate, bool);
   vtkGetMacro(ErrorEstimate, bool);
   vtkBooleanMacro(ErrorEstimate, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Whether an image with a TargetError (or AutoTargetError) says what the data themselves leave open, as no setting
-   * changes that: the field data have DataError, in the unit and the norm of ErrorReached. Of grids it is the difference
-   * that quadratic splines between the samples make instead of cubic ones, of meshes that which smoother gradients at the
-   * points make, or a smooth Reconstruction instead of one that is linear in cells. Default: off. It costs another medium.
-   * It is not known of AMR and of data that stay on their ranks.
-   */
-  vtkSetMacro(DataError, bool);
-  vtkGetMacro(DataError, bool);
-  vtkBooleanMacro(DataError, bool);
   ///@}
 
   ///@{
@@ -978,41 +865,11 @@ public:
 
   ///@{
   /**
-   * Filter against noise, one of NoiseFilters: NO_FILTER (the default), a GAUSSIAN with a standard
-   * deviation of half NoiseFilterRadius (pixels, positive; default: 2), the MEAN over a disc, or a
-   * CONE that shrinks as samples are added (Jensen 1996): it contains as many as the radius does
-   * at one per pixel.
+   * Smooths the image by a Gaussian with a standard deviation of half this radius, pixels, up to
+   * 32; 0, the default: not at all.
    */
-  vtkSetClampMacro(NoiseFilter, int, NO_FILTER, CONE);
-  vtkGetMacro(NoiseFilter, int);
-  vtkSetMacro(NoiseFilterRadius, double);
-  vtkGetMacro(NoiseFilterRadius, double);
-  ///@}
-
-  ///@{
-  /**
-   * Bins along each axis of the histogram, up to 2048; 0: none is made. Default: 256.
-   */
-  vtkSetClampMacro(HistogramSize, int, 0, VTK_INT_MAX);
-  vtkGetMacro(HistogramSize, int);
-  ///@}
-
-  ///@{
-  /**
-   * Memory of the ray cache, MiB, which spares re-tracing for another cutoff. Default: 1024. The
-   * image does not depend on it.
-   */
-  vtkSetClampMacro(MemoryBudget, int, 0, VTK_INT_MAX);
-  vtkGetMacro(MemoryBudget, int);
-  ///@}
-
-  ///@{
-  /**
-   * Seed of the rays' positions within pixels; the same seed gives the same image. 0 to
-   * 2147483647. Default: 1.
-   */
-  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
-  vtkGetMacro(Seed, int);
+  vtkSetMacro(SmoothingRadius, double);
+  vtkGetMacro(SmoothingRadius, double);
   ///@}
 
   ///@{
@@ -1176,8 +1033,6 @@ private:
   /// Returns null if aborted.
   std::shared_ptr<const MadeRefractivity> MakeRefractivity(
     vtkDataObject* input, vtkDataObject* bodies);
-  /// Returns Field::makeOtherSource; empty where it is not wanted or not known.
-  std::function<std::shared_ptr<const schlieren::MediumSource>()> OtherSource();
   /// Makes the ranks work for this filter's refractivity, which another filter may have used.
   /// Returns false where they cannot.
   bool UseOwnRanks();

@@ -14,15 +14,15 @@ Pilot<Real>& Bench::Stages::pilotFor(MediumOnDevices<Real>& onDevices, const Lig
 {
   const Field& field = request.field;
   const Scene& scene = request.scene;
-  const bool wantsAllPixels = scene.estimatesErrors || scene.errorNorm == ErrorNorm::Largest;
-  const RaysOfView rays = raysFor(onDevices, light, request, image);
-  const Projection projection = projectionFor(rays.settings, light, request, image);
+  const bool wantsAllPixels = scene.estimatesErrors;
+  const RaysOfView ofView = raysFor(onDevices, light, request, image);
+  const Projection projection = projectionFor(ofView.settings, light, request, image);
   return targets.pilotOf<Real>(
-    { rays.key, field.lengthScale, projection, scene.filmEstimator, scene.seed, wantsAllPixels },
+    { ofView.key, field.lengthScale, projection, scene.seed, wantsAllPixels },
     [&]
     {
-      const PilotBench<Real> bench{ &onDevices.medium, light, scene, projection, rays.settings,
-        rays.margin };
+      const PilotBench<Real> bench{ &onDevices.medium, light, scene, projection, ofView.settings,
+        ofView.margin };
       return std::make_unique<Pilot<Real>>(
         bench, deflectionErrors(onDevices.medium, light, field, image), wantsAllPixels);
     });
@@ -73,10 +73,6 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   {
     return true;
   }
-  chosen.accuracy.ofData = scene.estimatesDataError
-    ? errorOfData(pilot, field, columnOf(scene, light, image.frame, 0), chosen.step, k, pixels,
-        watch.monitor())
-    : Accuracy().ofData;
   targets.keep(scene, chosen);
   Scene accurate = scene;
   accurate.stepSize = chosen.step;

@@ -131,8 +131,7 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
   work.raySets += rays.prepare(key, margin) ? 1 : 0;
   return { onDevices, makeTask<Real>(medium, map, medium.gradientsOf(field), light, settings),
     margin, deflectionErrors(medium, light, field, image),
-    projectionFor(settings, light, request, image), pixelPlacesOf(image.frame, scene.view, light),
-    lensSpreadOf(scene, image.frame, light.faces, field.lengthScale) };
+    projectionFor(settings, light, request, image), pixelPlacesOf(image.frame, scene.view, light) };
 }
 
 bool Bench::Stages::develop(

@@ -110,8 +110,8 @@ void PassLoop<Real>::begin(const TracedRays& rays)
   const std::int64_t margin = ofImage_.margin;
   request_.image->begin(
     { cutoffs_.cutoffOf(scene, request_.kScale, ofImage_.pixels), ofImage_.projection, margin,
-      (view.width + 2 * margin) * (view.height + 2 * margin) * passesToHold(scene.samplesPerPixel),
-      ofImage_.lensSpread },
+      (view.width + 2 * margin) * (view.height + 2 * margin) *
+        passesToHold(scene.samplesPerPixel) },
     rays_.tintOf(rays, request_.field, scene));
 }
 

@@ -26,7 +26,6 @@ struct RaysOfImage
   DeflectionErrors errors;
   Projection projection; ///< of the film
   PixelPlaces pixels;
-  double lensSpread; ///< see lensSpreadOf
 };
 
 /// Traces and exposes the passes of an image until all are on the film or the monitor stops it.

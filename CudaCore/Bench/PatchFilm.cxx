@@ -32,7 +32,7 @@ FilmSettings settingsOf(const Patch& patch, const Scene& scene, int samples, int
   settings.width = static_cast<int>(patch.columns);
   settings.height = static_cast<int>(patch.rows);
   settings.samplesPerPixel = samples;
-  settings.noiseFilter = NoiseFilter::None;
+  settings.smoothingRadius = 0;
   settings.isOfCamera = false;
   settings.threads = threads;
   return settings;

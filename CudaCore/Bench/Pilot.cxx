@@ -24,23 +24,6 @@ Pilot<Real>::Pilot(PilotBench<Real> bench, const DeflectionErrors& errors, bool 
       bench_.projection, errors)
   , layout_(layOutPatches(scouts_, bench_.scene.view, bench_.margin, wantsAllPixels))
 {
-  begin();
-}
-
-template <class Real>
-Pilot<Real>::Pilot(const Pilot& other, const Medium<Real>& medium, Interpolation interpolation)
-  : bench_(other.bench_)
-  , scouts_(other.scouts_)
-  , layout_(other.layout_)
-{
-  bench_.medium = &medium;
-  bench_.settings.kernel.interpolation = interpolation;
-  begin();
-}
-
-template <class Real>
-void Pilot<Real>::begin()
-{
   for (std::size_t set = 0; set < 2; ++set)
   {
     for (std::size_t place = 0; place < patchPlaces; ++place)
@@ -241,30 +224,6 @@ Differences Pilot<Real>::slopesAtEdges(
     for (std::size_t patch = 0; patch < exposed->size(); ++patch)
     {
       addSlopesAtEdges((*exposed)[patch], (*group.patches)[patch], bench_.scene, all);
-    }
-  }
-  return all;
-}
-
-template <class Real>
-Differences Pilot<Real>::compareWith(Pilot& other, double step, const Monitor& monitor)
-{
-  Differences all;
-  const RaySet rays{ step, 1 };
-  for (std::size_t n = 0; n < 2 * patchPlaces; ++n)
-  {
-    Group& group = groups_[n / patchPlaces][n % patchPlaces];
-    const std::vector<PatchPixels>* here = expose(group, rays, monitor);
-    const std::vector<PatchPixels>* there =
-      here ? other.expose(other.groups_[n / patchPlaces][n % patchPlaces], rays, monitor) : nullptr;
-    if (!there)
-    {
-      return {};
-    }
-    for (std::size_t patch = 0; patch < here->size(); ++patch)
-    {
-      addDifferences((*there)[patch], (*here)[patch], (*group.patches)[patch], 1, bench_.scene,
-        bench_.projection, all);
     }
   }
   return all;

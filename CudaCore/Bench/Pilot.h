@@ -63,8 +63,6 @@ class Pilot
 public:
   /// Looks at the view. `errors`: see strongDeflection(); `wantsAllPixels`: the image is the only patch.
   Pilot(PilotBench<Real> bench, const DeflectionErrors& errors, bool wantsAllPixels);
-  /// Has the patches of another one, but in this medium, which stays with its owner.
-  Pilot(const Pilot& other, const Medium<Real>& medium, Interpolation interpolation);
   Pilot(const Pilot&) = delete; // groups know where the patches are
   Pilot& operator=(const Pilot&) = delete;
 
@@ -103,9 +101,6 @@ public:
 
   /// What a shift of the light by a pixel would change at edges of bodies. Aborted or paused: empty.
   Differences slopesAtEdges(Patches patches, const PatchSettings& settings, const Monitor& monitor);
-
-  /// Compares the images of all patches, of one ray per pixel, with those of another medium. Aborted or paused: empty.
-  Differences compareWith(Pilot& other, double step, const Monitor& monitor);
 
   /// Whether the monitor has paused it since then. What it has done is kept.
   bool isPaused() const { return isPaused_; }
@@ -164,7 +159,6 @@ private:
     std::map<RaySet, Exposed> exposed;
   };
 
-  void begin();
   RayTask<Real> taskFor(double step) const;
   Pass passOf(const Patch& patch, std::int64_t number) const;
   /// The rays of all patches of a group; null if aborted or paused.

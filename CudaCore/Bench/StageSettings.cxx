@@ -249,17 +249,6 @@ Projection projectionOf(
   return projection;
 }
 
-double lensSpreadOf(
-  const Scene& scene, const Frame& frame, const ExitFaces& faces, double lengthScale)
-{
-  // Of the Gaussian that is most like an Airy disc, by the wavelength and the f-number.
-  constexpr double ofGaussian = 0.42;
-  const double slope = faces.ratio * apertureOf(scene, frame, faces).slope;
-  return scene.lens.diffracts && slope > 0
-    ? ofGaussian * scene.wavelength / (2 * slope * frame.pixelSize * lengthScale)
-    : 0;
-}
-
 PixelPlaces pixelPlacesOf(const Frame& frame, const View& view, const Light& light)
 {
   PixelPlaces pixels{ frame.pixelSize, frame.pixelSize * light.magnification, { 0, 0 } };
@@ -275,8 +264,7 @@ PixelPlaces pixelPlacesOf(const Frame& frame, const View& view, const Light& lig
 FilmSettings filmSettingsOf(const Scene& scene)
 {
   return { scene.view.width, scene.view.height, scene.samplesPerPixel, scene.seed,
-    scene.filmEstimator, scene.noiseFilter, scene.noiseFilterRadius, isOfCamera(scene.cutoff),
-    scene.threads };
+    scene.smoothingRadius, isOfCamera(scene.cutoff), scene.threads };
 }
 
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)

@@ -66,11 +66,6 @@ Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const Ex
 /// Finds what a view sees of a source's medium, with the margin around the image and `around` more pixels.
 Column columnOf(const Scene& scene, const Light& light, const Frame& frame, std::int64_t around);
 
-/// Standard deviation of the spread that diffraction at the lens's aperture gives light, pixels. `lengthScale`: metres per
-/// data unit.
-double lensSpreadOf(
-  const Scene& scene, const Frame& frame, const ExitFaces& faces, double lengthScale);
-
 /// What the pixels of a view show.
 PixelPlaces pixelPlacesOf(const Frame& frame, const View& view, const Light& light);
 

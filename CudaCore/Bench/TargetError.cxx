@@ -36,13 +36,6 @@ double sumOf(double a, double b, double c = 0, double d = 0)
 /// edges of bodies in small images it can have too few.
 constexpr double mayExceedAsChosen = 0.8 * mayExceed;
 
-/// What of differences shall keep a target. `part`: of the pixels that may exceed it.
-double errorOf(const Scene& scene, const Differences& differences, double part = mayExceed)
-{
-  return scene.errorNorm == ErrorNorm::Largest ? largestOf(differences)
-                                               : exceededBy(part, differences);
-}
-
 /// How steps are compared.
 struct StepRange
 {
@@ -53,11 +46,11 @@ struct StepRange
   PatchSettings with(double step) const { return { step, 1, raysAtBodies }; }
   /// The error of steps in pixels with so many rays, from such patches. Few rays that go astray, as in glass, are in
   /// many of these pixels.
-  double errorOf(const Scene& scene, const Differences& differences, int samples, double part) const
+  double errorOf(const Differences& differences, int samples, double part) const
   {
     const int more = std::max(1, samples / raysAtBodies);
     const double astray = exceededBy(part / more, differences) / more;
-    return std::max(schlieren::errorOf(scene, differences, part), astray);
+    return std::max(exceededBy(part, differences), astray);
   }
 };
 
@@ -106,7 +99,7 @@ public:
       return 0.5 * ofStep(2 * step, samples);
     }
     const auto errorIn = [&](const Differences& differences)
-    { return steps_.errorOf(pilot_.bench().scene, differences, samples, mayExceedAsChosen); };
+    { return steps_.errorOf(differences, samples, mayExceedAsChosen); };
     return errorByHalving * differenceOf(steps_.with(step), steps_.with(0.5 * step), errorIn);
   }
 
@@ -134,7 +127,7 @@ public:
       }
     }
     const auto errorIn = [&](const Differences& differences)
-    { return errorOf(pilot_.bench().scene, differences, mayExceedAsChosen); };
+    { return exceededBy(mayExceedAsChosen, differences); };
     return differenceOf(
       { longest(), samples, samples }, { longest(), 4 * samples, 4 * samples }, errorIn);
   }
@@ -322,7 +315,7 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   { return sumOf(bySteps * errorOfSteps, errorOfRays, known.voxels, known.rounding); };
   settings.accuracy.target = scene.targetError;
   settings.accuracy.reached =
-    sum(steps.errorOf(scene, ofSteps, settings.samples, mayExceed), errorOf(scene, ofRays));
+    sum(steps.errorOf(ofSteps, settings.samples, mayExceed), exceededBy(mayExceed, ofRays));
   settings.accuracy.largest = sum(largestOf(ofSteps), largestOf(ofRays));
   if (scene.estimatesErrors) // of the image, which is the patch
   {
@@ -363,7 +356,7 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
     // Of the patches that are looked at in each view, whatever is chosen.
     const Differences slopes =
       pilot.slopesAtEdges(Pilot<Real>::Patches::ToVerify, steps.with(steps.longest), monitor);
-    known.voxels = sumOf(known.voxels, shiftOfEdges * errorOf(scene, slopes));
+    known.voxels = sumOf(known.voxels, shiftOfEdges * exceededBy(mayExceed, slopes));
   }
   AccurateSettings settings{};
   if (before)
@@ -402,37 +395,6 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
   return settings;
 }
 
-template <class Real>
-double errorOfData(Pilot<Real>& pilot, const Field& field, const Column& column, double step,
-  double k, const PixelPlaces& pixels, const Monitor& monitor)
-{
-  const Scene& scene = pilot.bench().scene;
-  Field otherwise = field;
-  Scene other = scene;
-  if (field.source)
-  {
-    otherwise.source = field.makeOtherSource ? field.makeOtherSource() : nullptr;
-    if (!otherwise.source)
-    {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-  else
-  {
-    other.interpolation = Interpolation::Quadratic;
-  }
-  Monitor untilDone; // as little is to be done
-  untilDone.aborted = monitor.aborted;
-  Medium<Real> medium = mediumFor<Real>(otherwise, other);
-  if (medium.tree)
-  {
-    refine(medium, column, untilDone);
-  }
-  Pilot<Real> inOther(pilot, medium, other.interpolation);
-  inOther.begin(scene, k, pixels);
-  return errorOf(scene, pilot.compareWith(inOther, step, untilDone));
-}
-
 template KnownErrors knownErrors(
   const PilotBench<float>&, const PilotView&, double deflectionError, double k);
 template KnownErrors knownErrors(
@@ -441,9 +403,5 @@ template AccurateSettings chooseFor(
   Pilot<float>&, bool hasWalls, const KnownErrors&, const AccurateSettings* before, const Monitor&);
 template AccurateSettings chooseFor(Pilot<double>&, bool hasWalls, const KnownErrors&,
   const AccurateSettings* before, const Monitor&);
-template double errorOfData(Pilot<float>&, const Field&, const Column&, double step, double k,
-  const PixelPlaces&, const Monitor&);
-template double errorOfData(Pilot<double>&, const Field&, const Column&, double step, double k,
-  const PixelPlaces&, const Monitor&);
 
 } // namespace schlieren

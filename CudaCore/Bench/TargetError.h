@@ -58,19 +58,12 @@ template <class Real>
 AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors& known,
   const AccurateSettings* before, const Monitor& monitor);
 
-/// What the samples of the pilot's medium leave open: the difference to quadratic splines, or to the field's other source
-/// with the voxels that `column` needs. NaN if it has none, 0 if aborted.
-template <class Real>
-double errorOfData(Pilot<Real>& pilot, const Field& field, const Column& column, double step,
-  double k, const PixelPlaces& pixels, const Monitor& monitor);
-
 /// What a pilot's rays and patches are of.
 struct PilotKey
 {
   ViewKey view;
   double lengthScale;
   Projection projection;
-  FilmEstimator estimator;
   std::uint32_t seed;
   bool wantsAllPixels;
 
@@ -79,7 +72,7 @@ struct PilotKey
     const Projection& p = projection;
     return std::tuple_cat(view.tie(),
       std::tie(lengthScale, p.distance, p.perDataUnit, p.pathPerDataUnit, p.exitRatio,
-        p.perSourceDistance, p.isOfCamera, estimator, seed, wantsAllPixels));
+        p.perSourceDistance, p.isOfCamera, seed, wantsAllPixels));
   }
 };
 
@@ -105,14 +98,13 @@ public:
   /// The settings of the last image, if its technique and target were these; else null.
   const AccurateSettings* lastFor(const Scene& scene) const
   {
-    const bool isOfThese = last_ && cutoff_ == scene.cutoff && norm_ == scene.errorNorm &&
-      last_->accuracy.target == scene.targetError;
+    const bool isOfThese =
+      last_ && cutoff_ == scene.cutoff && last_->accuracy.target == scene.targetError;
     return isOfThese ? &*last_ : nullptr;
   }
   void keep(const Scene& scene, const AccurateSettings& settings)
   {
     cutoff_ = scene.cutoff;
-    norm_ = scene.errorNorm;
     last_ = settings;
   }
 
@@ -128,7 +120,6 @@ private:
   std::variant<std::monostate, std::unique_ptr<Pilot<float>>, std::unique_ptr<Pilot<double>>>
     pilot_;
   Cutoff cutoff_ = Cutoff::KnifeEdge;
-  ErrorNorm norm_ = ErrorNorm::Percentile99;
   std::optional<AccurateSettings> last_;
 };
 

@@ -4,7 +4,7 @@
 
 #include "Bench/StageSettings.h"
 #include "Bench/WaveStage.h"
-#include "Film/NoiseFilters.h"
+#include "Film/Smoothing.h"
 #include "Math/Units.h"
 #include "Medium/Medium.h"
 
@@ -119,7 +119,7 @@ void validateCutoff(const Scene& scene)
       require(scene.fringes.spacing > 0 && std::isfinite(scene.fringes.spacing), "FringeSpacing",
         scene.fringes.spacing,
         ", but finite fringes have a spacing. Set it to a positive number of data units, or "
-        "FringeMode to Infinite.");
+        "FringeSpacing to 0.");
       require(std::isfinite(scene.fringes.angle), "FringeAngle", scene.fringes.angle,
         ". Set it to an angle in degrees.");
     }
@@ -178,11 +178,11 @@ void validateScene(const Scene& scene)
       ", but it is n - 1 of what light leaves the data into: 2.7e-4 of air, 0.333 of water. Set it "
       "to more than -1, or ExitInto to Air or Surroundings.");
   }
-  if (!(scene.noiseFilterRadius >= 0 && scene.noiseFilterRadius <= largestFilterRadius))
+  if (!(scene.smoothingRadius >= 0 && scene.smoothingRadius <= largestSmoothingRadius))
   {
     std::ostringstream text;
-    text << "NoiseFilterRadius is " << scene.noiseFilterRadius << " pixels. Set it between 0 and "
-         << largestFilterRadius << "; to blur more, make a smaller image.";
+    text << "SmoothingRadius is " << scene.smoothingRadius << " pixels. Set it between 0 and "
+         << largestSmoothingRadius << "; to blur more, make a smaller image.";
     throw Error(text.str());
   }
   if (scene.threads < 0)
@@ -193,7 +193,7 @@ void validateScene(const Scene& scene)
 }
 
 /// The lens of a camera, where there is one. `frame`: of the image.
-void validateLens(const Scene& scene, const Frame& frame, double lengthScale)
+void validateLens(const Scene& scene, const Frame& frame)
 {
   const auto require = [](bool isGood, const auto&... message)
   {
@@ -224,18 +224,10 @@ void validateLens(const Scene& scene, const Frame& frame, double lengthScale)
     " times as wide as its distance from what is in focus. Increase FNumber, so that light is "
     "inclined by no more than 45 "
     "degrees.");
-  require(!lens.diffracts || (scene.wavelength > 0 && std::isfinite(scene.wavelength)),
-    "Wavelength is ", scene.wavelength,
-    " m. Set it to that of the light, or LensDiffraction to off.");
-  const double spread = lensSpreadOf(scene, frame, noFaces, lengthScale);
-  require(2 * spread <= largestFilterRadius, "Diffraction at the lens spreads light over ",
-    4 * spread,
-    " pixels, more than an image is blurred by. Decrease FNumber, make pixels larger, or set "
-    "LensDiffraction to off.");
 }
 
 /// How light travels: from where, and to what film. `frame`: of the image.
-void validateLight(const Scene& scene, const Frame& frame, double lengthScale)
+void validateLight(const Scene& scene, const Frame& frame)
 {
   const auto require = [](bool isGood, const auto&... message)
   {
@@ -249,7 +241,7 @@ void validateLight(const Scene& scene, const Frame& frame, double lengthScale)
   const double depth = frame.exit - frame.entry;
   require(std::isfinite(scene.focusOffset), "FocusOffset is ", scene.focusOffset,
     ". Set it to a finite number of data units, 0 for the middle of the data.");
-  validateLens(scene, frame, lengthScale);
+  validateLens(scene, frame);
   if (isOfCamera(scene.cutoff))
   {
     const double distance = scene.background.distance.value_or(depth);
@@ -352,7 +344,7 @@ void validate(const Field& field, const Scene& scene)
   validateScene(scene);
   validateColors(field, scene);
   const Frame frame = frameOf(field.grid, scene.view); // which throws where the view is bad
-  validateLight(scene, frame, field.lengthScale);
+  validateLight(scene, frame);
   const std::string problem =
     scene.lightModel == LightModel::Waves ? problemOfWaves(field, scene, frame) : "";
   if (!problem.empty())

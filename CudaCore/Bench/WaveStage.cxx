@@ -155,7 +155,7 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
       ", and waves take parallel light, or of a Shadowgraph with a point source light that "
       "diverges by no more than 0.1. Set " +
       (frame.pupil > 0 ? "ViewAngle to less (0 is parallel light),"
-                       : "LightSource to Collimated or SourceDistance to more,") +
+                       : "SourceDistance to more, or to 0 for collimated light,") +
       orRays;
   }
   if (!(scene.wavelength > 0 && std::isfinite(scene.wavelength) &&
@@ -232,7 +232,7 @@ bool WaveStage<Real>::areWanted(Image& image) const
       std::string(
         "LightModel is Waves, but light diverges and is refracted where it leaves the data, as "
         "through a "
-        "window. Set ViewAngle to 0 and LightSource to Collimated, ExitInto to Surroundings,") +
+        "window. Set ViewAngle and SourceDistance to 0, ExitInto to Surroundings,") +
       orRays;
   }
   const bool isOfWavesAlone = scene.cutoff == Cutoff::PhaseContrast;
@@ -339,10 +339,10 @@ void requireMemory(const Pass& pass, const Screen& screen)
   {
     std::ostringstream text;
     text << "A wave image needs " << pass.columns << " x " << pass.rows << " rays, "
-         << std::ceil(bytes / mebibyte) << " MiB, but MemoryBudget is " << budget / mebibyte
-         << " MiB: light from eight times sqrt(wavelength distance) around the image reaches it. "
-            "Set MemoryBudget to more, "
-            "ScreenDistance or ImageSize to less,"
+         << std::ceil(bytes / mebibyte) << " MiB, but " << budget / mebibyte
+         << " MiB may be used: light from eight times sqrt(wavelength distance) around the image "
+            "reaches it. "
+            "Set ScreenDistance or ImageSize to less, use a machine with more free memory,"
          << orRays;
     throw Error(text.str());
   }

@@ -5,7 +5,8 @@
 #pragma once
 
 #include "Film/Coverage.h"
-#include "Film/Photon.h"
+#include "Film/Shading.h"
+#include "Film/Splat.h"
 #include "Math/HostDevice.h"
 
 #include <cmath>
@@ -18,6 +19,18 @@ namespace schlieren
 struct FilmPoint
 {
   double x, y;
+};
+
+/// What light is deposited in, in fixed point. `one`: the value of a full ray.
+struct FilmSize
+{
+  std::int64_t columns, rows;
+  double one;
+
+  SCHLIEREN_HD std::int64_t fixed(double light) const
+  {
+    return static_cast<std::int64_t>(light * one + 0.5);
+  }
 };
 
 /// The light between four rays. Deposit and rowsAtOnce: see Sheet.

@@ -53,7 +53,7 @@ __device__ void add(std::int64_t* to, std::int64_t number)
   }
 }
 
-/// What one thread adds. As Sheet and addPhoton want it.
+/// What one thread adds. As Sheet wants it.
 template <int planes>
 struct DeviceDeposit
 {
@@ -233,35 +233,27 @@ __device__ void addSums(const DeviceDeposit<planes>& deposit)
   }
 }
 
-/// Deposits the light of shaded rays on the film; of a sheet, that of plain cells. All threads of a block come to its
-/// end.
-template <FilmEstimator estimator, int planes, bool isOfPhase>
+/// Deposits the light of plain cells on the film. All threads of a block come to its end.
+template <int planes, bool isOfPhase>
 __global__ void depositKernel(const ShadedRays<planes> from, const Sums sums)
 {
   const RaysOnDevice& rays = from.rays;
   std::int64_t i, j;
   rays.place(rays.firstRow, i, j);
   DeviceDeposit<planes> deposit{ sums };
-  if (i < rays.columns && j < rays.endRow)
+  if (i + 1 < rays.columns && j < rays.endRow && j + 1 < rays.rows)
   {
-    if constexpr (estimator == FilmEstimator::Photon)
-    {
-      addPhoton(from.at(i, j), sums.film, deposit);
-    }
-    else if (i + 1 < rays.columns && j + 1 < rays.rows)
-    {
-      from.template useCell<isOfPhase>(i, j,
-        [&](const auto& lowerLeft, const auto& lowerRight, const auto& upperLeft,
-          const auto& upperRight, const auto&)
+    from.template useCell<isOfPhase>(i, j,
+      [&](const auto& lowerLeft, const auto& lowerRight, const auto& upperLeft,
+        const auto& upperRight, const auto&)
+      {
+        if (!DeviceSheet<planes, isOfPhase>(sums.film, deposit)
+               .addPlain(lowerLeft, lowerRight, upperLeft, upperRight))
         {
-          if (!DeviceSheet<planes, isOfPhase>(sums.film, deposit)
-                 .addPlain(lowerLeft, lowerRight, upperLeft, upperRight))
-          {
-            const unsigned n = atomicAdd(from.bent, 1u);
-            from.bent[1 + n] = static_cast<unsigned>((j - rays.firstRow) * rays.columns + i);
-          }
-        });
-    }
+          const unsigned n = atomicAdd(from.bent, 1u);
+          from.bent[1 + n] = static_cast<unsigned>((j - rays.firstRow) * rays.columns + i);
+        }
+      });
   }
   addSums(deposit);
 }
@@ -306,17 +298,10 @@ void fetch(void* to, const void* from, std::size_t bytes)
 }
 
 template <bool isOfPhase, int planes>
-void deposit(const ShadedRays<planes>& shaded, FilmEstimator estimator, const Sums& sums)
+void deposit(const ShadedRays<planes>& shaded, const Sums& sums)
 {
   const unsigned blocks = shaded.rays.blocks(shaded.rays.endRow - shaded.rays.firstRow);
-  if (estimator == FilmEstimator::Photon)
-  {
-    launchKernel(depositKernel<FilmEstimator::Photon, planes, false>, blocks, threadsPerBlock, 0,
-      nullptr, shaded, sums);
-    return;
-  }
-  launchKernel(depositKernel<FilmEstimator::Sheet, planes, isOfPhase>, blocks, threadsPerBlock, 0,
-    nullptr, shaded, sums);
+  launchKernel(depositKernel<planes, isOfPhase>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
   launchKernel(bentKernel<planes, isOfPhase>, std::min(blocks, maxBlocksOfBent), threadsPerBlock, 0,
     nullptr, shaded, sums);
 }
@@ -340,10 +325,6 @@ struct CudaFilm::DeviceMemory
     clear(sums.data(), pixels * sizeof(PixelRays));
     clear(counts.data(), sizeof(RayCounts));
     clear(planes.data(), films.planes.size() * sizeof(LightSums));
-    if (films.samples)
-    {
-      samples = std::make_unique<CudaFilm>(*films.samples, raysPerBand);
-    }
   }
 
   /// A table's copy on the device, as long as none is requested that lies elsewhere.
@@ -397,7 +378,6 @@ struct CudaFilm::DeviceMemory
   CudaBuffer<RayCounts> counts;
   CudaBuffer<LightSums> planes;
   Sums view;
-  std::unique_ptr<CudaFilm> samples;
   std::unique_ptr<CudaBuffer<float>> copied;
   const float* onHost = nullptr; ///< what has been copied
   std::unique_ptr<Bytes> shaded, bent;
@@ -412,19 +392,18 @@ CudaFilm::CudaFilm(const Films& films, std::int64_t raysPerBand)
 CudaFilm::~CudaFilm() = default;
 
 void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, FilmEstimator estimator)
+  const Projection& projection, std::int64_t margin)
 {
   const Sums& sums = memory_->view;
   const std::int64_t columns = sums.film.columns + 2 * margin;
   const std::int64_t rows = sums.film.rows + 2 * margin;
-  const bool isSheet = estimator == FilmEstimator::Sheet;
   const std::int64_t rowsPerBand = std::max(fewestRows, memory_->raysPerBand / columns);
   for (std::int64_t row = 0; row < rows; row += rowsPerBand)
   {
     const std::int64_t end = std::min(rows, row + rowsPerBand);
     // Cells look at the rays below them and at two rows above.
     const RaysOnDevice rays{ traced.exits(), pass, margin, columns, rows, row, end,
-      isSheet ? std::max<std::int64_t>(row - 1, 0) : row, isSheet ? std::min(rows, end + 2) : end };
+      std::max<std::int64_t>(row - 1, 0), std::min(rows, end + 2) };
     const auto exposeBy = [&](auto kind)
     {
       constexpr int planes = decltype(kind)::channels;
@@ -435,34 +414,30 @@ void CudaFilm::expose(const CudaPass& traced, const Pass& pass, const Cutoffs& c
       const std::int64_t shadedRows = rays.endShaded - rays.firstShaded;
       const ShadedRays<planes> shaded{ rays,
         memory_->raysAtFilm<planes>(columns * std::min(rows, rowsPerBand + 3)),
-        isSheet ? memory_->bentCells(columns * std::min(rows, rowsPerBand)) : nullptr };
+        memory_->bentCells(columns * std::min(rows, rowsPerBand)) };
       launchKernel(shadeKernel<decltype(kind)>, rays.blocks(shadedRows), threadsPerBlock, 0,
         nullptr, kind, projection, shaded, sums);
-      deposit<std::is_same_v<decltype(kind), FringePhase>>(shaded, estimator, sums);
+      deposit<std::is_same_v<decltype(kind), FringePhase>>(shaded, sums);
     };
-    const auto* fringes = std::get_if<Interferogram>(&cutoff);
-    if (fringes && isSheet)
-    {
-      exposeBy(FringePhase{ *fringes });
-    }
-    else
-    {
-      std::visit(exposeBy, cutoff);
-    }
+    std::visit(
+      [&](const auto& kind)
+      {
+        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, Interferogram>)
+        {
+          exposeBy(FringePhase{ kind });
+        }
+        else
+        {
+          exposeBy(kind);
+        }
+      },
+      cutoff);
     checkCuda(cudaGetLastError(), "Starting the film's kernel");
-  }
-  if (memory_->samples)
-  {
-    memory_->samples->expose(traced, pass, Shadowgraph{}, projection, margin, estimator);
   }
 }
 
 RayCounts CudaFilm::develop(Films& films) const
 {
-  if (memory_->samples)
-  {
-    memory_->samples->develop(*films.samples);
-  }
   const std::size_t pixels = memory_->pixels;
   for (std::size_t plane = 0; plane < films.planes.size(); ++plane)
   {

@@ -26,7 +26,7 @@ public:
   /// Does what schlieren::expose does, and adds up counts and what pixels' rays carry, for rays that lie there: `traced`
   /// covers `pass`.
   void expose(const CudaPass& traced, const Pass& pass, const Cutoffs& cutoff,
-    const Projection& projection, std::int64_t margin, FilmEstimator estimator);
+    const Projection& projection, std::int64_t margin);
 
   /// Hands over the light that has been added up.
   RayCounts develop(Films& films) const;

@@ -63,25 +63,6 @@ private:
   std::array<std::unique_ptr<FilmBand>, planes> bands_;
 };
 
-template <int planes>
-void addPhotons(std::int64_t begin, std::int64_t end, const std::vector<TracedRays>& passes,
-  const RowShader<planes>& shader, const FilmSize& film, Bands<planes>& bands, RayCounts& counts)
-{
-  std::vector<FilmRay<planes>> rays(static_cast<std::size_t>(shader.columns));
-  for (std::int64_t row = begin; row < end; ++row)
-  {
-    for (const TracedRays& pass : passes)
-    {
-      // From half a pixel below where they land.
-      bands.cover(shader.shade(pass, row, rays.data(), counts), -0.5);
-      for (const FilmRay<planes>& ray : rays)
-      {
-        addPhoton(ray, film, bands);
-      }
-    }
-  }
-}
-
 template <bool isOfPhase, int planes>
 void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays>& passes,
   const RowShader<planes>& shader, const FilmSize& film, Bands<planes>& bands, RayCounts& counts)
@@ -147,16 +128,12 @@ void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays
 
 template <int planes>
 RayCounts depositRows(std::int64_t begin, std::int64_t end, const std::vector<TracedRays>& passes,
-  const RowShader<planes>& shader, FilmEstimator estimator, Films& films)
+  const RowShader<planes>& shader, Films& films)
 {
   const FilmSize film{ films.planes[0].width(), films.planes[0].height(), films.planes[0].one() };
   RayCounts counts;
   Bands<planes> bands(films);
-  if (estimator != FilmEstimator::Sheet)
-  {
-    addPhotons(begin, end, passes, shader, film, bands, counts);
-  }
-  else if (shader.isOfPhase)
+  if (shader.isOfPhase)
   {
     addSheet<true>(begin, end, passes, shader, film, bands, counts);
   }
@@ -167,11 +144,11 @@ RayCounts depositRows(std::int64_t begin, std::int64_t end, const std::vector<Tr
   return counts;
 }
 
-template RayCounts depositRows<1>(std::int64_t, std::int64_t, const std::vector<TracedRays>&,
-  const RowShader<1>&, FilmEstimator, Films&);
-template RayCounts depositRows<3>(std::int64_t, std::int64_t, const std::vector<TracedRays>&,
-  const RowShader<3>&, FilmEstimator, Films&);
-template RayCounts depositRows<4>(std::int64_t, std::int64_t, const std::vector<TracedRays>&,
-  const RowShader<4>&, FilmEstimator, Films&);
+template RayCounts depositRows<1>(
+  std::int64_t, std::int64_t, const std::vector<TracedRays>&, const RowShader<1>&, Films&);
+template RayCounts depositRows<3>(
+  std::int64_t, std::int64_t, const std::vector<TracedRays>&, const RowShader<3>&, Films&);
+template RayCounts depositRows<4>(
+  std::int64_t, std::int64_t, const std::vector<TracedRays>&, const RowShader<4>&, Films&);
 
 } // namespace schlieren

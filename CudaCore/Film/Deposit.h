@@ -11,10 +11,10 @@
 namespace schlieren
 {
 
-/// Adds to the films the light of rays that start in rows `begin` ... `end` - 1 of those that the shader knows; of a
-/// sheet, that of the cells whose lower rays these are. Several threads may do so at once.
+/// Adds to the films the light of the cells whose lower rays start in rows `begin` ... `end` - 1 of those that the shader
+/// knows. Several threads may do so at once.
 template <int planes>
 RayCounts depositRows(std::int64_t begin, std::int64_t end, const std::vector<TracedRays>& passes,
-  const RowShader<planes>& shader, FilmEstimator estimator, Films& films);
+  const RowShader<planes>& shader, Films& films);
 
 } // namespace schlieren

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Film/Development.h"
 
-#include "Film/NoiseFilters.h"
+#include "Film/Smoothing.h"
 #include "Rays/Light.h"
 
 #include <algorithm>
@@ -19,16 +19,10 @@ namespace schlieren
 Films filmsOf(const FilmSettings& settings, const Cutoffs& cutoff, std::optional<Tint> tint,
   std::int64_t maxRays)
 {
-  Films films(channelsOf(cutoff), std::move(tint), settings.width, settings.height, maxRays);
-  if (countsSamples(settings.noiseFilter, settings.noiseFilterRadius))
-  {
-    films.samples = std::make_unique<Films>(
-      Shadowgraph::channels, std::nullopt, settings.width, settings.height, maxRays);
-  }
-  return films;
+  return { channelsOf(cutoff), std::move(tint), settings.width, settings.height, maxRays };
 }
 
-PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, Image& image)
+void develop(const Films& films, std::int64_t passes, int threads, Image& image)
 {
   const auto raysPerPixel = static_cast<double>(passes);
   image.light = films.balance(raysPerPixel);
@@ -37,34 +31,15 @@ PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, 
   {
     image.color = films.developColor(raysPerPixel, threads);
   }
-  return films.samples ? films.samples->developIntensity(1, threads) : PixelArray<float>();
 }
 
-namespace
-{
-
-/// Filters intensity and colour. `radius`, `samples`: see filtered().
-void filterLight(NoiseFilter filter, double radius, const PixelArray<float>& samples,
-  const FilmSettings& settings, Image& image)
+void smooth(const FilmSettings& settings, Image& image)
 {
   for (PixelArray<float>* pixels : { &image.intensity, &image.color })
   {
-    *pixels = filtered(std::move(*pixels), settings.width, settings.height, filter, radius, samples,
-      settings.threads);
+    *pixels = smoothed(std::move(*pixels), settings.width, settings.height,
+      settings.smoothingRadius, settings.threads);
   }
-}
-
-} // namespace
-
-void filterNoise(const PixelArray<float>& samples, const FilmSettings& settings, Image& image)
-{
-  filterLight(settings.noiseFilter, settings.noiseFilterRadius, samples, settings, image);
-}
-
-void spreadByLens(double deviation, const FilmSettings& settings, Image& image)
-{
-  const double radius = 2 * deviation; // as the filter has it
-  filterLight(NoiseFilter::Gaussian, radius, {}, settings, image);
 }
 
 bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
@@ -95,13 +70,12 @@ bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
   }
   if (filmOnDevice_)
   {
-    filmOnDevice_->expose(
-      *exitsOnDevice_, pass, exposure_.cutoff, exposure_.projection, margin, settings_.estimator);
+    filmOnDevice_->expose(*exitsOnDevice_, pass, exposure_.cutoff, exposure_.projection, margin);
   }
   else
   {
     exposeFrom(nextRow_, { { pass, exits_.data(), nullptr } }, exposure_.cutoff,
-      exposure_.projection, margin, settings_.estimator, settings_.threads, *films_, monitor);
+      exposure_.projection, margin, settings_.threads, *films_, monitor);
   }
   passes_ += nextRow_ == 0 ? 1 : 0;
   return nextRow_ == 0;
@@ -114,8 +88,8 @@ PixelArray<float> UndisturbedImage::develop()
     filmOnDevice_->develop(*films_);
   }
   Image image;
-  filterNoise(schlieren::develop(*films_, passes_, settings_.threads, image), settings_, image);
-  spreadByLens(exposure_.lensSpread, settings_, image);
+  schlieren::develop(*films_, passes_, settings_.threads, image);
+  smooth(settings_, image);
   return std::move(image.intensity);
 }
 

@@ -24,26 +24,20 @@ struct FilmSettings
   int width, height; ///< pixels
   int samplesPerPixel;
   std::uint32_t seed;
-  FilmEstimator estimator;
-  NoiseFilter noiseFilter;
-  double noiseFilterRadius; ///< pixels
-  bool isOfCamera;          ///< there is an image without the flow, too
+  double smoothingRadius; ///< pixels
+  bool isOfCamera;        ///< there is an image without the flow, too
   int threads;
 };
 
-/// The films that an image needs, one of samples among them where its noise filter counts these.
+/// The films that an image needs.
 Films filmsOf(const FilmSettings& settings, const Cutoffs& cutoff, std::optional<Tint> tint,
   std::int64_t maxRays);
 
-/// Makes of the films of some passes the image: its light, intensity and colour. Returns what filterNoise wants
-/// to know: the samples of each pixel, where they are counted.
-PixelArray<float> develop(const Films& films, std::int64_t passes, int threads, Image& image);
+/// Makes of the films of some passes the image: its light, intensity and colour.
+void develop(const Films& films, std::int64_t passes, int threads, Image& image);
 
-/// Takes the noise out of intensity and colour.
-void filterNoise(const PixelArray<float>& samples, const FilmSettings& settings, Image& image);
-
-/// Spreads intensity and colour as the diffraction of a lens does: by a Gaussian of so many pixels, from half a pixel on.
-void spreadByLens(double deviation, const FilmSettings& settings, Image& image);
+/// Smooths intensity and colour.
+void smooth(const FilmSettings& settings, Image& image);
 
 /// How rays come onto films; the same for all passes of an image.
 struct Exposure
@@ -52,7 +46,6 @@ struct Exposure
   Projection projection{};
   std::int64_t margin = 0;
   std::int64_t maxRays = 0; ///< see Film
-  double lensSpread = 0;    ///< see spreadByLens
 };
 
 /// What a camera sees without the flow: passes of rays that nothing bends, on films like those of the

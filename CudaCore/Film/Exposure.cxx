@@ -24,11 +24,10 @@ constexpr double luminance[3] = { 0.2126, 0.7152, 0.0722 };
 /// Rays that start in rows `begin` ... `end` - 1, counted from the margin's lowest on.
 template <int planes>
 RayCounts exposeRows(std::int64_t begin, std::int64_t end, const std::vector<TracedRays>& passes,
-  const Cutoffs& cutoff, const Projection& projection, std::int64_t margin, FilmEstimator estimator,
-  Films& films)
+  const Cutoffs& cutoff, const Projection& projection, std::int64_t margin, Films& films)
 {
-  return depositRows<planes>(begin, end, passes,
-    *rowShader<planes>(cutoff, projection, films, margin, estimator), estimator, films);
+  return depositRows<planes>(
+    begin, end, passes, *rowShader<planes>(cutoff, projection, films, margin), films);
 }
 
 } // namespace
@@ -93,17 +92,15 @@ PixelArray<float> Films::developColor(double raysPerPixel, int threads) const
 }
 
 RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
-  Films& films)
+  const Projection& projection, std::int64_t margin, int threads, Films& films)
 {
   std::int64_t firstRow = 0;
-  return exposeFrom(
-    firstRow, passes, cutoff, projection, margin, estimator, threads, films, Monitor{});
+  return exposeFrom(firstRow, passes, cutoff, projection, margin, threads, films, Monitor{});
 }
 
 RayCounts exposeFrom(std::int64_t& firstRow, const std::vector<TracedRays>& passes,
-  const Cutoffs& cutoff, const Projection& projection, std::int64_t margin, FilmEstimator estimator,
-  int threads, Films& films, const Monitor& monitor)
+  const Cutoffs& cutoff, const Projection& projection, std::int64_t margin, int threads,
+  Films& films, const Monitor& monitor)
 {
   constexpr std::int64_t piecesPerThread = 4;
   constexpr std::int64_t fewestRows = 16;
@@ -120,18 +117,10 @@ RayCounts exposeFrom(std::int64_t& firstRow, const std::vector<TracedRays>& pass
     firstRow, rows, rowsPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      const auto exposeOn = [&](const Cutoffs& kind, Films& to)
-      {
-        const auto work = to.planes.size() == 1 ? exposeRows<1>
-          : to.planes.size() == 3               ? exposeRows<3>
-                                                : exposeRows<4>;
-        return work(begin, end, passes, kind, projection, margin, estimator, to);
-      };
-      if (films.samples)
-      {
-        exposeOn(Shadowgraph{}, *films.samples);
-      }
-      const RayCounts countsHere = exposeOn(cutoff, films);
+      const auto work = films.planes.size() == 1 ? exposeRows<1>
+        : films.planes.size() == 3               ? exposeRows<3>
+                                                 : exposeRows<4>;
+      const RayCounts countsHere = work(begin, end, passes, cutoff, projection, margin, films);
       const std::lock_guard<std::mutex> guard(countsLock);
       counts.add(countsHere);
     },

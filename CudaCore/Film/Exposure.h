@@ -11,7 +11,6 @@
 #include "Types.h"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,8 +35,6 @@ struct Films
 
   std::optional<Tint> tintOfRays;
   std::vector<Film> planes;
-  /// Unset, or where all rays count in full, exposed along with these.
-  std::unique_ptr<Films> samples;
 };
 
 /// What became of rays.
@@ -88,13 +85,12 @@ struct RayCounts
 /// Adds to the films the light of rays that start in the image or up to `margin` pixels around it; their
 /// passes cover that.
 RayCounts expose(const std::vector<TracedRays>& passes, const Cutoffs& cutoff,
-  const Projection& projection, std::int64_t margin, FilmEstimator estimator, int threads,
-  Films& films);
+  const Projection& projection, std::int64_t margin, int threads, Films& films);
 
 /// The same in pieces, of rays from row `firstRow` on (0 at first), which becomes the one to continue with: 0 once all
 /// is done. The films hold whole passes only then. At least some rows are done, whatever the monitor says.
 RayCounts exposeFrom(std::int64_t& firstRow, const std::vector<TracedRays>& passes,
-  const Cutoffs& cutoff, const Projection& projection, std::int64_t margin, FilmEstimator estimator,
-  int threads, Films& films, const Monitor& monitor);
+  const Cutoffs& cutoff, const Projection& projection, std::int64_t margin, int threads,
+  Films& films, const Monitor& monitor);
 
 } // namespace schlieren

@@ -26,12 +26,10 @@ enum class ErrorSource
 struct Accuracy
 {
   double target = 0;  ///< 0: none was requested, and nothing else is known
-  double reached = 0; ///< of the pixels whose light has crossed the data, by Scene::errorNorm
+  double reached = 0; ///< of 99 % of the pixels whose light has crossed the data
   double largest = 0; ///< of the pixels that were looked at
   ErrorSource limit = ErrorSource::None;
   PixelArray<float> estimate{}; ///< of each pixel; empty without Scene::estimatesErrors
-  /// What the samples leave open, by Scene::errorNorm: apart from `reached`, as no setting changes it. Unless it is known: NaN.
-  double ofData = std::numeric_limits<double>::quiet_NaN();
   bool isKept() const { return reached <= target; }
 };
 

@@ -14,8 +14,7 @@ CudaFilm::CudaFilm(const Films&, std::int64_t) { throw DeviceError(builtWithoutC
 
 CudaFilm::~CudaFilm() = default;
 
-void CudaFilm::expose(
-  const CudaPass&, const Pass&, const Cutoffs&, const Projection&, std::int64_t, FilmEstimator)
+void CudaFilm::expose(const CudaPass&, const Pass&, const Cutoffs&, const Projection&, std::int64_t)
 {
 }
 

@@ -37,8 +37,8 @@ bool ProgressiveImage::add(
       isOnDevice_ = true;
       filmOnDevice_ = std::make_unique<CudaFilm>(*films_);
     }
-    filmOnDevice_->expose(*traced.onDevice, pass, exposure_.cutoff, exposure_.projection,
-      exposure_.margin, settings_.estimator);
+    filmOnDevice_->expose(
+      *traced.onDevice, pass, exposure_.cutoff, exposure_.projection, exposure_.margin);
     ++passes_;
     return true;
   }
@@ -47,7 +47,7 @@ bool ProgressiveImage::add(
   if (rays == Rays::Go || isLast || monitor.paused || nextRow_ > 0)
   {
     counts_.add(exposeFrom(nextRow_, waiting_, exposure_.cutoff, exposure_.projection,
-      exposure_.margin, settings_.estimator, settings_.threads, *films_, monitor));
+      exposure_.margin, settings_.threads, *films_, monitor));
     if (nextRow_ > 0)
     {
       waiting_.pop_back();
@@ -119,8 +119,8 @@ void ProgressiveImage::developUndisturbed(Image& image)
 void ProgressiveImage::develop(Image& image)
 {
   developCounts(image);
-  filterNoise(schlieren::develop(*films_, passes_, settings_.threads, image), settings_, image);
-  spreadByLens(exposure_.lensSpread, settings_, image);
+  schlieren::develop(*films_, passes_, settings_.threads, image);
+  smooth(settings_, image);
   developCentres(image);
   developUndisturbed(image);
 }
@@ -128,10 +128,9 @@ void ProgressiveImage::develop(Image& image)
 bool ProgressiveImage::finish(Image& image, const Monitor& monitor)
 {
   developCounts(image);
-  const PixelArray<float> samples = schlieren::develop(*films_, passes_, settings_.threads, image);
+  schlieren::develop(*films_, passes_, settings_.threads, image);
   films_.reset(); // all that follows wants memory, too
-  filterNoise(samples, settings_, image);
-  spreadByLens(exposure_.lensSpread, settings_, image);
+  smooth(settings_, image);
   developCentres(image);
   filmOnDevice_.reset();
   if (!completeUndisturbed(monitor))

@@ -95,8 +95,8 @@ private:
 } // namespace
 
 template <int planes>
-std::unique_ptr<const RowShader<planes>> rowShader(const Cutoffs& cutoff,
-  const Projection& projection, const Films& films, std::int64_t margin, FilmEstimator estimator)
+std::unique_ptr<const RowShader<planes>> rowShader(
+  const Cutoffs& cutoff, const Projection& projection, const Films& films, std::int64_t margin)
 {
   return std::visit(
     [&](const auto& kind) -> std::unique_ptr<const RowShader<planes>>
@@ -112,13 +112,10 @@ std::unique_ptr<const RowShader<planes>> rowShader(const Cutoffs& cutoff,
       }
       if constexpr (planes == 1 && std::is_same_v<Kind, Interferogram>)
       {
-        if (estimator == FilmEstimator::Sheet)
-        {
-          return std::make_unique<ShaderOf<planes, false, FringePhase>>(
-            FringePhase{ kind }, projection, films, margin);
-        }
+        return std::make_unique<ShaderOf<planes, false, FringePhase>>(
+          FringePhase{ kind }, projection, films, margin);
       }
-      if constexpr (planes == Kind::channels)
+      else if constexpr (planes == Kind::channels)
       {
         return std::make_unique<ShaderOf<planes, false, Kind>>(kind, projection, films, margin);
       }
@@ -128,10 +125,10 @@ std::unique_ptr<const RowShader<planes>> rowShader(const Cutoffs& cutoff,
 }
 
 template std::unique_ptr<const RowShader<1>> rowShader<1>(
-  const Cutoffs&, const Projection&, const Films&, std::int64_t, FilmEstimator);
+  const Cutoffs&, const Projection&, const Films&, std::int64_t);
 template std::unique_ptr<const RowShader<3>> rowShader<3>(
-  const Cutoffs&, const Projection&, const Films&, std::int64_t, FilmEstimator);
+  const Cutoffs&, const Projection&, const Films&, std::int64_t);
 template std::unique_ptr<const RowShader<4>> rowShader<4>(
-  const Cutoffs&, const Projection&, const Films&, std::int64_t, FilmEstimator);
+  const Cutoffs&, const Projection&, const Films&, std::int64_t);
 
 } // namespace schlieren

@@ -52,7 +52,7 @@ public:
 
 /// `planes`: those of the films. The projection and the films stay with their owner.
 template <int planes>
-std::unique_ptr<const RowShader<planes>> rowShader(const Cutoffs& cutoff,
-  const Projection& projection, const Films& films, std::int64_t margin, FilmEstimator estimator);
+std::unique_ptr<const RowShader<planes>> rowShader(
+  const Cutoffs& cutoff, const Projection& projection, const Films& films, std::int64_t margin);
 
 } // namespace schlieren

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// The ray-tube estimator (FilmEstimator::Sheet). Four neighbouring rays of a pass have the light of one pixel between
+// The ray-tube estimator. Four neighbouring rays of a pass have the light of one pixel between
 // them; where they land it is spread evenly over the quadrilateral that they span, and each pixel gets what falls on it. So
 // brightness is the ratio of areas, I/I0 = 1 / |det(dx'/dx)|, and folds add up.
 #pragma once
 
 #include "Film/CellLight.h"
 #include "Film/Coverage.h"
-#include "Film/Photon.h"
 #include "Math/HostDevice.h"
 #include "Optics/Interferogram.h"
 
@@ -69,8 +68,13 @@ SCHLIEREN_HD SheetRay<planes> sheetRay(const FilmRay<planes>& here, const FilmRa
   return ray;
 }
 
-/// Spreads the light between rays over a film's pixels. Deposit: see addPhoton. `rowsAtOnce`: of pixels that a
-/// polygon covers; the fewer, the less memory. `isOfPhase`: rays have a phase instead of light, see FringePhase; light is made
+/// Spreads the light between rays over a film's pixels. A `Deposit` takes it plane by plane:
+///   emitted(plane, light)                 before it is divided;
+///   pixel(plane, column, row, light)      on the film;
+///   block(plane, column, row, parts)      of 2 x 2 pixels, some of which may be outside;
+///   outside(plane, light)                 that falls on no pixel.
+/// What is emitted arrives in pixels and outside, to the last bit. `rowsAtOnce`: of pixels that a polygon covers; the fewer,
+/// the less memory. `isOfPhase`: rays have a phase instead of light, see FringePhase; light is made
 /// of it where it is spread.
 template <int planes, class Deposit, int rowsAtOnce = coverageTileSize, bool isOfPhase = false>
 class Sheet

@@ -67,13 +67,14 @@ void requireMemory(const WaveGrid& grid, const GridRequest& request, double pixe
   constexpr double mebibyte = 1 << 20, perMillimetre = 1e3, perMicrometre = 1e6;
   std::ostringstream text;
   text << "A wave image needs " << grid.columns << " x " << grid.rows << " points, "
-       << std::ceil(bytes / mebibyte) << " MiB, but MemoryBudget is "
-       << static_cast<double>(request.memoryBudget) / mebibyte << " MiB. Light that is bent by "
-       << grid.largestDeflection << " rad takes " << grid.pointsPerRay * request.raysPerPixel
-       << " points along each side of a pixel of " << pixel * perMicrometre
-       << " micrometres, and there are " << request.margin * perMillimetre
-       << " mm around the image. Set MemoryBudget to more, ImageSize or ScreenDistance to less, or "
-          "LightModel to Rays, "
+       << std::ceil(bytes / mebibyte) << " MiB, but "
+       << static_cast<double>(request.memoryBudget) / mebibyte
+       << " MiB may be used. Light that is bent by " << grid.largestDeflection << " rad takes "
+       << grid.pointsPerRay * request.raysPerPixel << " points along each side of a pixel of "
+       << pixel * perMicrometre << " micrometres, and there are " << request.margin * perMillimetre
+       << " mm around the image. Set ImageSize or ScreenDistance to less, use a machine with more "
+          "free "
+          "memory, or set LightModel to Rays, "
           "whose image is the mean over the fringes.";
   throw Error(text.str());
 }

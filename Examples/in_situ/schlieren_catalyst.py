@@ -26,7 +26,6 @@ schlieren.Quality = "Fine"
 # What does not depend on the flow that happens to be there first.
 schlieren.AutoKScale = 0
 schlieren.KScale = 400
-schlieren.AutoAmbientRefractivity = 0
 schlieren.AmbientRefractivity = 1.2 * schlieren.GladstoneDaleConstant
 schlieren.FocalPoint = [0.06, 0, 0]
 schlieren.ParallelScale = 0.03

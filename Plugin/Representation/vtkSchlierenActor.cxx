@@ -358,8 +358,8 @@ void vtkSchlierenActor::TracePreview()
   const double pixels = static_cast<double>(this->Seen.Size[0]) * this->Seen.Size[1];
   const double wanted = std::sqrt(pixels * this->SecondsPerPixel / previewSeconds);
   // A preview has one ray per pixel; at full size it would be all of the image.
-  const bool isOneRay = this->Bench->GetSamplesPerPixel() <= 1 &&
-    !(this->Bench->GetTargetError() > 0) && !this->Bench->GetAutoTargetError();
+  const bool isOneRay =
+    this->Bench->GetSamplesPerPixel() <= 1 && this->Bench->GetTargetError() == 0;
   this->Reduction = std::clamp(static_cast<int>(std::ceil(wanted)), isOneRay ? 1 : 2, coarsest);
   this->Bench->SetPreviewReduction(this->Reduction);
   this->Bench->SetTimeLimit(0);

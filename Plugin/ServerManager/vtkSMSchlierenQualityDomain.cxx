@@ -107,10 +107,11 @@ void vtkSMSchlierenQualityDomain::Follow(vtkSMProperty* modified)
     }
     return;
   }
-  if (!isLoaded && modified != this->GetRequiredProperty("AutoTargetError"))
+  vtkSMProperty* target = this->GetRequiredProperty("TargetError");
+  if (!isLoaded && modified != target && Helper(target).GetAsDouble() < 0)
   {
     // A setting that is changed is to have its effect.
-    Helper(this->GetRequiredProperty("AutoTargetError")).Set(0);
+    Helper(target).Set(0);
   }
   int preset = Filter::INTERACTIVE;
   while (preset < Filter::CUSTOM && !isPreset(preset))

@@ -167,7 +167,7 @@ void filterRefines(benchmark::State& state)
   for (auto _ : state)
   {
     filter->SetTimeLimit(limit);
-    filter->SetSeed(filter->GetSeed() + 1);
+    filter->SetStepSize(filter->GetStepSize() * (1 + 1e-6)); // traces all rays again
     Clock::time_point shown = Clock::now();
     do
     {

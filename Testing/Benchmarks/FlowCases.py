@@ -106,8 +106,7 @@ def producer(data):
 
 
 def with_refractivity(data, association="POINTS", **view):
-    return producer(data), dict(IndexModel="Refractivity", IndexArray=[association, "N"], AutoAmbientRefractivity=0,
-                                AmbientRefractivity=0, **view)
+    return producer(data), dict(IndexModel="Refractivity", IndexArray=[association, "N"], AmbientRefractivity=0, **view)
 
 
 OBLIQUE = dict(ViewDirection=[0.3, -0.2, -1], FocalPoint=[0, 0, 0])

@@ -106,7 +106,7 @@ inline vtkSmartPointer<vtkSchlierenFilter> bench(vtkDataObject* input, int pixel
   filter->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  filter->SetAutoAmbientRefractivity(false);
+  filter->SetAmbientRefractivity(0);
   filter->SetImageSize(pixels, pixels);
   traceEveryVoxel(filter, 1);
   return filter;

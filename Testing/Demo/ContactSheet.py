@@ -107,7 +107,7 @@ for tile in tiles.values():
     if "LightEmitted" in facts:
         lost = facts["LightEmitted"] - facts["LightOnFilm"] - facts["LightOutside"]
         assert abs(lost) < 1e-6 * facts["LightEmitted"], (tile.name, lost)
-for name in ("near", "far", "straight", "refracted", "photons", "sheet", "many"):
+for name in ("near", "far", "straight", "refracted", "one", "smoothed", "many"):
     check_below(f"light of '{name}' - 1", abs(light(name)[inner].mean() - 1), 0.02)
 expected = np.zeros((HEIGHT, WIDTH))
 distance = contact_sheet.caustic_distance(eps, frame.pixel) / 8
@@ -168,10 +168,10 @@ difference = light("refracted") - light("straight")
 check_below("refracted - straight", rms(difference[inner]), 0.2)
 assert rms(difference[inner]) > 1e-3
 
-# From one ray per pixel the sheet is nearer to many photons than photons are.
-errors = {name: rms((light(name) - light("many"))[inner]) for name in ("photons", "cone", "sheet")}
-print("Against 64 photons per pixel:", errors)
-assert errors["sheet"] < errors["photons"]
-assert light("cone").std() < light("photons").std()
+# One ray per pixel is near to many, and a smoothed image is not.
+errors = {name: rms((light(name) - light("many"))[inner]) for name in ("one", "smoothed")}
+print("Against 64 rays per pixel:", errors)
+assert errors["one"] < 0.5 * errors["smoothed"]
+assert light("smoothed").std() < light("one").std()
 shown = grey(0.5 + paths / (2 * np.abs(paths).max()), 1)
 assert np.array_equal(tiles["path"].pixels, shown)

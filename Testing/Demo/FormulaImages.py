@@ -13,7 +13,7 @@ from frame import Frame
 case = os.path.join(DATA, "ladenburg_openfoam", "ladenburg.foam")
 path = os.path.abspath("wedge.png")
 code, out, err = run_demo(case, "--formula", "p/(287.1*T)", "--size", "480x160",
-                          "--set", "OutsideBlocksLight=0", "--set", "ScreenDistance=0.2",
+                          "--set", "Outside=Passes", "--set", "ScreenDistance=0.2",
                           "--output", path)
 assert code == 0, f"Exit code {code}"
 

@@ -66,4 +66,4 @@ shutil.copytree(os.path.join("case", "constant"), os.path.join("case", "processo
 shutil.rmtree(os.path.join("case", "constant", "polyMesh"))
 if not os.path.isdir(os.path.join("case", "system")):
     open(os.path.join("case", "case.foam"), "w", encoding="ascii").close()
-check("case", "--set", "OutsideBlocksLight=0")
+check("case", "--set", "Outside=Passes")

@@ -21,7 +21,7 @@ jet.UpdatePipeline()
 # One ray through each column of the grid, in its middle: 240 x 129, 0.125 mm apart.
 width, height = 240, 129
 schlieren = Schlieren(Input=jet, Density=["POINTS", "rho"], GladstoneDaleConstant=K,  # noqa: F821
-                      AutoAmbientRefractivity=0, AmbientRefractivity=K * AMBIENT,
+                      AmbientRefractivity=K * AMBIENT,
                       StepSize=1, HomogeneityTolerance=0, SamplesPerPixel=1,
                       ImageSize=[width, height], ParallelScale=0.125e-3 * height / 2)
 schlieren.UpdatePipeline()

@@ -23,7 +23,7 @@ data = one_dataset(near)
 assert data.GetNumberOfCells() == 376 and data.GetCellType(0) == 72, "These are no such cells"
 
 schlieren = Schlieren(near, Density=["POINTS", "rho"], GladstoneDaleConstant=K, LengthScale=0.01,
-                      AutoAmbientRefractivity=0, AmbientRefractivity=K * AMBIENT,
+                      AmbientRefractivity=K * AMBIENT,
                       **EVERY_VOXEL, ImageSize=[240, 160], ParallelScale=2.5)
 x, y = coordinates(schlieren)
 path = image_array(schlieren, "OpticalPathDifference") / 0.01

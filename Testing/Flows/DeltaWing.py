@@ -19,8 +19,7 @@ wing.UpdatePipeline()
 
 # From behind, along the chord: the right of the image is +y, the starboard half as computed.
 schlieren = Schlieren(wing, Density=["POINTS", "Density"], GladstoneDaleConstant=K,
-                      DensityScale=DENSITY, AutoAmbientRefractivity=0,
-                      AmbientRefractivity=K * DENSITY,
+                      DensityScale=DENSITY, AmbientRefractivity=K * DENSITY,
                       **EVERY_VOXEL, ImageSize=[320, 240], ViewDirection=[-1, 0, 0],
                       ViewUp=[0, 0, 1], FocalPoint=[0.5, 0, 0.2], ParallelScale=0.6)
 y, z = coordinates(schlieren)

@@ -91,5 +91,5 @@ assert np.abs(N - (index_of_water(T) - 1)).max() < 2e-6
 # Each bench gives an image, here a small one.
 for bench in benches:
     bench.ImageSize = [32, 32]
-    bench.OutsideBlocksLight = 0
+    bench.Outside = "Passes"
     assert np.ptp(image_array(bench, "OpticalPathDifference")) > 0

@@ -19,7 +19,7 @@ water.UpdatePipeline()
 # The coil is a hole in the mesh, and reaches out of it. It blocks light; what is outside of the round container does
 # not, also where the coil would continue.
 schlieren = Schlieren(Input=water, IndexModel="Refractivity", IndexArray=["POINTS", "N"],
-                      LengthScale=0.1, AutoAmbientRefractivity=0, AmbientRefractivity=0.331418,
+                      LengthScale=0.1, AmbientRefractivity=0.331418,
                       MediumTolerance=0.005, **EVERY_VOXEL, ImageSize=[240, 270],
                       ViewDirection=[0, 1, 0], ViewUp=[0, 0, 1], ParallelScale=1.25)
 x, z = coordinates(schlieren)

@@ -55,8 +55,7 @@ shoot("JetColorFilter", None, array="Color", Cutoff="Color Filter",
       ColorFilterImage=write_image("colors.png", colors))
 
 shoot("JetInterferogram", Cutoff="Interferogram", Wavelength=546.1)
-shoot("JetFiniteFringes", Cutoff="Interferogram", Wavelength=546.1, FringeMode="Finite",
-      FringeSpacing=1e-3)
+shoot("JetFiniteFringes", Cutoff="Interferogram", Wavelength=546.1, FringeSpacing=1e-3)
 shoot("JetWhiteLight", array="Color", Cutoff="Interferogram", WhiteLight=1)
 
 shoot("JetBehindStripes", Cutoff="Background Oriented", BackgroundPattern="Stripes",
@@ -66,5 +65,4 @@ shoot("JetBehindDots", None, Cutoff="Background Oriented", BackgroundDistance=0.
 shoot("JetCaustics", white=4, Cutoff="Shadowgraph", ScreenDistance=0.5)
 shoot("JetRoundSource", None, white=2, Cutoff="Shadowgraph", ScreenDistance=0.2, SourceShape="Disc",
       SourceWidth=5, SamplesPerPixel=16)
-shoot("JetDivergingLight", white=2, Cutoff="Shadowgraph", LightSource="Diverging",
-      SourceDistance=0.1, ScreenDistance=0.02)
+shoot("JetDivergingLight", white=2, Cutoff="Shadowgraph", SourceDistance=0.1, ScreenDistance=0.02)

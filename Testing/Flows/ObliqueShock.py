@@ -16,8 +16,7 @@ GAMMA = 1.4
 flow = XMLImageDataReader(FileName=[os.path.join(DATA, "oblique_shock_extruded.vti")])
 flow.UpdatePipeline()
 schlieren = Schlieren(flow, Density=["POINTS", "rho"], GladstoneDaleConstant=K,
-                      DensityScale=DENSITY, LengthScale=0.1, AutoAmbientRefractivity=0,
-                      AmbientRefractivity=K * DENSITY * 1.4, **EVERY_VOXEL,
+                      DensityScale=DENSITY, LengthScale=0.1, AmbientRefractivity=K * DENSITY * 1.4, **EVERY_VOXEL,
                       ImageSize=[656, 160], FocalPoint=[2.05, 0.5, 0.5], ParallelScale=0.5)
 x, y = coordinates(schlieren)
 path = image_array(schlieren, "OpticalPathDifference")

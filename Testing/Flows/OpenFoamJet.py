@@ -28,8 +28,8 @@ jet.UpdatePipeline()
 
 # Pixels 0.125 mm apart as the solver's cells are, their centres on the cells' centres along x.
 schlieren = Schlieren(jet, Density=["CELLS", "rho"], GladstoneDaleConstant=K,
-                      AutoAmbientRefractivity=0, AmbientRefractivity=K * AMBIENT,
-                      **EVERY_VOXEL, OutsideBlocksLight=0, ImageSize=[240, 161], ParallelScale=0.125e-3 * 161 / 2)
+                      AmbientRefractivity=K * AMBIENT,
+                      **EVERY_VOXEL, Outside="Passes", ImageSize=[240, 161], ParallelScale=0.125e-3 * 161 / 2)
 x, y = coordinates(schlieren)
 fringes = image_array(schlieren, "OpticalPathDifference") / WAVELENGTH
 axis = len(y) // 2

@@ -45,8 +45,7 @@ schlieren = Schlieren(Input=gas, Bodies=disk, IndexModel="Gladstone-Dale Mixture
                       MixtureArrays=["AsH3", "CH4", "GaMe3"],
                       MixtureConstants=[SPECIES[name][1] for name in ("AsH3", "CH4", "GaMe3")],
                       BackgroundConstant=SPECIES["H2"][1], LengthScale=0.01,
-                      OutsideBlocksLight=0, AutoAmbientRefractivity=0,
-                      AmbientRefractivity=ambient,
+                      Outside="Passes", AmbientRefractivity=ambient,
                       **EVERY_VOXEL, ImageSize=[160, 280], ViewDirection=[0, 1, 0],
                       ViewUp=[0, 0, 1])
 x, z = coordinates(schlieren)

@@ -44,7 +44,7 @@ user.event(PANEL + "/SearchBox/AdvancedButton", "set_boolean", "true")
 check_label("FocalPoint", "Focal Point (data units)")
 
 # What is kept over a series, but not its number.
-for name, isSeen in (("LockAmbient", "true"), ("LockedAmbient", "false"), ("LockedK", "false")):
+for name, isSeen in (("LockedAmbient", "false"), ("LockedK", "false")):
     user.check(name, "visible", isSeen)
 
 # Notes can be read and copied like other text in a window.

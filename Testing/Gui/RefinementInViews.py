@@ -28,7 +28,7 @@ def line():
 def is_refined():
     return re.match("Refining: [0-9]+ of 20000 samples", bar.text()) is not None
 assert not abort.isEnabled() and bar.text() == ""
-bench.AutoTargetError = 0
+bench.TargetError = 0
 bench.SamplesPerPixel = 20000
 Render(view)
 until(is_refined)

@@ -26,7 +26,7 @@ def flow_in(view, slope):
     flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), Function=f"{slope}*coordsX",
                              ResultArrayName="N")
     flow.UpdatePipeline()
-    return flow, show(flow, view, IndexModel="Refractivity", IndexArray=["POINTS", "N"], AutoAmbientRefractivity=0,
+    return flow, show(flow, view, IndexModel="Refractivity", IndexArray=["POINTS", "N"], AmbientRefractivity=0,
                       Cutoff="Background Oriented", BackgroundPattern="Scene")
 
 

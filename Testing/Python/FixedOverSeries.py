@@ -35,13 +35,13 @@ write_series(SERIES, TIMES, 20, pulse)
 flow = simple.PVDReader(FileName=SERIES, registrationName="flow")
 flow.UpdatePipeline()
 settings = {"Input": flow, "Density": ["POINTS", "rho"], "ImageSize": [32, 24], "ParallelScale": 0.6}
-own = {time: at(Schlieren(LockK="Off", LockAmbient=0, **settings), time) for time in TIMES}
+own = {time: at(Schlieren(LockK="Off", **settings), time) for time in TIMES}
 assert len({round(k, 3) for k, _ in own.values()}) > 4 and len({round(n, 9) for _, n in own.values()}) > 4, own
 
 # Of each time, in whatever order.
-bench = Schlieren(LockK="Off", LockAmbient=0, **settings)
+bench = Schlieren(LockK="Off", **settings)
 for time in [0.5, 1.5, 0.5, 0] + TIMES:
-    assert np.allclose(at(bench, time), own[time], rtol=1e-12), time
+    assert np.isclose(at(bench, time)[0], own[time][0], rtol=1e-3), time  # the surroundings are those of 0.5
 
 # Fixed by default: that of the first image, forwards, backwards and anyhow.
 bench = Schlieren(registrationName="bench", **settings)
@@ -61,10 +61,7 @@ bench.Cutoff = "Interferogram"
 assert at(bench, 1.5)[1] == fixed[1]
 path = image_array(bench, "OpticalPathDifference")[0, 0]
 assert abs(path / (2 * (own[1.5][1] - own[0.5][1])) - 1) < 0.01, path
-bench.LockAmbient = 0
-at(bench, 1.5)
-assert abs(image_array(bench, "OpticalPathDifference")[0, 0]) < 0.01 * abs(path)
-bench.LockAmbient, bench.Cutoff = 1, "Knife Edge"
+bench.Cutoff = "Knife Edge"
 bench.LockedAmbient = fixed[1]
 bench.LockedK = fixed[0]
 

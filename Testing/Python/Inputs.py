@@ -61,8 +61,7 @@ for whole, box in ((column, part), (tetrahedra, clipped)):
     for source in (whole, box):
         source.UpdatePipeline()
         bent.append(np.abs(image_array(Schlieren(
-            source, IndexModel="Refractivity", IndexArray=["POINTS", "N"], ViewDirection=[0, 0, -1], SamplesPerPixel=1,
-            AutoAmbientRefractivity=0), "Deflection")).max())
+            source, IndexModel="Refractivity", IndexArray=["POINTS", "N"], ViewDirection=[0, 0, -1], SamplesPerPixel=1, AmbientRefractivity=0), "Deflection")).max())
     # Light along z meets as much of the column as is in the box.
     made = box.GetDataInformation().GetBounds()[4:]
     expected = math.erf(0.5 * (made[1] - made[0]) / RADIUS) / math.erf(1 / RADIUS)

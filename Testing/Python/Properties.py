@@ -24,10 +24,8 @@ TEXTS = {"IndexModel": {"Auto", "Gladstone-Dale", "Gladstone-Dale Mixture", "Cid
                     "Phase Contrast"},
          "LockK": {"Off", "Over Time", "Always"},
          "ExitInto": {"Auto", "Surroundings", "Air", "Custom"},
-         "FringeMode": {"Infinite", "Finite"}, "LightSource": {"Collimated", "Diverging"},
          "SourceShape": {"Point", "Slit", "Disc"}, "LightModel": {"Rays", "Waves", "Auto"},
-         "BackgroundPattern": {"Dots", "Stripes", "Picture", "Scene"}, "FilmEstimator": {"Sheet", "Photon"},
-         "NoiseFilter": {"None", "Gaussian", "Mean", "Cone"},
+         "BackgroundPattern": {"Dots", "Stripes", "Picture", "Scene"},
          "Quality": {"Interactive", "Fine", "Publication", "Reference", "Automatic", "Custom"},
          "PathModel": {"Straight", "Refracted"},
          "Precision": {"Single", "Double"}, "Device": {"Auto", "CPU", "CUDA"}}
@@ -35,8 +33,7 @@ TEXTS = {"IndexModel": {"Auto", "Gladstone-Dale", "Gladstone-Dale Mixture", "Cid
 refractivity = RefractiveIndex(source)
 bench = Schlieren(source)
 
-# Proxies and classes have the XML's defaults. Lists begin empty; Quality and OutsideBlocksLight are names for values of
-# other properties.
+# Proxies and classes have the XML's defaults. Lists begin empty; Quality is a name for values of other properties.
 checked = 0
 for proxy, made, files in ((refractivity, vtkRefractiveIndex(), property_tables.FILES[:1]),
                            (bench, vtkSchlierenFilter(), property_tables.FILES)):
@@ -45,7 +42,7 @@ for proxy, made, files in ((refractivity, vtkRefractiveIndex(), property_tables.
             continue
         value = getattr(proxy, item.name)
         assert (list(value) if isinstance(item.default, list) else value) == item.default, (item.name, value)
-        if item.default == [] or item.name in ("Quality", "OutsideBlocksLight"):
+        if item.default == [] or item.name == "Quality":
             continue
         inside = getattr(made, item.command.replace("Set", "Get", 1))()
         inside = list(inside) if isinstance(inside, tuple) else inside
@@ -59,13 +56,13 @@ for proxy in (refractivity, bench):
 for name, texts in TEXTS.items():
     assert set(bench.GetProperty(name).Available) == texts, name
 
-# PrintSelf names them all, but the one that is another name for a value of Outside.
+# PrintSelf names them all.
 printed = str(vtkSchlierenFilter())
 for item in property_tables.read().values():
     if item.group not in ("Inputs", "Commands", "Information") and not item.is_array and item.command:
         name = item.command.replace("Set", "", 1).replace("Add", "", 1)
         forms = (f" {name}: ", f" {name}s:", f" {name}es:")
-        assert name == "OutsideBlocksLight" or any(form in printed for form in forms), name
+        assert any(form in printed for form in forms), name
 
 # The panel shows what belongs to a cutoff: the XML's lists of cutoffs are those of the table in Optics/Techniques.h.
 properties = property_tables.read()
@@ -100,7 +97,7 @@ for shown, names in (
         (WITH_EDGE, "KnifeEdgeAngle CutoffOffset CutoffPosition"),
         (WITH_EDGE | {vtkSchlierenFilter.PHASE_CONTRAST}, "InvertCutoff"),
         ({vtkSchlierenFilter.PHASE_CONTRAST}, "PhasePlateDiameter PhasePlateDelay PhasePlateTransmission"),
-        (WITH_FRINGES, "Wavelength FringeMode FringeSpacing FringeAngle BeamAngle WhiteLight"),
+        (WITH_FRINGES, "Wavelength FringeSpacing FringeAngle WhiteLight"),
         (WITH_SCREEN, "ScreenDistance"), (set(CUTOFFS.values()) - WITH_SCREEN, "FocusOffset"),
         (WITH_BACKGROUND, "BackgroundPattern BackgroundDistance BackgroundPeriod BackgroundAngle BackgroundImage"),
         ({vtkSchlierenFilter.GRADED_FILTER}, "GradedFilter"), ({vtkSchlierenFilter.COLOR_FILTER}, "ColorFilterImage")):
@@ -126,7 +123,7 @@ def current(name):
 bench.Density = ["POINTS", "rho"]
 bench.ImageSize = [48, 32]
 bench.PathModel = "Refracted"
-bench.SamplesPerPixel = 4  # the first is at the pixel's centre, whatever the seed
+bench.SamplesPerPixel = 4  # the first is at the pixel's centre
 assert output(bench).GetDimensions() == (48, 32, 1)
 before = work(bench)
 reference = image_array(bench, "Intensity")
@@ -151,11 +148,11 @@ assert work(chained) == before, "Neither must they after Refractive Index"
 for name, value in (("ViewDirection", [1, 0, -1]), ("ViewUp", [1, 1, 0]), ("ParallelScale", 0.3),
                     ("StepSize", 0.7), ("SamplesPerPixel", 2),
                     ("HomogeneityTolerance", 0.1), ("PathModel", "Straight"),
-                    ("Precision", "Double"), ("Seed", 2), ("LengthScale", 0.1),
+                    ("Precision", "Double"), ("LengthScale", 0.1),
                     ("GladstoneDaleConstant", 1e-4), ("DensityScale", 2)):
     default = current(name)
     # Optical paths are those of pixels' centres, however many rays there are.
-    array = "Intensity" if name in ("SamplesPerPixel", "Seed") else "OpticalPathDifference"
+    array = "Intensity" if name == "SamplesPerPixel" else "OpticalPathDifference"
     reference = image_array(bench, array)
     setattr(bench, name, value)
     assert not np.array_equal(image_array(bench, array), reference), name
@@ -192,10 +189,9 @@ assert image_array(with_body, "BlockedFraction").max() == 1
 mesh = Clip(AppendDatasets(source), ClipType="Sphere")
 mesh.ClipType.Radius = 0.8
 outside = Schlieren(mesh, Density=["POINTS", "rho"], ImageSize=[16, 16])
-for name, value, blocked in (("Outside", "Blocks", 1), ("Outside", "Passes", 0), ("OutsideBlocksLight", 1, 1),
-                             ("OutsideBlocksLight", 0, 0)):
-    setattr(outside, name, value)
-    assert image_array(outside, "BlockedFraction")[8, 1] == blocked, (name, value)
+for value, blocked in (("Blocks", 1), ("Passes", 0)):
+    outside.Outside = value
+    assert image_array(outside, "BlockedFraction")[8, 1] == blocked, value
 
 # A mask: light ends where rho is high, and only then.
 masked = Schlieren(source, Density=["POINTS", "rho"], ImageSize=[16, 16])

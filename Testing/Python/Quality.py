@@ -70,8 +70,8 @@ check(bench, "Custom", preset="Interactive", StepSize=0.5)
 bench.Quality = "Reference"
 check(bench, "Reference")
 for name, value in (("PathModel", "Straight"), ("StepSize", 0.3), ("HomogeneityTolerance", 0.3),
-                    ("SamplesPerPixel", 7), ("FilmEstimator", "Photon"), ("Precision", "Single"),
-                    ("MediumTolerance", 0.3), ("TargetError", 0.3), ("AutoTargetError", 1)):
+                    ("SamplesPerPixel", 7), ("Precision", "Single"),
+                    ("MediumTolerance", 0.3), ("TargetError", 0.3)):
     before = bench.GetProperty(name).GetData()
     setattr(bench, name, value)
     check(bench, "Custom", preset="Reference", **{name: value})
@@ -85,7 +85,7 @@ for name, value in (("StepSize", 0.3), ("SamplesPerPixel", 7), ("TargetError", 0
     bench.Quality = "Automatic"
     check(bench, "Automatic")
     setattr(bench, name, value)
-    check(bench, "Custom", preset="Automatic", **{name: value, "AutoTargetError": 0})
+    check(bench, "Custom", preset="Automatic", **{"TargetError": 0, name: value})
 
 # They reach the tracer.
 bench = Schlieren(Input=source, Density=["POINTS", "rho"], ImageSize=[16, 16], Quality="Fine",

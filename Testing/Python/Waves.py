@@ -82,7 +82,7 @@ assert "of which no waves are made" in status_of(shadow), status_of(shadow)
 
 # In focus: a column of 3.4 rad, 1/e half width 0.6 mm, behind plates and filters, and with a reference beam.
 column = Schlieren(Input=gaussian_column(96), Density=["POINTS", "N"], IndexModel="Refractivity", IndexArray=["POINTS", "N"],
-                   AutoAmbientRefractivity=0, LengthScale=2e-3, Wavelength=1e9 * WAVELENGTH, ParallelScale=0.8,
+                   AmbientRefractivity=0, LengthScale=2e-3, Wavelength=1e9 * WAVELENGTH, ParallelScale=0.8,
                    ImageSize=[128, 128], Quality="Publication", LightModel="Waves")
 
 
@@ -118,7 +118,7 @@ assert image_array(column, "Intensity")[64].min() < 0.5, "The flanks bend light 
 column.InvertCutoff = 0
 
 for cutoff, settings, most in (("Graded Filter", {"AutoKScale": 0, "KScale": 300}, 5e-3), ("Interferogram", {}, 3e-3),
-                               ("Interferogram", {"FringeMode": "Finite", "FringeSpacing": 0.1, "FringeAngle": 60}, 3e-3)):
+                               ("Interferogram", {"FringeSpacing": 0.1, "FringeAngle": 60}, 3e-3)):
     column.Cutoff = cutoff
     for key, value in settings.items():
         setattr(column, key, value)
@@ -161,7 +161,7 @@ for settings, words in (({}, "Cutoff to another technique"),
                         ({"LightModel": "Waves", "ViewAngle": 30}, "ViewAngle to less"),
                         ({"Cutoff": "Shadowgraph", "ViewAngle": 30}, "ViewAngle to less"),
                         ({"ViewAngle": 0, "PathModel": "Straight"}, "PathModel to Refracted"),
-                        ({"PathModel": "Refracted", "LengthScale": 10}, "MemoryBudget")):
+                        ({"PathModel": "Refracted", "LengthScale": 10}, "MiB may be used")):
     for key, value in settings.items():
         setattr(flow, key, value)
     assert is_empty(flow), settings

@@ -60,7 +60,6 @@ def one_ray_per_pixel(bench, pixels=64):
     """Rays at the pixels' centres only, in vacuum, so that the closed form holds for every pixel."""
     bench.ImageSize = [pixels, pixels]
     simple.SetProperties(bench, **EVERY_VOXEL)
-    bench.AutoAmbientRefractivity = 0
     bench.AmbientRefractivity = 0
     bench.ParallelScale = 0.9
 

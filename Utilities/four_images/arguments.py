@@ -16,7 +16,7 @@ JET = (os.path.join(ROOT, "Testing", "Data", "ladenburg_openfoam", "ladenburg.fo
        "--set", "Symmetry=Axisymmetric")
 # In images of it the noise of its cells is removed, by a Gaussian whose standard deviation is one cell; it leaves nothing
 # for which more than one ray per pixel would be needed.
-SMOOTHED_JET = (*JET, "--set", "NoiseFilter=Gaussian", "--set", "NoiseFilterRadius=7", "--set", "SamplesPerPixel=1")
+SMOOTHED_JET = (*JET, "--set", "SmoothingRadius=7", "--set", "SamplesPerPixel=1")
 
 # Index models, and the property that takes the array.
 MODELS = {"Auto": "Density", "Gladstone-Dale": "Density", "Refractive Index": "IndexArray",
@@ -86,7 +86,7 @@ def setting(text):
     try:
         value = value if value == "None" else ast.literal_eval(value)
     except (ValueError, SyntaxError):
-        pass  # a word, such as Linear or None
+        pass  # a word, such as Passes or None
     return name, list(value) if isinstance(value, tuple) else value
 
 
@@ -105,7 +105,7 @@ def parse_arguments(arguments, program="demo", description=FOUR_IMAGES, largest=
 examples:
   %(prog)s
   %(prog)s flow.vtu --array rho --view y
-  %(prog)s case.foam --formula 'p/(287.05*T)' --set OutsideBlocksLight=0
+  %(prog)s case.foam --formula 'p/(287.05*T)' --set Outside=Passes
   %(prog)s bluntfinxyz.bin --density-scale 0.72 --length-scale 0.0127
   %(prog)s plume.vti --set Quality=Fine --set SamplesPerPixel=1""")
     add = parser.add_argument

@@ -126,7 +126,7 @@ def check_light(blocked, frame):
     if fraction > 0.99:
         raise DemoError("No light comes through: every line of sight meets a place that is solid or "
                         "that no cell covers. Choose another --view, or let light pass outside of "
-                        "all cells: --set OutsideBlocksLight=0")
+                        "all cells: --set Outside=Passes")
     if fraction > 0.1:
         say(f"{fraction:.0%} of the light is blocked: by solids, or by places that no cell covers "
-            "(--set OutsideBlocksLight=0 lets it pass there)")
+            "(--set Outside=Passes lets it pass there)")

@@ -152,7 +152,7 @@ struct MoistAir
 
   /// Outside 0.23 um to 1.7 um, the dispersion is that of the nearest of these. Not a number where
   /// the wavelength is not positive or the carbon dioxide is negative.
-  static MoistAir at(double wavelengthMetres, double co2PartsPerMillion);
+  static MoistAir at(double wavelengthMetres, double co2PartsPerMillion = 450);
 
   /// `relativeHumidity` is 0 to 1; below 0 it counts as 0.
   double refractivity(

@@ -36,9 +36,6 @@ struct Field
 {
   Grid grid;
   std::shared_ptr<const MediumSource> source;
-  /// The same data as `source`, continued otherwise between their points, for Scene::estimatesDataError; called while an
-  /// image is made. May be empty, or return null.
-  std::function<std::shared_ptr<const MediumSource>()> makeOtherSource;
   const float* singles = nullptr;
   const double* doubles = nullptr;
   /// Offset of the samples, which hold N less this. Near the surroundings' N it leaves single precision the digits of a

@@ -90,7 +90,6 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
   if (reconstruction != Reconstruction::Linear)
   {
     this->findNeighbours(*mesh, progress.part(0.1, 0.4));
-    mesh->areTrendsCoarser = reconstruction == Reconstruction::Coarser;
   }
   this->sortCells(*mesh, progress.part(0.4, 0.6));
   this->makeGroups(*mesh, progress.part(0.6, 0.7));
@@ -172,9 +171,7 @@ void CellTree::setValues(const WorkProgress& progress)
     {
       arrays.setValues(neighbours.valuesFromCells(arrays, part.part(0, 0.5)));
     }
-    std::vector<PointTrend> trends = neighbours.trends(arrays, part.part(0.5, 1));
-    arrays.setTrends(mesh.areTrendsCoarser ? neighbours.coarser(arrays, trends, part.part(1, 1))
-                                           : std::move(trends));
+    arrays.setTrends(neighbours.trends(arrays, part.part(0.5, 1)));
   }
   if (mesh.levels.empty())
   {

@@ -39,8 +39,7 @@ public:
   enum class Reconstruction
   {
     Linear, // the cells' own functions
-    Smooth, // exact for quadratic fields, by gradients at the points (see PointTrends.h)
-    Coarser // the same with the means of the gradients around each point
+    Smooth  // exact for quadratic fields, by gradients at the points (see PointTrends.h)
   };
 
   struct Mesh;
@@ -159,7 +158,6 @@ public:
     std::vector<Steps> boxes;                // of the cells
     std::vector<std::vector<Group>> levels;  // of eight cells, of eight groups, ... one group
     std::vector<PointNeighbours> neighbours; // of each block; none: linear
-    bool areTrendsCoarser = false;
 
     std::size_t bytes() const;
   };

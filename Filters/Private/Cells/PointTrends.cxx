@@ -413,29 +413,6 @@ std::vector<PointTrend> PointNeighbours::trends(
   return trends;
 }
 
-std::vector<PointTrend> PointNeighbours::coarser(
-  const MeshArrays& mesh, const std::vector<PointTrend>& trends, const WorkProgress& progress) const
-{
-  std::vector<PointTrend> means = trends;
-  forChunks(mesh.points(), progress,
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      this->forNeighbours(mesh, begin, end,
-        [&](vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
-        {
-          for (int axis = 0; axis < 3 && first < last; ++axis)
-          {
-            double sum = 0;
-            std::for_each(
-              first, last, [&](std::uint32_t other) { sum += trends[other].gradient[axis]; });
-            means[static_cast<std::size_t>(point)].gradient[axis] =
-              static_cast<float>(sum / static_cast<double>(last - first));
-          }
-        });
-    });
-  return means;
-}
-
 std::vector<double> PointNeighbours::valuesFromCells(
   const MeshArrays& mesh, const WorkProgress& progress) const
 {

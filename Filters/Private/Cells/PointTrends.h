@@ -33,11 +33,6 @@ public:
   std::vector<PointTrend> trends(
     const MeshArrays& mesh, const WorkProgress& progress = WorkProgress()) const;
 
-  /// Returns trends of the same bounds whose gradients are the means over each point's neighbours. How much they differ
-  /// from `trends` shows how well the points resolve the field.
-  std::vector<PointTrend> coarser(const MeshArrays& mesh, const std::vector<PointTrend>& trends,
-    const WorkProgress& progress = WorkProgress()) const;
-
   /// The values at the points that are right for a mesh whose values are means over cells (see CellsAround): those of
   /// the polynomials whose means fit these best. Beyond the values of the cells around it goes only a point where all
   /// others nearby do so, too, at a smooth extremum, or where the field continues evenly, at the boundary: so there is no

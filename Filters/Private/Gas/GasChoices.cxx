@@ -112,8 +112,7 @@ std::function<double(double)> dispersionOfGases(const MediumSettings& settings, 
 {
   if (settings.IndexModel == MediumSettings::Ciddor)
   {
-    const auto at = [co2 = settings.CO2](double wavelength)
-    { return schlieren::MoistAir::at(wavelength, co2).dry; };
+    const auto at = [](double wavelength) { return schlieren::MoistAir::at(wavelength).dry; };
     return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };
   }
   const std::vector<std::string> names = namesUsed(settings);

@@ -173,21 +173,15 @@ CiddorAir ciddorAir(const MediumSettings& settings)
     throw std::runtime_error("RelativeHumidity is " + textOf(humidity) +
       ", but it is a fraction of saturation. Set it between 0 and 1.");
   }
-  if (!(settings.CO2 >= 0 && settings.CO2 <= 1e6))
-  {
-    throw std::runtime_error("CO2 is " + textOf(settings.CO2) +
-      ", which is no number of parts per million. Set it between 0 and 1e6 (air: 450).");
-  }
   const double wavelength = 1e-9 * settings.Wavelength;
   if (!schlieren::isWithinCiddorWavelengths(wavelength))
   {
     throw std::runtime_error("Wavelength is " + textOf(settings.Wavelength) +
       " nm, where Ciddor's equations do not hold. Set it between 300 and 1700 nm.");
   }
-  return { schlieren::MoistAir::at(wavelength, settings.CO2), settings.TemperatureScale,
-    settings.PressureScale, settings.UniformPressure,
-    settings.isIsentropic() ? settings.StagnationTemperature : 0, settings.StagnationPressure,
-    hasHumidity, humidity };
+  return { schlieren::MoistAir::at(wavelength), settings.TemperatureScale, settings.PressureScale,
+    settings.UniformPressure, settings.isIsentropic() ? settings.StagnationTemperature : 0,
+    settings.StagnationPressure, hasHumidity, humidity };
 }
 
 } // namespace

@@ -203,10 +203,6 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
     addFieldValue<vtkDoubleArray>(output, "ErrorReached", image.accuracy.reached);
     addFieldValue<vtkDoubleArray>(output, "ErrorLargest", image.accuracy.largest);
     addFieldValue<vtkStringArray>(output, "ErrorLimit", limitInWords(image.accuracy));
-    if (!std::isnan(image.accuracy.ofData))
-    {
-      addFieldValue<vtkDoubleArray>(output, "DataError", image.accuracy.ofData);
-    }
     addFieldValue<vtkDoubleArray>(output, "StepSize", image.stepSize);
     addFieldValue<vtkIntArray>(output, "SamplesPerPixel", image.samplesPerPixel);
   }

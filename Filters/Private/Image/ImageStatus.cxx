@@ -143,10 +143,7 @@ std::string statusInWords(
   return words + deviceInWords(image) + ", " + accuracyInWords(image, scene) +
     (waves.empty() ? "" : ", " + waves) +
     (image.accuracy.target > 0 ? ", " + errorInWords(image.accuracy, scene) + ", limited by " +
-          limitInWords(image.accuracy) +
-          (std::isnan(image.accuracy.ofData)
-              ? ""
-              : ", the data leave " + textOf(image.accuracy.ofData, 2) + " open")
+          limitInWords(image.accuracy)
         : scene.targetError > 0 ? ", error not known yet"
                                 : "");
 }

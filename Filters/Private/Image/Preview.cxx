@@ -58,7 +58,7 @@ void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int red
   scene.lightModel = schlieren::LightModel::Rays; // waves take as many points for fewer pixels
   scene.samplesPerPixel = std::min(scene.samplesPerPixel, 1); // keeps invalid values
   scene.stepSize = std::max(scene.stepSize, interactiveStepSize());
-  scene.noiseFilterRadius /= reduction;
+  scene.smoothingRadius /= reduction;
 }
 
 } // namespace filters

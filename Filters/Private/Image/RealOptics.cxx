@@ -21,10 +21,6 @@ namespace filters
 namespace
 {
 
-/// Defaults: data depths from a diverging source to the data, and finite fringes in the image.
-constexpr double depthsToSource = 10;
-constexpr double fringesInImage = 10;
-
 [[noreturn]] void refuse(
   const char* property, double value, const std::string& unit, const std::string& advice)
 {
@@ -155,13 +151,12 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
 }
 
 //------------------------------------------------------------------------------
-schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schlieren::Frame& frame)
+schlieren::LightSource lightSourceFrom(const OpticsSettings& optics)
 {
   schlieren::LightSource source;
-  if (optics.LightSource == OpticsSettings::divergingLight)
+  if (optics.SourceDistance != 0)
   {
-    const double distance = optics.SourceDistance;
-    source.distance = distance == 0 ? depthsToSource * (frame.exit - frame.entry) : distance;
+    source.distance = optics.SourceDistance;
   }
   source.shape = static_cast<schlieren::SourceShape>(optics.SourceShape);
   if (source.shape != schlieren::SourceShape::Point)
@@ -191,7 +186,6 @@ schlieren::Lens lensFrom(const SchlierenSettings& settings)
       metresPerMillimetre * settings.LensFocalLength / (number * settings.LengthScale);
     lens.apertureRatio = 1 / number;
   }
-  lens.diffracts = settings.LensDiffraction;
   if (settings.FocusDistance != 0)
   {
     lens.focusDistance = settings.FocusDistance;
@@ -261,26 +255,15 @@ schlieren::Sensor sensorFrom(const SchlierenSettings& settings)
       "but it is a standard deviation. Set it to 0 or more.");
   }
   return { settings.FullWell, settings.Exposure, settings.ReadNoise, settings.Gamma,
-    settings.BitDepth, static_cast<std::uint32_t>(settings.Seed) };
+    settings.BitDepth };
 }
 
 //------------------------------------------------------------------------------
 double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
 {
-  const double angle = settings.BeamAngle;
-  if (!(angle >= 0 && angle <= 180))
-  {
-    refuse("BeamAngle", angle, "degrees",
-      "but beams cross at 0 to 180 degrees. Set it to that, or to 0 and give FringeSpacing.");
-  }
-  if (angle > 0)
-  {
-    const double wavelength = metresPerNanometre * settings.Wavelength;
-    return wavelength / (2 * std::sin(vtkMath::RadiansFromDegrees(angle) / 2)) /
-      settings.LengthScale;
-  }
-  return settings.FringeSpacing == 0 ? frame.pixelSize * settings.ImageSize[1] / fringesInImage
-                                     : settings.FringeSpacing;
+  return settings.FringeSpacing < 0
+    ? frame.pixelSize * settings.ImageSize[1] / -settings.FringeSpacing
+    : settings.FringeSpacing;
 }
 
 } // namespace filters

@@ -41,7 +41,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
 /// Returns "k = 4000" or "k locked at 4000".
 std::string kInWords(double k, bool isKept);
 
-schlieren::LightSource lightSourceFrom(const OpticsSettings& optics, const schlieren::Frame& frame);
+schlieren::LightSource lightSourceFrom(const OpticsSettings& optics);
 
 /// Returns the lens of a view's camera.
 schlieren::Lens lensFrom(const SchlierenSettings& settings);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/SceneFromSettings.h"
+#include "Common/AvailableMemory.h"
 #include "Common/Threads.h"
 #include "Sources/MediumMaker.h"
 
@@ -27,10 +28,17 @@ namespace
 /// Number of samples of a graded filter's curve.
 constexpr int gradedFilterSamples = 1025;
 
+/// A quarter of what is free, as all else of an image wants memory, too.
+std::size_t memoryForWaves()
+{
+  constexpr double part = 0.25, most = 1e15;
+  return static_cast<std::size_t>(std::min(part * availableMemory(), most));
+}
+
 schlieren::Fringes fringesFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
 {
   schlieren::Fringes fringes;
-  fringes.finite = settings.FringeMode == OpticsSettings::finiteFringes;
+  fringes.finite = settings.FringeSpacing != 0;
   if (fringes.finite)
   {
     fringes.spacing = fringeSpacingFrom(settings, frame);
@@ -162,7 +170,7 @@ schlieren::Scene sceneFrom(
   schlieren::Scene scene;
   scene.view = viewFrom(settings, grid);
   const schlieren::Frame frame = schlieren::frameOf(grid, scene.view);
-  scene.source = lightSourceFrom(settings, frame);
+  scene.source = lightSourceFrom(settings);
   scene.lens = lensFrom(settings);
   scene.cutoff = static_cast<schlieren::Cutoff>(settings.Cutoff);
   scene.knifeEdgeAngle = settings.KnifeEdgeAngle;
@@ -178,9 +186,13 @@ schlieren::Scene sceneFrom(
   }
   scene.lightModel = lightModelFrom(settings);
   const bool hasFringes = schlieren::techniqueOf(scene.cutoff).hasFringes;
-  if (hasFringes || scene.lightModel != schlieren::LightModel::Rays || scene.lens.diffracts)
+  if (hasFringes || scene.lightModel != schlieren::LightModel::Rays)
   {
     scene.wavelength = metresPerNanometre * settings.Wavelength;
+  }
+  if (scene.lightModel != schlieren::LightModel::Rays)
+  {
+    scene.memoryBudget = std::max(scene.memoryBudget, memoryForWaves());
   }
   scene.bandwidth = metresPerNanometre * settings.Bandwidth;
   scene.coherenceSamples = settings.CoherenceSamples;
@@ -203,19 +215,15 @@ schlieren::Scene sceneFrom(
   scene.focusOffset = settings.FocusOffset;
   scene.exitInto = static_cast<schlieren::ExitInto>(settings.ExitInto);
   scene.exitRefractivity = settings.ExitRefractivity;
-  scene.filmEstimator = static_cast<schlieren::FilmEstimator>(settings.FilmEstimator);
-  scene.noiseFilter = static_cast<schlieren::NoiseFilter>(settings.NoiseFilter);
-  scene.noiseFilterRadius = settings.NoiseFilterRadius;
-  scene.histogramSize = settings.HistogramSize;
-  scene.memoryBudget = static_cast<std::size_t>(settings.MemoryBudget) << 20;
+  scene.smoothingRadius = settings.SmoothingRadius;
+  scene.histogramSize = histogramBins;
   scene.samplesPerPixel = settings.SamplesPerPixel;
-  scene.seed = static_cast<std::uint32_t>(settings.Seed);
   scene.pathModel = static_cast<schlieren::PathModel>(settings.PathModel);
   scene.stepSize = settings.StepSize;
   scene.homogeneityTolerance = settings.HomogeneityTolerance;
   scene.precision = static_cast<schlieren::Precision>(settings.Precision);
   scene.mediumTolerance = settings.MediumTolerance;
-  scene.targetError = settings.AutoTargetError
+  scene.targetError = settings.TargetError < 0
     ? schlieren::unseenError(schlieren::techniqueOf(scene.cutoff))
     : settings.TargetError;
   // Longer steps hide what cubic splines gain.
@@ -228,9 +236,7 @@ schlieren::Scene sceneFrom(
   scene.integrator = !hasTarget && scene.precision == schlieren::Precision::Double
     ? schlieren::Integrator::Adaptive
     : schlieren::Integrator::Leapfrog;
-  scene.errorNorm = static_cast<schlieren::ErrorNorm>(settings.TargetNorm);
   scene.estimatesErrors = settings.ErrorEstimate;
-  scene.estimatesDataError = settings.DataError;
   scene.mediumMemory = static_cast<std::size_t>(settings.MediumMemory) << 20;
   scene.device = static_cast<schlieren::Device>(settings.Device);
   scene.threads = threadsFrom(settings.NumberOfThreads);

@@ -15,6 +15,9 @@ namespace filters
 class MediumMaker;
 class RgbImageReader;
 
+/// Bins along each axis of the histogram.
+constexpr int histogramBins = 256;
+
 /// The image of the view behind the flow.
 struct BackgroundScene
 {

@@ -48,8 +48,8 @@ std::vector<double> settingsOfRays(const SchlierenSettings& settings)
   settings.ViewSettings::visit(add);
   settings.AccuracySettings::visit(add);
   values.insert(values.end(),
-    { double(settings.LightSource), settings.SourceDistance, double(settings.SourceShape),
-      double(settings.ColorByField), double(settings.Device) });
+    { settings.SourceDistance, double(settings.SourceShape), double(settings.ColorByField),
+      double(settings.Device) });
   if (static_cast<schlieren::SourceShape>(settings.SourceShape) != schlieren::SourceShape::Point)
   {
     values.insert(values.end(),

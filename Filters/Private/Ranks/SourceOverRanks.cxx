@@ -49,7 +49,6 @@ std::unique_ptr<MeshPiece> makePieceOfMeshes(
   leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
                  [](const Leaf& leaf) { return dimensionOf(leaf.data) < 3; }),
     leaves.end());
-  const auto reconstruction = reconstructionOf(maker.settings);
   PreparedLeaves prepared{ {}, std::vector<MeshLeaves>(choice.ofFields.size()) };
   if (choice.data && !leaves.empty())
   {
@@ -58,9 +57,9 @@ std::unique_ptr<MeshPiece> makePieceOfMeshes(
     {
       fields = fieldSources(maker.settings, choice.data, choice.source, choice.ofFields);
     }
-    prepared = preparedLeaves(choice.source, fields, reconstruction, tally);
+    prepared = preparedLeaves(choice.source, fields, tally);
   }
-  kept.piece = PieceMesh::of(prepared.refractivity, reconstruction, kept.piece);
+  kept.piece = PieceMesh::of(prepared.refractivity, kept.piece);
   auto piece = std::make_unique<MeshPiece>(prepared, kept.piece, Copies::Neighbours);
   return piece;
 }

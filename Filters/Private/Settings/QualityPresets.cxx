@@ -22,7 +22,6 @@ constexpr double numberOf(Value value)
 }
 
 constexpr double refracted = numberOf(schlieren::PathModel::Refracted);
-constexpr double sheet = numberOf(schlieren::FilmEstimator::Sheet);
 constexpr double single = numberOf(schlieren::Precision::Single);
 constexpr double twofold = numberOf(schlieren::Precision::Double);
 
@@ -40,17 +39,15 @@ constexpr double twofold = numberOf(schlieren::Precision::Double);
   }
 
 // clang-format off
-const std::array<QualitySetting, 9> qualitySettings{
+const std::array<QualitySetting, 7> qualitySettings{
   //                            Interactive  Fine       Publication  Reference  Automatic
   SETTING(PathModel,            refracted,   refracted, refracted,   refracted, refracted),
   SETTING(StepSize,             2,           1,         1,           1,         2),
   SETTING(HomogeneityTolerance, 1e-3,        0,         0,           0,         0),
   SETTING(SamplesPerPixel,      1,           4,         16,          64,        1),
-  SETTING(FilmEstimator,        sheet,       sheet,     sheet,       sheet,     sheet),
   SETTING(Precision,            single,      single,    single,      twofold,   single),
   SETTING(MediumTolerance,      0.003,       0.003,     0.001,       0.001,     0.003),
-  SETTING(TargetError,          0,           0,         0,           0,         0),
-  SETTING(AutoTargetError,      0,           0,         0,           0,         1),
+  SETTING(TargetError,          0,           0,         0,           0,         -1),
 };
 
 const std::array<QualityError, 3> qualityErrors{ {

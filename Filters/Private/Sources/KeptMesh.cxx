@@ -39,7 +39,7 @@ std::shared_ptr<const PieceSource> sourceOfMeshes(const PreparedLeaves& prepared
   std::shared_ptr<KeptMesh>& kept)
 {
   const std::vector<vtkDataSet*> leaves = pointersTo(prepared.refractivity);
-  const auto mesh = PieceMesh::of(prepared.refractivity, choices.reconstruction, kept->piece);
+  const auto mesh = PieceMesh::of(prepared.refractivity, kept->piece);
   const std::vector<std::uint64_t> keys{ mesh->key, keyOfWalls(choices.outside, bodies) };
   if (kept->keys != keys)
   {

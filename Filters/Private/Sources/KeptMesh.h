@@ -44,7 +44,6 @@ std::uint64_t keyOfWalls(Outside outside, vtkDataObject* bodies);
 /// Choices for a source of meshes. `flatAxis`: see MeshPiece.
 struct MeshChoices
 {
-  CellTree::Reconstruction reconstruction;
   Outside outside;
   int flatAxis;
 };

@@ -270,22 +270,6 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfImage(const 
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const schlieren::MediumSource> MediumMaker::makeSourceOtherwise(
-  vtkDataObject* input, vtkDataObject* bodies, Progress progress)
-{
-  MediumMaker other(std::move(progress));
-  other.settings = this->choiceFor(input).settings;
-  other.settings.Reconstruction = other.settings.Reconstruction == MediumSettings::Smooth
-    ? MediumSettings::Coarser
-    : MediumSettings::Smooth;
-  other.numberOfThreads = this->numberOfThreads;
-  const Choice choice = other.choose(input);
-  return choice.keepsGrid() || findLevels(choice.source.leaves)
-    ? nullptr
-    : other.make(choice, bodies)->Source;
-}
-
-//------------------------------------------------------------------------------
 std::shared_ptr<const PieceSource> MediumMaker::makeOf(Source source, std::vector<Source> fields,
   int flat, double depth, vtkDataObject* bodies, Tally& tally)
 {
@@ -302,11 +286,10 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(Source source, std::vecto
         field = extruded(field, flat, depth);
       }
     }
-    const auto reconstruction = reconstructionOf(this->settings);
-    const PreparedLeaves leaves = preparedLeaves(source, fields, reconstruction, tally);
+    const PreparedLeaves leaves = preparedLeaves(source, fields, tally);
     this->progressOf(0, 1).reach(0.1);
     return sourceOfMeshes(
-      leaves, { reconstruction, outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
+      leaves, { outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
   }
   if (flat >= 0)
   {

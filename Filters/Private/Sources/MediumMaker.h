@@ -69,13 +69,9 @@ public:
   ///
   /// Keeps what depends on the mesh alone until the next data: the order of cells, neighbours of
   /// points, the boundary. Meshes are compared by their content, not by times: points, cells, what
-  /// hides them, valid values, bodies, Outside and Reconstruction.
+  /// hides them, valid values, bodies and Outside.
   std::shared_ptr<MadeRefractivity> make(
     const Choice& choice, vtkDataObject* bodies, bool withFields = false, bool isLarge = false);
-  /// Makes the source of meshes that are continued otherwise between their points: smoothly with gradients of a lower
-  /// order, or smoothly where the settings have them linear in cells. Null for other data. `progress`: may cancel.
-  std::shared_ptr<const schlieren::MediumSource> makeSourceOtherwise(
-    vtkDataObject* input, vtkDataObject* bodies, Progress progress);
 
   std::shared_ptr<KeptMesh> mesh() const { return this->Mesh; }
   void setMesh(std::shared_ptr<KeptMesh> mesh) { this->Mesh = std::move(mesh); }

@@ -24,11 +24,10 @@ constexpr double ofTree = 0.7; // of the progress; the rest is of fields
 
 } // namespace
 
-std::shared_ptr<PieceMesh> PieceMesh::of(const MeshLeaves& leaves,
-  CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept)
+std::shared_ptr<PieceMesh> PieceMesh::of(
+  const MeshLeaves& leaves, const std::shared_ptr<PieceMesh>& kept)
 {
   Hash hash;
-  hash.add(static_cast<std::uint64_t>(reconstruction));
   for (vtkDataSet* leaf : leaves)
   {
     addMesh(hash, leaf);
@@ -36,7 +35,7 @@ std::shared_ptr<PieceMesh> PieceMesh::of(const MeshLeaves& leaves,
   }
   return kept && kept->key == hash.value()
     ? kept
-    : std::make_shared<PieceMesh>(PieceMesh{ hash.value(), reconstruction, nullptr, {}, {} });
+    : std::make_shared<PieceMesh>(PieceMesh{ hash.value(), nullptr, {}, {} });
 }
 
 MeshPiece::MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
@@ -45,8 +44,8 @@ MeshPiece::MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> me
   , Mesh(std::move(mesh))
   , Cells(this->Mesh->cells
         ? CellTree(pointersTo(this->Leaves), this->Mesh->cells, progress.part(0, ofTree))
-        : CellTree(
-            pointersTo(this->Leaves), this->Mesh->reconstruction, progress.part(0, ofTree), copies))
+        : CellTree(pointersTo(this->Leaves), CellTree::Reconstruction::Smooth,
+            progress.part(0, ofTree), copies))
   , Values(this->Cells)
   , FlatAxis(flatAxis)
 {

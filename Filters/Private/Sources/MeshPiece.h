@@ -28,16 +28,15 @@ class Reader;
 /// needs no dataset.
 struct PieceMesh
 {
-  std::uint64_t key; ///< see DataPiece::meshKey()
-  CellTree::Reconstruction reconstruction;
+  std::uint64_t key;                           ///< see DataPiece::meshKey()
   std::shared_ptr<const CellTree::Mesh> cells; ///< null: not yet made
   // Contributions to boundary values, see Faces; empty: not computed.
   std::vector<std::size_t> firstContributions;
   std::vector<Contribution> contributions;
 
   /// Returns that of the leaves: `kept` (may be null) if it is equal, or a new one.
-  static std::shared_ptr<PieceMesh> of(const MeshLeaves& leaves,
-    CellTree::Reconstruction reconstruction, const std::shared_ptr<PieceMesh>& kept);
+  static std::shared_ptr<PieceMesh> of(
+    const MeshLeaves& leaves, const std::shared_ptr<PieceMesh>& kept);
 };
 
 /// Meshes, or the cells that a rank has of meshes in pieces. There, copies of other ranks' cells

@@ -98,8 +98,7 @@ vtkSmartPointer<vtkDataSet> withValues(
 
 /// Makes the meshes of a source. `shared`: their common points, found if null. `others`: sources of
 /// the same leaves, later.
-MeshLeaves leavesOf(const Source& source, const std::vector<Source>& others,
-  CellTree::Reconstruction reconstruction, Tally& tally,
+MeshLeaves leavesOf(const Source& source, const std::vector<Source>& others, Tally& tally,
   std::shared_ptr<const SharedPoints>& shared)
 {
   const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
@@ -129,7 +128,7 @@ MeshLeaves leavesOf(const Source& source, const std::vector<Source>& others,
   {
     if (leaf->GetCellData()->GetScalars())
     {
-      bringToPoints(leaf, reconstruction != CellTree::Reconstruction::Linear);
+      bringToPoints(leaf, true);
     }
     leaf = withoutPolyhedra(leaf);
   }
@@ -155,30 +154,16 @@ bool hasCells(vtkDataSet* data, int dimension)
   return false;
 }
 
-PreparedLeaves preparedLeaves(const Source& source, const std::vector<Source>& fields,
-  CellTree::Reconstruction reconstruction, Tally& tally)
+PreparedLeaves preparedLeaves(const Source& source, const std::vector<Source>& fields, Tally& tally)
 {
   std::shared_ptr<const SharedPoints> shared;
-  PreparedLeaves prepared{ leavesOf(source, fields, reconstruction, tally, shared), {} };
+  PreparedLeaves prepared{ leavesOf(source, fields, tally, shared), {} };
   Tally notReported;
   for (const Source& field : fields)
   {
-    prepared.fields.push_back(leavesOf(field, {}, reconstruction, notReported, shared));
+    prepared.fields.push_back(leavesOf(field, {}, notReported, shared));
   }
   return prepared;
-}
-
-CellTree::Reconstruction reconstructionOf(const MediumSettings& settings)
-{
-  switch (settings.Reconstruction)
-  {
-    case MediumSettings::Smooth:
-      return CellTree::Reconstruction::Smooth;
-    case MediumSettings::Coarser:
-      return CellTree::Reconstruction::Coarser;
-    default:
-      return CellTree::Reconstruction::Linear;
-  }
 }
 
 } // namespace filters

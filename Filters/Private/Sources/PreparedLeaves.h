@@ -30,12 +30,9 @@ bool hasCells(vtkDataSet* data, int dimension);
 
 /// Makes meshes of the leaves that have cells of the source's dimension, with N alone at their
 /// points (NaN if invalid), and other cells hidden; and the same of each field. Values of cells are
-/// averaged at points; with Smooth they get CellsAround, too. Leaves with common points are joined,
+/// averaged at points, which get CellsAround, too. Leaves with common points are joined,
 /// but leaves that lack some of the fields not with those that have them.
-PreparedLeaves preparedLeaves(const Source& source, const std::vector<Source>& fields,
-  CellTree::Reconstruction reconstruction, Tally& tally);
-
-/// Returns the reconstruction in cells that the settings choose.
-CellTree::Reconstruction reconstructionOf(const MediumSettings& settings);
+PreparedLeaves preparedLeaves(
+  const Source& source, const std::vector<Source>& fields, Tally& tally);
 
 } // namespace filters

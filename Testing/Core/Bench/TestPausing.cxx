@@ -106,7 +106,7 @@ TEST(Pausing, ShowsTheImageOfTheSamplesSoFar)
       Scene scene = smallScene();
       scene.cutoff = cutoff;
       scene.samplesPerPixel = 4;
-      scene.noiseFilter = NoiseFilter::Cone;
+      scene.smoothingRadius = 2;
       scene.threads = 1;
       Bench bench;
       std::vector<int> shown;

@@ -126,20 +126,20 @@ TEST_P(TargetError, IsKeptInATree)
     std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.4, 1e-3 } }, 1., 0.1)));
 }
 
-/// The error of each pixel is stated, and the largest of all is kept.
-TEST_P(TargetError, OfAllPixelsIsKept)
+/// The error of each pixel is stated.
+TEST_P(TargetError, OfAllPixelsIsStated)
 {
   const SampledField<float> field(cube(48, 1), shock);
   Scene scene = sceneOf(GetParam());
   scene.targetError = 4 * GetParam().target;
-  scene.errorNorm = ErrorNorm::Largest;
   scene.estimatesErrors = true;
   const Image image = Bench().render(field.field, scene);
   const Image truth = finest(field.field, scene, image.kScale);
   ASSERT_EQ(image.accuracy.estimate.size(), truth.intensity.size());
   ASSERT_TRUE(image.accuracy.isKept());
-  double largest = 0, largestEstimate = 0;
-  std::int64_t crossed = 0, isBelow = 0;
+  double largestEstimate = 0;
+  std::vector<double> errors;
+  std::int64_t isBelow = 0;
   for (std::size_t pixel = 0; pixel < truth.intensity.size(); ++pixel)
   {
     const double estimate = static_cast<double>(image.accuracy.estimate[pixel]);
@@ -147,81 +147,19 @@ TEST_P(TargetError, OfAllPixelsIsKept)
     if (truth.opticalPathDifference[pixel] != 0)
     {
       const double error = trueErrorAt(image, truth, scene, pixel);
-      largest = std::max(largest, error);
-      ++crossed;
+      errors.push_back(error);
       isBelow += error <= 2 * estimate + 0.05 * scene.targetError ? 1 : 0;
     }
   }
-  EXPECT_LE(largest, scene.targetError);
-  EXPECT_GT(image.accuracy.reached, 0.5 * largest);
-  EXPECT_LT(image.accuracy.reached, 4 * largest);
-  EXPECT_EQ(image.accuracy.reached, image.accuracy.largest);
+  std::sort(errors.begin(), errors.end());
+  const auto most = static_cast<std::size_t>(0.99 * static_cast<double>(errors.size()));
+  EXPECT_LE(errors[most], scene.targetError);
+  EXPECT_GT(image.accuracy.largest, 0.5 * errors.back());
+  EXPECT_LT(image.accuracy.largest, 4 * errors.back());
   EXPECT_GT(largestEstimate,
-    0.5 * image.accuracy.reached); // the largest of steps may be elsewhere than that of rays
-  EXPECT_LE(largestEstimate, 1.0001 * image.accuracy.reached);
-  EXPECT_GT(isBelow, 0.95 * static_cast<double>(crossed));
-}
-
-/// What samples leave open is what finer samples of the same formula change: at a shock within a factor of 2.5. In smooth
-/// flow, where it is small, cubic splines are more exact than the quadratic ones that they are compared with.
-TEST_P(TargetError, OfDataIsSaid)
-{
-  for (const auto& formula : { ball, shock })
-  {
-    constexpr std::int64_t points = 24;
-    const SampledField<float> field(cube(points, 1), formula);
-    const SampledField<float> finer(cube(4 * points, 1), formula);
-    Scene scene = sceneOf(GetParam());
-    scene.targetError = GetParam().target;
-    scene.estimatesDataError = true;
-    const Image image = Bench().render(field.field, scene);
-    scene.kScale = image.kScale > 0 ? std::optional<double>(image.kScale) : std::nullopt;
-    const Image truth = Bench().render(finer.field, scene);
-    const double error = trueError(image, truth, scene,
-      [&](std::size_t pixel) { return image.opticalPathDifference[pixel] != 0; });
-    EXPECT_GT(image.accuracy.ofData, 0.4 * error - 0.05 * scene.targetError);
-    EXPECT_LT(image.accuracy.ofData, 2.5 * error + 0.4 * scene.targetError);
-  }
-}
-
-TEST(TargetErrors, OfDataAreUnknownUnlessTheyAreWanted)
-{
-  const SampledField<float> field(cube(24, 1), shock);
-  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
-  scene.targetError = 1. / 256;
-  Bench bench;
-  scene.estimatesDataError = true;
-  EXPECT_GT(bench.render(field.field, scene).accuracy.ofData, 0);
-  scene.estimatesDataError = false;
-  EXPECT_TRUE(std::isnan(bench.render(field.field, scene).accuracy.ofData));
-}
-
-/// Of a source it is what its other one changes.
-TEST(TargetErrors, OfDataOfSourcesIsThatOfTheirOtherOne)
-{
-  const auto ofWidth = [](double width)
-  {
-    return std::make_shared<const BallsSource>(
-      std::vector<Ball>{ { { 0, 0, 0 }, width, 1e-3 } }, 1., 0.1);
-  };
-  Field mesh = fieldOf(ofWidth(0.4));
-  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
-  scene.targetError = 1. / 256;
-  scene.estimatesDataError = true;
-  Bench bench;
-  EXPECT_TRUE(std::isnan(bench.render(mesh, scene).accuracy.ofData));
-  mesh.makeOtherSource = [] { return nullptr; };
-  EXPECT_TRUE(std::isnan(bench.render(mesh, scene).accuracy.ofData));
-  mesh.makeOtherSource = [&] { return ofWidth(0.41); };
-  const Image image = bench.render(mesh, scene);
-  scene.kScale = image.kScale;
-  const Image other = Bench().render(fieldOf(ofWidth(0.41)), scene);
-  const double difference = trueError(image, other, scene,
-    [&](std::size_t pixel) { return image.opticalPathDifference[pixel] != 0; });
-  EXPECT_GT(difference, 2 * scene.targetError);
-  EXPECT_NEAR(image.accuracy.ofData, difference, 0.15 * difference);
-  scene.estimatesDataError = false;
-  EXPECT_TRUE(std::isnan(bench.render(mesh, scene).accuracy.ofData));
+    0.5 * image.accuracy.largest); // the largest of steps may be elsewhere than that of rays
+  EXPECT_LE(largestEstimate, 1.0001 * image.accuracy.largest);
+  EXPECT_GT(isBelow, 0.95 * static_cast<double>(errors.size()));
 }
 
 /// However few rays fit into memory, and however often it pauses.

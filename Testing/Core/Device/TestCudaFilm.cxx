@@ -73,8 +73,8 @@ RayExits lensExits(const Pass& pass, std::mt19937&)
   return exits;
 }
 
-void expectSameImages(const Cutoffs& cutoff, FilmEstimator estimator,
-  std::int64_t raysPerBand = std::int64_t{ 1 } << 20, decltype(anyExits)* exitsOf = anyExits)
+void expectSameImages(const Cutoffs& cutoff, std::int64_t raysPerBand = std::int64_t{ 1 } << 20,
+  decltype(anyExits)* exitsOf = anyExits)
 {
   constexpr int passes = 3;
   constexpr std::int64_t rays = passes * (width + 2 * margin) * (height + 2 * margin);
@@ -90,9 +90,9 @@ void expectSameImages(const Cutoffs& cutoff, FilmEstimator estimator,
       { 0.1 * number, -0.07 * number } };
     exits.push_back(exitsOf(pass, random));
     traced.push_back({ pass, exits.back().data(), nullptr });
-    onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin, estimator);
+    onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin);
   }
-  const RayCounts counts = expose(traced, cutoff, projection, margin, estimator, 1, films);
+  const RayCounts counts = expose(traced, cutoff, projection, margin, 1, films);
   const RayCounts countsOfDevice = onDevice.develop(filmsOfDevice);
 
   for (std::size_t plane = 0; plane < films.planes.size(); ++plane)
@@ -120,12 +120,9 @@ void expectSameImages(const Cutoffs& cutoff, FilmEstimator estimator,
 
 TEST_F(HostAndDeviceFilm, IsTheSameOfTheSameRays)
 {
-  for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
-  {
-    expectSameImages(KnifeEdge::at(30, 300, false), estimator);
-    expectSameImages(KnifeEdge::at(90, 20, true), estimator);
-    expectSameImages(Shadowgraph{}, estimator);
-  }
+  expectSameImages(KnifeEdge::at(30, 300, false));
+  expectSameImages(KnifeEdge::at(90, 20, true));
+  expectSameImages(Shadowgraph{});
 }
 
 /// Most cells are added by bentKernel, and there are more of them than it has threads.
@@ -133,11 +130,11 @@ TEST_F(HostAndDeviceFilm, IsTheSameOfBentCells)
 {
   for (const std::int64_t raysPerBand : { std::int64_t{ 1 }, std::int64_t{ 1 } << 20 })
   {
-    expectSameImages(KnifeEdge::at(30, 10, false), FilmEstimator::Sheet, raysPerBand, lensExits);
+    expectSameImages(KnifeEdge::at(30, 10, false), raysPerBand, lensExits);
   }
   const std::array<float, 12> pixels{ 0.1f, 0.2f, 0.3f, 0.9f, 0, 1, 0.5f, 0.6f, 0, 1, 1, 0.2f };
-  expectSameImages(ColorImage{ 10, 2, 2, { pixels.data(), pixels.size() } }, FilmEstimator::Sheet,
-    std::int64_t{ 1 } << 20, lensExits);
+  expectSameImages(
+    ColorImage{ 10, 2, 2, { pixels.data(), pixels.size() } }, std::int64_t{ 1 } << 20, lensExits);
 }
 
 /// Of 16 rows each, of 20, and of all but the last one.
@@ -147,10 +144,7 @@ TEST_F(HostAndDeviceFilm, IsTheSameInBands)
   for (const std::int64_t raysPerBand :
     { std::int64_t{ 1 }, 20 * columns + 1, (rows - 1) * columns })
   {
-    for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
-    {
-      expectSameImages(KnifeEdge::at(30, 300, false), estimator, raysPerBand);
-    }
+    expectSameImages(KnifeEdge::at(30, 300, false), raysPerBand);
   }
 }
 
@@ -169,8 +163,7 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
     const Cutoffs cutoff = maker.cutoffOf(scene, 300, { 0.013 });
     kinds.insert(cutoff.index());
     SCOPED_TRACE(cutoff.index());
-    expectSameImages(cutoff, FilmEstimator::Sheet);
-    expectSameImages(cutoff, FilmEstimator::Photon);
+    expectSameImages(cutoff);
   };
   for (const Cutoff cutoff : { Cutoff::Shadowgraph, Cutoff::Circular, Cutoff::CircularComplement,
          Cutoff::GradedFilter, Cutoff::NumericalSchlieren })

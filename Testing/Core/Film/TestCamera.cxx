@@ -212,34 +212,6 @@ TEST_P(Camera, BlursWhatIsNotInFocus)
   EXPECT_NEAR(inFocus.width(), atCentre.width(), 0.03 * atCentre.width());
 }
 
-/// Stripes as fine as a Gaussian as wide as the Airy disc leaves them, which a large aperture makes narrower than pixels.
-TEST_P(Camera, IsBlurredByDiffraction)
-{
-  const SampledField<float> gas = still();
-  Scene scene = sceneOf(GetParam(), Cutoff::Background, 301, 21);
-  scene.background.kind = PatternKind::Stripes;
-  scene.background.period = 2e-3; // ten pixels, at twice the distance
-  scene.samplesPerPixel = 4;
-  scene.wavelength = 550e-9;
-  setLens(scene, 0.05, 22);
-  Bench bench;
-  const auto contrast = [&]
-  {
-    const Image image = bench.render(gas.field, scene);
-    EXPECT_EQ(image.intensity, image.background);
-    const float* row = &image.background[pixelOf(image, 50, 10)];
-    return *std::max_element(row, row + 200) - *std::min_element(row, row + 200);
-  };
-  const double sharp = contrast();
-  scene.lens.diffracts = true;
-  // Seen from the lens it is 0.42 wavelengths by its diameter; a pixel is 0.1 mm by 1 m.
-  const double pixels = 0.42 * scene.wavelength / scene.lens.aperture / 1e-4;
-  EXPECT_NEAR(contrast() / sharp, std::exp(-2 * std::pow(pi * pixels / 10, 2)),
-    0.02); // it ends at 3 deviations
-  setLens(scene, 0.05, 4);
-  EXPECT_NEAR(contrast(), sharp, 1e-6);
-}
-
 /// A parallel view has a telecentric lens, whose cone does not depend on the camera's place.
 TEST_P(Camera, IsTelecentricInAParallelView)
 {
@@ -369,7 +341,7 @@ TEST(CameraMistakes, AreReported)
   {
     Scene scene = sceneOf(Device::Cpu, Cutoff::Background, 16, 16);
     scene.samplesPerPixel = 1;
-    scene.lens = { aperture, 0, focus, false };
+    scene.lens = { aperture, 0, focus };
     try
     {
       Bench().render(field.field, scene);

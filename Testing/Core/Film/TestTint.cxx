@@ -50,7 +50,6 @@ Scene sceneOf(const std::vector<Color>& colors, Device device = Device::Cpu)
   scene.view.width = scene.view.height = 40;
   scene.view.parallelScale = 1.25;
   scene.samplesPerPixel = 1;
-  scene.filmEstimator = FilmEstimator::Photon;
   scene.kScale = 1000;
   scene.device = device;
   return scene;

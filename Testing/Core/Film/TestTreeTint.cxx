@@ -373,7 +373,6 @@ TEST_P(TreeTintOnDevice, FieldsMixByTheirGradients)
   scene.view.focalPoint = Vector{ 0.42, -0.31, 0.2 };
   scene.view.parallelScale = 0.2;
   scene.samplesPerPixel = 1;
-  scene.filmEstimator = FilmEstimator::Photon;
   scene.kScale = 1000;
   scene.mediumTolerance = 0.02;
   scene.device = GetParam();

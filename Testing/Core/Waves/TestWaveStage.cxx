@@ -472,7 +472,7 @@ TEST(WaveStage, WhatCannotBeMadeIsAnError)
       Case{ [](Scene& scene) { scene.bandwidth = green; }, "Bandwidth" },
       Case{ [](Scene& scene) { scene.coherenceSamples = 0; }, "CoherenceSamples" },
       Case{ [](Scene& scene) { scene.wavelength = 0; }, "Wavelength" },
-      Case{ [](Scene& scene) { scene.screenDistance = 1e4; }, "MemoryBudget" } })
+      Case{ [](Scene& scene) { scene.screenDistance = 1e4; }, "may be used" } })
   {
     Scene scene = laserShadowgraph();
     each.spoil(scene);

@@ -41,7 +41,6 @@ vtkSmartPointer<vtkSchlierenFilter> tinted(vtkDataObject* input,
   const std::vector<Color>& colors = { red, blue })
 {
   auto filter = bench(input, 32);
-  filter->SetFilmEstimator(vtkSchlierenFilter::PHOTON); // a pixel sees nothing of its neighbours
   filter->SetParallelScale(0.9);
   filter->SetDevice(vtkSchlierenFilter::CPU);
   filter->ColorByFieldOn();
@@ -233,8 +232,9 @@ TEST(ColorByField, OfCellsOnTheGridOfPoints)
   auto image = flow(33);
   addCellArray(image, "cells", acrossX);
   auto filter = tinted(image, { "cells", "B" });
-  // Steeper by 32/31 in the centres' range, over a way shorter by as much.
-  EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue)), 1.01);
+  // Steeper by 32/31 in the centres' range, over a way shorter by as much. A pixel beside the
+  // border of this range mixes in some light from there.
+  EXPECT_LT(largestDifference(filter, mix(red, 0.5, blue)), 2.5);
 }
 
 TEST(ColorByField, OfAMesh)

@@ -24,8 +24,7 @@ vtkSmartPointer<vtkImageData> tank()
 vtkSmartPointer<vtkSchlierenFilter> tankOnBench(vtkDataObject* data)
 {
   auto filter = bench(data, 9);
-  filter->SetAutoAmbientRefractivity(true);
-  filter->SetLockAmbient(false);
+  filter->SetAmbientRefractivity(-1);
   return filter;
 }
 
@@ -70,7 +69,6 @@ TEST(ExitInto, IsAirOfALiquidAndSaysSoOnce)
 TEST(ExitInto, IsWhatTheSurroundingsAreSaidToBe)
 {
   auto filter = tankOnBench(tank());
-  filter->SetAutoAmbientRefractivity(false);
   filter->SetAmbientRefractivity(2.7e-4);
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   EXPECT_NEAR(middleOf(filter, "Deflection"), inAir, 1e-3 * inAir);
@@ -85,8 +83,7 @@ TEST(ExitInto, IsAirOfAMeshOfALiquid)
   for (const bool isAutomatic : { true, false })
   {
     auto filter = tankOnBench(append->GetOutput());
-    filter->SetAutoAmbientRefractivity(isAutomatic);
-    filter->SetAmbientRefractivity(2.7e-4);
+    filter->SetAmbientRefractivity(isAutomatic ? -1 : 2.7e-4);
     EXPECT_NEAR(middleOf(filter, "Deflection"), inAir, 2e-3 * inAir) << isAutomatic;
   }
 }

@@ -88,7 +88,7 @@ TEST(GaussianColumn, DensityTimesConstantIsTheRefractivity)
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
   filter->SetDensityScale(0.001);
-  filter->SetAutoAmbientRefractivity(false);
+  filter->SetAmbientRefractivity(0);
   filter->SetImageSize(32, 32);
   traceEveryVoxel(filter, 1);
   filter->SetParallelScale(0.9);

@@ -84,7 +84,7 @@ TEST_F(LockK, OverTimeKeepsThatOfTheFirstImage)
   }
   // What leaves the rays as they are leaves k.
   this->filter->SetKnifeEdgeAngle(45);
-  this->filter->SetNoiseFilter(Filter::MEAN);
+  this->filter->SetSmoothingRadius(2);
   EXPECT_EQ(this->kAt(0), this->own[1]);
   // So does a camera that moves with the time, before or after the first image of that time.
   this->filter->SetParallelScale(0.1);
@@ -128,7 +128,7 @@ TEST_F(LockK, AnotherMediumCutoffOrDataHasItsOwn)
   this->filter->SetCutoff(Filter::KNIFE_EDGE);
   EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
   EXPECT_EQ(this->kAt(0), this->own[1]);
-  this->filter->SetOutsideBlocksLight(false);
+  this->filter->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
   EXPECT_DOUBLE_EQ(this->kAt(0), this->own[0]);
   EXPECT_EQ(this->kAt(2), this->own[0]);
   this->series->Modified(); // other data at the same time
@@ -221,7 +221,7 @@ protected:
     };
     this->source->steps = { 0, 1, 2 };
     this->filter->SetInputConnection(this->source->GetOutputPort());
-    this->filter->SetAutoAmbientRefractivity(true);
+    this->filter->SetAmbientRefractivity(-1);
     this->filter->SetCutoff(Filter::INTERFEROGRAM);
   }
 
@@ -253,11 +253,6 @@ TEST_F(LockAmbient, KeepsTheSurroundingsOfTheFirstImage)
   this->filter->SetCutoff(Filter::KNIFE_EDGE);
   this->filter->SetParallelScale(0.3);
   EXPECT_EQ(this->ambientAt(2), first);
-
-  this->filter->SetLockAmbient(false);
-  EXPECT_NEAR(this->ambientAt(2), 3e-4, 1e-8);
-  EXPECT_NEAR(this->ambientAt(0), 1e-4, 1e-8);
-  EXPECT_EQ(this->filter->GetLockedAmbient(), 0);
 }
 
 TEST_F(LockAmbient, AnotherMediumOrDataHaveTheirOwn)
@@ -272,10 +267,9 @@ TEST_F(LockAmbient, AnotherMediumOrDataHaveTheirOwn)
   this->source->Modified();
   EXPECT_NEAR(this->ambientAt(0), 1e-4, 1e-8);
   // One that is given is used as it is, and what is kept waits.
-  this->filter->SetAutoAmbientRefractivity(false);
   this->filter->SetAmbientRefractivity(5e-4);
   EXPECT_EQ(this->ambientAt(1), 5e-4);
-  this->filter->SetAutoAmbientRefractivity(true);
+  this->filter->SetAmbientRefractivity(-1);
   EXPECT_NEAR(this->ambientAt(1), 1e-4, 1e-8);
 }
 

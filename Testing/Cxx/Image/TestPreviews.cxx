@@ -123,8 +123,8 @@ TEST(Preview, HasOneRayPerPixelAndTheRestAsSet)
   RgbImageReader images;
   filter->SetQuality(vtkSchlierenFilter::PUBLICATION);
   filter->SetCutoff(vtkSchlierenFilter::INTERFEROGRAM);
-  filter->SetFringeMode(vtkSchlierenFilter::FINITE_FRINGES);
-  filter->SetNoiseFilter(vtkSchlierenFilter::GAUSSIAN);
+  filter->SetFringeSpacing(-10);
+  filter->SetSmoothingRadius(2);
   const schlieren::Scene whole = sceneFrom(filter->GetSettings(), grid, images);
   filter->SetPreviewReduction(4);
   const schlieren::Scene preview = sceneFrom(filter->GetSettings(), grid, images);
@@ -133,7 +133,8 @@ TEST(Preview, HasOneRayPerPixelAndTheRestAsSet)
   EXPECT_EQ(preview.stepSize, interactiveStepSize());
   EXPECT_GT(interactiveStepSize(), whole.stepSize);
   EXPECT_EQ(preview.fringes.spacing, whole.fringes.spacing); // data units
-  EXPECT_EQ(preview.noiseFilterRadius, whole.noiseFilterRadius / 4);
+  EXPECT_EQ(whole.smoothingRadius, 2);
+  EXPECT_EQ(preview.smoothingRadius, 0.5);
   EXPECT_EQ(preview.histogramSize, whole.histogramSize);
   EXPECT_EQ(preview.interpolation, whole.interpolation);
   filter->SetStepSize(3);

@@ -17,11 +17,9 @@ std::map<std::string, double> settingsOf(Filter* filter)
 {
   return { { "PathModel", filter->GetPathModel() }, { "StepSize", filter->GetStepSize() },
     { "HomogeneityTolerance", filter->GetHomogeneityTolerance() },
-    { "SamplesPerPixel", filter->GetSamplesPerPixel() },
-    { "FilmEstimator", filter->GetFilmEstimator() }, { "Precision", filter->GetPrecision() },
+    { "SamplesPerPixel", filter->GetSamplesPerPixel() }, { "Precision", filter->GetPrecision() },
     { "MediumTolerance", filter->GetMediumTolerance() },
-    { "TargetError", filter->GetTargetError() },
-    { "AutoTargetError", filter->GetAutoTargetError() } };
+    { "TargetError", filter->GetTargetError() } };
 }
 
 std::map<std::string, double> settingsOf(int preset)

@@ -76,9 +76,7 @@ TEST_F(Scene, IsByDefaultThatOfTheTracer)
   EXPECT_EQ(made.source.distance, none.source.distance);
   EXPECT_EQ(made.source.shape, none.source.shape);
   EXPECT_EQ(made.source.width, none.source.width);
-  EXPECT_EQ(made.filmEstimator, none.filmEstimator);
-  EXPECT_EQ(made.noiseFilter, none.noiseFilter);
-  EXPECT_EQ(made.noiseFilterRadius, none.noiseFilterRadius);
+  EXPECT_EQ(made.smoothingRadius, none.smoothingRadius);
   EXPECT_EQ(made.memoryBudget, none.memoryBudget);
   EXPECT_EQ(made.histogramSize, 256);
 }
@@ -87,19 +85,11 @@ TEST_F(Scene, HasWhatIsSet)
 {
   this->filter->SetCutoffOffset(0.25);
   this->filter->SetFocusOffset(-0.5);
-  this->filter->SetFilmEstimator(Filter::PHOTON);
-  this->filter->SetNoiseFilter(Filter::CONE);
-  this->filter->SetNoiseFilterRadius(3.5);
-  this->filter->SetMemoryBudget(3);
-  this->filter->SetHistogramSize(17);
+  this->filter->SetSmoothingRadius(3.5);
   const schlieren::Scene made = this->scene();
   EXPECT_EQ(made.cutoffOffset, 0.25);
   EXPECT_EQ(made.focusOffset, -0.5);
-  EXPECT_EQ(made.filmEstimator, schlieren::FilmEstimator::Photon);
-  EXPECT_EQ(made.noiseFilter, schlieren::NoiseFilter::Cone);
-  EXPECT_EQ(made.noiseFilterRadius, 3.5);
-  EXPECT_EQ(made.memoryBudget, 3u * 1024 * 1024);
-  EXPECT_EQ(made.histogramSize, 17);
+  EXPECT_EQ(made.smoothingRadius, 3.5);
 }
 
 // k = f / a and the offset is a fraction of a, whatever AutoKScale and KScale say.
@@ -117,12 +107,9 @@ TEST_F(Scene, SensitivityFollowsFromOptics)
     EXPECT_DOUBLE_EQ(made.kScale.value_or(0), 3000);
     EXPECT_DOUBLE_EQ(made.cutoffOffset, 0.25);
   }
-  EXPECT_DOUBLE_EQ(this->filter->GetKScaleOfOptics(), 3000);
-  EXPECT_DOUBLE_EQ(this->filter->GetCutoffOffsetOfOptics(), 0.25);
   this->filter->SetKFromOptics(false);
   EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 1000);
   EXPECT_DOUBLE_EQ(this->scene().cutoffOffset, 7);
-  EXPECT_DOUBLE_EQ(this->filter->GetKScaleOfOptics(), 3000); // known all the same
 }
 
 TEST_F(Scene, SensitivityIsStatedInWords)
@@ -289,39 +276,26 @@ TEST_F(Scene, CamerasThatCannotBeAreRefused)
   EXPECT_EQ(errorOfSensor().find("FullWell is -1 electrons"), 0u);
 }
 
-TEST_F(Scene, DivergingLightComesFromTenDepthsUnlessItIsSaid)
+TEST_F(Scene, LightDivergesFromASourceAtADistance)
 {
-  this->filter->SetLightSource(Filter::DIVERGING);
-  EXPECT_DOUBLE_EQ(this->scene().source.distance.value_or(0), 20);
+  EXPECT_FALSE(this->scene().source.distance.has_value());
   this->filter->SetSourceDistance(7);
   EXPECT_DOUBLE_EQ(this->scene().source.distance.value_or(0), 7);
-  this->filter->SetLightSource(Filter::COLLIMATED);
-  EXPECT_FALSE(this->scene().source.distance.has_value());
 }
 
-TEST_F(Scene, FringesAreATenthOfTheImageHighOrFollowFromTheBeams)
+TEST_F(Scene, FringesHaveASpacingOrANumber)
 {
   this->filter->SetCutoff(Filter::INTERFEROGRAM);
   this->filter->SetWavelength(500);
   EXPECT_DOUBLE_EQ(this->scene().wavelength, 500e-9);
   EXPECT_FALSE(this->scene().fringes.finite);
-  this->filter->SetFringeMode(Filter::FINITE_FRINGES);
+  this->filter->SetFringeSpacing(-10);
   this->filter->SetFringeAngle(30);
   EXPECT_TRUE(this->scene().fringes.finite);
   EXPECT_DOUBLE_EQ(this->scene().fringes.angle, 30);
   EXPECT_DOUBLE_EQ(this->scene().fringes.spacing, 0.6); // the image is 6 high
   this->filter->SetFringeSpacing(0.125);
   EXPECT_DOUBLE_EQ(this->scene().fringes.spacing, 0.125);
-  this->filter->SetLengthScale(1e-3);
-  this->filter->SetBeamAngle(60); // sin(30 degrees) = 1/2: the wavelength itself, in millimetres
-  EXPECT_NEAR(this->scene().fringes.spacing, 500e-6, 1e-15);
-  this->filter->SetBeamAngle(180);
-  EXPECT_NEAR(this->scene().fringes.spacing, 250e-6, 1e-15);
-  for (const double wrong : { -1., 181., notANumber })
-  {
-    this->filter->SetBeamAngle(wrong);
-    EXPECT_NE(this->error().find("BeamAngle is "), std::string::npos) << wrong;
-  }
 }
 
 // Constants and equations of the models are tested on their own: here, that they are the right ones.

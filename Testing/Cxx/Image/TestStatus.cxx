@@ -66,8 +66,6 @@ TEST(Status, SaysWhatATargetErrorHasLedTo)
   image.accuracy.reached = 0.3;
   image.accuracy.limit = schlieren::ErrorSource::Rounding;
   EXPECT_TRUE(ends(", target error not kept: 0.3 fringes (target 0.004), limited by rounding"));
-  image.accuracy.ofData = 0.0147;
-  EXPECT_TRUE(ends(", limited by rounding, the data leave 0.015 open"));
 }
 
 TEST(Status, ShowsTheSpeedOfTheLastTracingWhereNothingIsTraced)

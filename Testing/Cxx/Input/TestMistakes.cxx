@@ -230,14 +230,6 @@ std::vector<Mistake> mistakes()
       },
       { "BackgroundPattern is Scene", "Picture" },
       [](Filter* f) { f->SetBackgroundPattern(Filter::DOTS); } },
-    { "BeamsThatDoNotMeet",
-      [](Filter* f)
-      {
-        f->SetCutoff(Filter::INTERFEROGRAM);
-        f->SetFringeMode(Filter::FINITE_FRINGES);
-        f->SetBeamAngle(-3);
-      },
-      { "BeamAngle is -3 degrees", "FringeSpacing" }, [](Filter* f) { f->SetBeamAngle(3); } },
     { "NanAmbient", [](Filter* f) { f->SetAmbientRefractivity(nan); }, { "ambient" },
       [](Filter* f) { f->SetAmbientRefractivity(0); } },
     { "NoLength", [](Filter* f) { f->SetLengthScale(0); }, { "LengthScale" },

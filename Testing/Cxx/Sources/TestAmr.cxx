@@ -256,7 +256,7 @@ TEST(Amr, SolidsBlockLightAndBendNone)
   blockOf(amr, 0, 0)->GetCellData()->GetArray("N")->SetComponent(0, 0, std::nan(""));
   blockOf(amr, 1, 0)->BlankCell(0);
   auto filter = bench(amr);
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   filter->Update();
   EXPECT_EQ(largest(valuesOf(filter, "Deflection")), 0);
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
@@ -305,7 +305,7 @@ TEST(Amr, SolidCellsHaveTheirOwnEdges)
   {
     auto filter = bench(amr, 200);
     filter->SetViewDirection(along, 0, -1);
-    filter->SetAutoAmbientRefractivity(true);
+    filter->SetAmbientRefractivity(-1);
     filter->Update();
     const double seen = along > 0 ? std::sqrt(2.) : 1;
     // Light that cuts a corner by less than a voxel may miss it.

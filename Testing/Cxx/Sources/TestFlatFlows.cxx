@@ -305,7 +305,6 @@ TEST(FlatFlows, LittleOvershootsBesideAShock)
   auto filter = flatBench(mesh, 256);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
-  filter->SetAutoAmbientRefractivity(false);
   filter->SetAmbientRefractivity(0);
   filter->SetMediumTolerance(1e-3);
   filter->Update();

@@ -171,7 +171,7 @@ TEST(Images, BluntFinFromTheSide)
   fin->SetInputDataObject(bothHalves(wall->GetOutput()));
   fin->Update();
   filter->SetInputDataObject(vtkRefractiveIndex::BODIES, fin->GetOutput());
-  filter->SetOutsideBlocksLight(false);
+  filter->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
   filter->SetViewDirection(0, 1, 0);
   filter->SetViewUp(0, 0, 1);
   filter->SetFocalPoint(-1.5, 0, 2);

@@ -138,9 +138,8 @@ Source sourceOf(vtkRefractiveIndex* filter, vtkDataObject* input, vtkDataObject*
 std::shared_ptr<const filters::PieceSource> stepOf(
   const filters::PreparedLeaves& prepared, std::shared_ptr<filters::KeptMesh>& kept)
 {
-  return filters::sourceOfMeshes(prepared,
-    { filters::CellTree::Reconstruction::Smooth, filters::Outside::Auto, -1 }, nullptr,
-    filters::WorkProgress(), kept);
+  return filters::sourceOfMeshes(
+    prepared, { filters::Outside::Auto, -1 }, nullptr, filters::WorkProgress(), kept);
 }
 
 void expectSame(const schlieren::MediumSource& one, const schlieren::MediumSource& other)
@@ -188,21 +187,14 @@ TEST(MeshSteps, NewValuesOnTheMeshAreThoseOfANewMesh)
 {
   for (const auto& [name, make] : kinds())
   {
-    for (const int reconstruction :
-      { vtkRefractiveIndex::SMOOTH, vtkRefractiveIndex::LINEAR_IN_CELLS })
+    SCOPED_TRACE(name);
+    auto filter = reader();
+    for (double time = 1; time < 5; ++time)
     {
-      SCOPED_TRACE(name + (reconstruction == vtkRefractiveIndex::SMOOTH ? "" : ", linear"));
-      auto filter = reader();
-      filter->SetReconstruction(reconstruction);
-      for (double time = 1; time < 5; ++time)
-      {
-        const Source again = sourceOf(filter, make(time));
-        auto fresh = reader();
-        fresh->SetReconstruction(reconstruction);
-        expectSame(*again, *sourceOf(fresh, make(time)));
-      }
-      EXPECT_EQ(filter->GetMeshBuilds(), 1);
+      const Source again = sourceOf(filter, make(time));
+      expectSame(*again, *sourceOf(reader(), make(time)));
     }
+    EXPECT_EQ(filter->GetMeshBuilds(), 1);
   }
 }
 
@@ -212,14 +204,14 @@ TEST(MeshSteps, ImagesOnTheMeshAreThoseOfANewFilter)
   {
     SCOPED_TRACE(name);
     auto filter = bench(nullptr, 24);
-    filter->SetAutoAmbientRefractivity(true);
+    filter->SetAmbientRefractivity(-1);
     filter->SetMediumTolerance(0.1);
     for (double time = 1; time < 3; ++time)
     {
       filter->SetInputDataObject(make(time));
       filter->Update();
       auto fresh = bench(make(time), 24);
-      fresh->SetAutoAmbientRefractivity(true);
+      fresh->SetAmbientRefractivity(-1);
       fresh->SetMediumTolerance(0.1);
       fresh->Update();
       ASSERT_FALSE(isEmpty(filter));
@@ -243,7 +235,6 @@ TEST(MeshSteps, WhatChangesTheMeshIsSeen)
   {
     auto fresh = reader();
     fresh->SetOutside(from->GetOutside());
-    fresh->SetReconstruction(from->GetReconstruction());
     return fresh;
   };
   sourceOf(filter, mesh, bodies);
@@ -284,8 +275,6 @@ TEST(MeshSteps, WhatChangesTheMeshIsSeen)
 
   filter->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
   expectSeen("outside", nullptr);
-  filter->SetReconstruction(vtkRefractiveIndex::LINEAR_IN_CELLS);
-  expectSeen("reconstruction", nullptr);
 }
 
 // However its numbers are stored.

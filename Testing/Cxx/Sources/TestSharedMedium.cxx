@@ -323,7 +323,6 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     { "StagnationTemperature", moistAir, [](F* f) { f->SetStagnationTemperature(300); } },
     { "StagnationPressure", isentropicAir, [](F* f) { f->SetStagnationPressure(9e4); } },
     { "RelativeHumidity", moistAir, [](F* f) { f->SetRelativeHumidity(0.5); } },
-    { "CO2", moistAir, [](F* f) { f->SetCO2(900); } },
     { "Wavelength", moistAir, [](F* f) { f->SetWavelength(450); } },
     { "Fields", fields,
       [](F* f)
@@ -355,7 +354,6 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     { "SymmetryAxis", revolvedPlane, [](F* f) { f->SetSymmetryAxis(R::Y_AXIS); } },
     { "SymmetryOrigin", revolvedPlane, [](F* f) { f->SetSymmetryOrigin(0, 0.5, 0); } },
     { "Outside", nullptr, [](F* f) { f->SetOutside(R::OUTSIDE_BLOCKS); } },
-    { "Reconstruction", nullptr, [](F* f) { f->SetReconstruction(R::LINEAR_IN_CELLS); } },
     { "DoublePrecision", nullptr, [](F* f) { f->SetPrecision(F::DOUBLE); } },
   };
   for (const auto& [name, from, to] : changes)

@@ -63,7 +63,7 @@ vtkSmartPointer<vtkSchlierenFilter> benchWith(
 {
   auto filter = bench(flow, pixels);
   filter->SetInputDataObject(1, bodies);
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   return filter;
 }
 
@@ -412,7 +412,8 @@ TEST(Bodies, UniformGasOfAMeshAroundABodyBendsNothing)
   for (const bool outsideBlocks : { true, false })
   {
     auto filter = benchWith(threshold->GetOutput(), sphere(0.5), 64);
-    filter->SetOutsideBlocksLight(outsideBlocks);
+    filter->SetOutside(
+      outsideBlocks ? vtkRefractiveIndex::OUTSIDE_BLOCKS : vtkRefractiveIndex::OUTSIDE_PASSES);
     filter->SetViewDirection(0.2, -0.3, -1);
     const Shadow shadow = shadowOf(filter);
     // The hole that the cells leave is jagged: it reaches out by up to a cell, to its corner.

@@ -175,7 +175,7 @@ TEST(ImageWithBodies, ValuesInsideBodiesDoNotMatter)
   addPointArray(
     image, "N", [](const Vec& x) { return std::sqrt(dot(x, x)) < 0.5 ? 1e-3 : 2.7e-4; });
   auto filter = benchWith(image, sphere(0.51, { 0, 0, 0 }));
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   filter->Update();
   EXPECT_LT(largest(valuesOf(filter, "Deflection")), 1e-12);
   EXPECT_LT(largest(valuesOf(filter, "OpticalPathDifference")), 1e-12);
@@ -237,7 +237,7 @@ TEST(ImageWithBodies, PointsWithoutValuesAreWalls)
       return isHole ? std::nan("") : 2.7e-4;
     });
   auto filter = benchWith(image, sphere(0.2, { 0.7, 0.7, 0 }));
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   const double edge = 0.05 * 11;
   // One ray for each pixel.
   const double pixel = 2. / 128;

@@ -24,7 +24,7 @@ double gas(const Vec&) { return 2.7e-4; }
 /// Uniform gas around a ball: light is blocked where the ball is, and bent nowhere.
 void expectBallInUniformGas(vtkSchlierenFilter* filter, double edge)
 {
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   filter->Update();
   auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
   vtkDataArray* blocked = arrayOf(filter, "BlockedFraction");
@@ -249,9 +249,9 @@ TEST(Solids, OutsideOfTheMeshMayLetLightPass)
   for (vtkUnstructuredGrid* mesh : { hidden.Get(), nan.Get(), nanCells.Get() })
   {
     auto filter = bench(mesh, 40);
-    filter->SetOutsideBlocksLight(false);
+    filter->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
     expectBallInUniformGas(filter, 2 * 0.05);
-    filter->SetOutsideBlocksLight(true);
+    filter->SetOutside(vtkRefractiveIndex::OUTSIDE_BLOCKS);
     filter->Update();
     EXPECT_EQ(arrayOf(filter, "BlockedFraction")->GetComponent(0, 0), 1);
   }
@@ -272,10 +272,11 @@ TEST(Solids, WhatBlocksLeaveOutMayLetLightPass)
   }
   vtkUniformGrid::SafeDownCast(blocks->GetBlock(0))->BlankCell(2, 2, 2);
   auto filter = bench(blocks, 20);
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   for (const bool outsideBlocks : { true, false })
   {
-    filter->SetOutsideBlocksLight(outsideBlocks);
+    filter->SetOutside(
+      outsideBlocks ? vtkRefractiveIndex::OUTSIDE_BLOCKS : vtkRefractiveIndex::OUTSIDE_PASSES);
     filter->Update();
     auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
     const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
@@ -376,7 +377,7 @@ TEST(Solids, MasksOfBlocksThatHaveNoneAreEmpty)
   auto filter = bench(blocks, 40);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "mask");
-  filter->SetAutoAmbientRefractivity(true);
+  filter->SetAmbientRefractivity(-1);
   filter->Update();
   const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
   const double* pixel = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetSpacing();
