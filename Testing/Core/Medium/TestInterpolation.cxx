@@ -321,7 +321,8 @@ TEST(Medium, EndsInZeros)
   ASSERT_EQ(samples.size(), 6 * 7 * 8 + 4);
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
-    EXPECT_NEAR(samples[i], i < 6 * 7 * 8 ? 1 : 0, i < 6 * 7 * 8 ? 1e-6 : 0);
+    EXPECT_NEAR(
+      samples[i], i < 6 * 7 * 8 ? 1 : 0, i < 6 * 7 * 8 ? 1e-5 : 0); // rounding of coefficients
   }
 }
 
