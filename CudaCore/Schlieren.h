@@ -188,7 +188,7 @@ struct Scene
   /// With a targetError: Accuracy::ofData, the difference that Interpolation::Quadratic makes, or Field::makeOtherSource.
   bool estimatesDataError = false;
 
-  PathModel pathModel = PathModel::Auto;                  ///< straight or refracted rays
+  PathModel pathModel = PathModel::Refracted;             ///< straight or refracted rays
   Integrator integrator = Integrator::Leapfrog;           ///< of refracted rays
   Interpolation interpolation = Interpolation::Quadratic; ///< between the samples
   Precision precision = Precision::Single;                ///< of the rays' numbers
@@ -207,8 +207,6 @@ struct Scene
   /// Bytes that the voxels of a Field's source may take. Where they do not do, the tolerance is not met:
   /// see Image::medium.
   std::size_t mediumMemory = std::size_t{ 1 } << 30;
-  /// How far, in pixels, a straight ray may be from the refracted one for PathModel::Auto to take it.
-  double pathTolerance = 0.01;
   Device device = Device::Auto; ///< where rays are traced; Auto: on a GPU where there is one
   int threads = 0;              ///< CPU threads; 0: all cores this process may use
   /// Bytes of rays that are cached for re-shading. The image does not depend on it.

@@ -30,26 +30,21 @@ public:
 enum class Interpolation
 {
   Quadratic, ///< quadratic B-spline: 27 loads, continuous gradient, third-order values
-  Linear,    ///< trilinear: 8 loads, gradient jumps from cell to cell (for drafts)
-  Central,   ///< trilinear values, trilinear central differences as gradient: the paper's, 32 loads
   Cubic      ///< cubic B-spline: 64 loads, continuous second derivatives, fourth-order values
 };
 
 enum class PathModel
 {
-  Auto,     ///< Straight where its error is proven to be below Scene::pathTolerance, else Refracted
   Straight, ///< line of sight: the medium is looked at along the undisturbed ray
   Refracted ///< the ray bends
 };
 
 /// Chooses how a refracted ray takes its steps. A straight one always looks at their midpoints. Where the index changes
-/// by more than a twentieth in a step, as at faces of glass, steps are adaptive but with Euler.
+/// by more than a twentieth in a step, as at faces of glass, steps are adaptive.
 enum class Integrator
 {
   Leapfrog, ///< one gradient a step, second order, symplectic
-  Rk4,      ///< four gradients a step, fourth order
-  Adaptive, ///< four gradients a step, third order; steps are as long as Scene::adaptiveTolerance allows
-  Euler ///< one gradient a step, first order: the paper's, kept so that it can be reproduced
+  Adaptive ///< four gradients a step, third order; steps are as long as Scene::adaptiveTolerance allows
 };
 
 /// Of which pixels an image's error is.

@@ -56,7 +56,6 @@ void vtkSchlierenFilter::Refine()
     const auto work = [&] { hasMore = this->RefineOnRank0(); };
     if (!guarded(work, "", [](const std::string&) {})) // an update begins again, and says it
     {
-      inside.Images.Cancel();
       inside.UnfinishedOf = 0;
       hasMore = true;
     }
@@ -100,6 +99,7 @@ bool vtkSchlierenFilter::RefineOnRank0()
 void vtkSchlierenFilter::Stop()
 {
   Internals& inside = *this->Inside;
+  inside.IsStopping = true;
   if (inside.UnfinishedOf != 0 && inside.UnfinishedOf == this->GetTimeOfImage())
   {
     inside.StoppedOf = std::exchange(inside.UnfinishedOf, 0);
@@ -295,9 +295,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   }
   requireMemoryFor(
     scene.view, this->ColorByField || this->HasOwnColor(), CutoffHasBackground(this->Cutoff));
-  const auto paths = this->PathModel == DIFFERENCE ? TimeSlicedImage::Paths::Difference
-                                                   : TimeSlicedImage::Paths::OfScene;
-  return inside.Images.Begin(field, scene, paths, seconds, monitor);
+  return inside.Images.Begin(field, scene, seconds, monitor);
 }
 
 //------------------------------------------------------------------------------
@@ -356,8 +354,8 @@ bool vtkSchlierenFilter::Show(
   const ColorScale colors = this->HasOwnColor() ? ColorScale::Srgb
     : CutoffWhite(this->Cutoff) > 1             ? ColorScale::LinearToTwice
                                                 : ColorScale::Linear;
-  addLegend(output, *this, scene, image, isKept, this->PathModel == DIFFERENCE, colors);
-  setOutput(output, image, this->PathModel == DIFFERENCE);
+  addLegend(output, *this, scene, image, isKept, colors);
+  setOutput(output, image);
   if (!image.color.empty())
   {
     addColor(output, image, colors);

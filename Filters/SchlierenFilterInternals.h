@@ -107,6 +107,7 @@ struct vtkSchlierenFilter::Internals
 
   std::optional<double> RequestedTime;
 
+  bool IsStopping = false;    // this update
   vtkMTimeType StoppedOf = 0; // the image that Stop(), or an abort with a limit, has left; 0: none
   double Done = 0;            // fraction of the latest image
 

@@ -56,8 +56,7 @@ bool vtkSchlierenFilter::IsLargeImage(vtkDataObject* input) const
   const double bytes = image ? static_cast<double>(image->GetNumberOfPoints()) *
       (this->Medium->GetDoublePrecision() ? sizeof(double) : sizeof(float))
                              : 0;
-  return this->PathModel != DIFFERENCE &&
-    bytes > static_cast<double>(this->MediumMemory) * (1 << 20);
+  return bytes > static_cast<double>(this->MediumMemory) * (1 << 20);
 }
 
 //------------------------------------------------------------------------------

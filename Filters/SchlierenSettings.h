@@ -162,18 +162,12 @@ struct OpticsSettings
 /// some of them instead.
 struct AccuracySettings
 {
-  static constexpr int differencePath = 3; // of PathModel, beside the tracer's values
-
   int PathModel = 0;
-  int Integrator = 0;
   double StepSize = 0;
   double HomogeneityTolerance = 0;
-  int Interpolation = 0;
   int SamplesPerPixel = 0;
   int FilmEstimator = 0;
   int Precision = 0;
-  double AdaptiveTolerance = 0;
-  double PathTolerance = 0;
   double MediumTolerance = 0;
   double TargetError = 0;
   bool AutoTargetError = false;
@@ -182,15 +176,11 @@ struct AccuracySettings
   void visit(const Visit& use) const
   {
     use("PathModel", this->PathModel);
-    use("Integrator", this->Integrator);
     use("StepSize", this->StepSize);
     use("HomogeneityTolerance", this->HomogeneityTolerance);
-    use("Interpolation", this->Interpolation);
     use("SamplesPerPixel", this->SamplesPerPixel);
     use("FilmEstimator", this->FilmEstimator);
     use("Precision", this->Precision);
-    use("AdaptiveTolerance", this->AdaptiveTolerance);
-    use("PathTolerance", this->PathTolerance);
     use("MediumTolerance", this->MediumTolerance);
     use("TargetError", this->TargetError);
     use("AutoTargetError", this->AutoTargetError);

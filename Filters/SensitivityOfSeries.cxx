@@ -50,8 +50,9 @@ void vtkSchlierenFilter::FitKOverSeries()
     this->GetNumberOfInputConnections(0) > 0 ? this->GetInputInformation() : nullptr;
   if (!info || info->Length(Pipeline::TIME_STEPS()) == 0)
   {
-    vtkErrorMacro(<< "The data have no time steps over which k could be fitted. Fit Again (LockedK "
-                     "= 0) finds it for one image.");
+    vtkErrorMacro(
+      << "The data have no time steps over which k could be fitted. Fit K Again finds it "
+         "for one image.");
     return;
   }
   const double* steps = info->Get(Pipeline::TIME_STEPS());

@@ -40,17 +40,8 @@ constexpr bool sameValue(Enum value, Core ofCore)
 }
 
 using Self = vtkSchlierenFilter;
-static_assert(sameValue(Self::AUTO_PATH, schlieren::PathModel::Auto) &&
-  sameValue(Self::STRAIGHT, schlieren::PathModel::Straight) &&
+static_assert(sameValue(Self::STRAIGHT, schlieren::PathModel::Straight) &&
   sameValue(Self::REFRACTED, schlieren::PathModel::Refracted));
-static_assert(sameValue(Self::LEAPFROG, schlieren::Integrator::Leapfrog) &&
-  sameValue(Self::RK4, schlieren::Integrator::Rk4) &&
-  sameValue(Self::ADAPTIVE, schlieren::Integrator::Adaptive) &&
-  sameValue(Self::EULER, schlieren::Integrator::Euler));
-static_assert(sameValue(Self::QUADRATIC, schlieren::Interpolation::Quadratic) &&
-  sameValue(Self::LINEAR, schlieren::Interpolation::Linear) &&
-  sameValue(Self::CENTRAL, schlieren::Interpolation::Central) &&
-  sameValue(Self::CUBIC, schlieren::Interpolation::Cubic));
 static_assert(sameValue(Self::SINGLE, schlieren::Precision::Single) &&
   sameValue(Self::DOUBLE, schlieren::Precision::Double));
 static_assert(sameValue(Self::AUTO, schlieren::Device::Auto) &&
@@ -88,8 +79,7 @@ static_assert(Self::LOCK_OFF == OpticsSettings::lockOff &&
   Self::LOCK_ALWAYS == OpticsSettings::lockAlways &&
   Self::FINITE_FRINGES == OpticsSettings::finiteFringes &&
   Self::DIVERGING == OpticsSettings::divergingLight &&
-  Self::SCENE == OpticsSettings::scenePattern && Self::LIGHT_RAYS == OpticsSettings::lightOfRays &&
-  Self::DIFFERENCE == AccuracySettings::differencePath);
+  Self::SCENE == OpticsSettings::scenePattern && Self::LIGHT_RAYS == OpticsSettings::lightOfRays);
 
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.
 constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
@@ -381,6 +371,7 @@ int vtkSchlierenFilter::RequestData(
   inside.Time = timeOf(request, inputVector, outputVector);
 
   this->SetAbortExecute(0); // it stays set after an abort
+  inside.IsStopping = false;
   guarded([&] { this->MakeImage(maxCells, outputVector); }, noMemory,
     [&](const std::string& problem) { this->Fail(problem, now, outputVector); });
   return 1;
@@ -433,10 +424,10 @@ void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* output
   this->ForgetImage();
   output->Initialize();
   histogram->Initialize();
-  if (this->TimeLimit > 0 && this->GetAbortExecute())
+  if (this->GetAbortExecute() && (this->TimeLimit > 0 || inside.IsStopping))
   {
     inside.FailedAt = inside.StoppedOf = this->GetTimeOfImage(); // later than `now` by the abort
-    this->Status = noIndexYet;
+    this->Status = this->TimeLimit > 0 ? noIndexYet : "No image: it was stopped";
   }
 }
 
@@ -459,7 +450,6 @@ void vtkSchlierenFilter::ForgetImage()
 {
   Internals& inside = *this->Inside;
   inside.UnfinishedOf = 0;
-  inside.Images.Cancel();
   inside.Ready.reset();
   inside.DropShown();
   this->KScaleUsed = 0;

@@ -30,16 +30,15 @@
  *   shorts for a BitDepth above 8), with a FullWell: what the sensor makes of `Intensity` and
  *   `Background`.
  *
- * Field data: `AxisRight` and `AxisUp` (u and v), `Device`, `PathModel` (the one used: `Straight`, `Refracted` or `Difference`),
+ * Field data: `AxisRight` and `AxisUp` (u and v), `Device`, `PathModel` (`Straight` or `Refracted`),
  * `KScale` (the k used), `UndisturbedLevel` (intensity of undisturbed light), `SaturatedShare`
  * (fraction of the rays at the cutoff's darkest or brightest level), `LightEmitted`, `LightOnFilm`
  * and `LightOutside` (behind the cutoff, in units of full light of all pixels; the first is the sum
  * of the others), `FringeSpacing` (of finite fringes, data units), `AmbientRefractivity` and `ExitRefractivity`
  * (the values used), `RaysTraced`, `RaysLost` (trapped in the medium, turned back by it, or totally
  * reflected at the exit), `StepsTaken` (of all rays), `TraceSeconds` (0 without tracing), and the
- * accuracy: `DisplacementBound` (maximum displacement of rays, data units) and `SkippingBound`
- * (maximum error of direction cosines by skipping), each omitted where it is not useful, and
- * `MomentumDrift` (maximum relative error of |p| = n at the exit of refracted rays; else 0). For a
+ * accuracy: `SkippingBound` (maximum error of direction cosines by skipping, omitted where it is
+ * not useful) and `MomentumDrift` (maximum relative error of |p| = n at the exit of refracted rays; else 0). For a
  * legend: `LegendTitle` (the cutoff's name), `LegendLabel` (texts: what the light stands for, and
  * its unit: rad, m or none), `LegendRange` (the first and last value, in that unit), `LegendSize`
  * (numbers of values; both 0 without a scale, the second above 1 for deflections along u and v),
@@ -212,28 +211,8 @@ public:
   /// What SetPathModel() takes.
   enum PathModels
   {
-    AUTO_PATH = 0,
-    STRAIGHT = 1,
-    REFRACTED = 2,
-    DIFFERENCE = 3
-  };
-
-  /// What SetIntegrator() takes.
-  enum Integrators
-  {
-    LEAPFROG = 0,
-    RK4 = 1,
-    ADAPTIVE = 2,
-    EULER = 3
-  };
-
-  /// What SetInterpolation() takes.
-  enum Interpolations
-  {
-    QUADRATIC = 0,
-    LINEAR = 1,
-    CENTRAL = 2,
-    CUBIC = 3
+    STRAIGHT = 0,
+    REFRACTED = 1
   };
 
   /// What SetPrecision() takes.
@@ -503,6 +482,11 @@ public:
   void SetLockedK(double k);
   double GetLockedK() const;
   ///@}
+
+  /**
+   * Finds k again for the next image, whatever LockK has kept.
+   */
+  void FitK() { this->SetLockedK(0); }
 
   /**
    * Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
@@ -862,30 +846,19 @@ public:
   ///@{
   /**
    * Path of the light, one of PathModels: REFRACTED rays bend; STRAIGHT rays integrate along the
-   * undisturbed line of sight; AUTO_PATH uses these if they are proven to be within PathTolerance.
-   * DIFFERENCE traces both, with the k of refracted rays: the intensity is 1/2 (of a shadowgraph
-   * 1) plus half of the difference of refracted and straight rays, and so are colours; other
-   * arrays are differences, and all else is that of refracted rays.
+   * undisturbed line of sight. Where the index changes by more than a twentieth in a step, as at a
+   * face of glass, the steps of refracted rays are adaptive. A warning reports a MomentumDrift above
+   * 1 % and its position.
    */
-  vtkSetClampMacro(PathModel, int, AUTO_PATH, DIFFERENCE);
+  vtkSetClampMacro(PathModel, int, STRAIGHT, REFRACTED);
   vtkGetMacro(PathModel, int);
   ///@}
 
   ///@{
   /**
-   * Integrator of refracted rays, one of Integrators: LEAPFROG is of second order with one
-   * gradient per step, RK4 of fourth order with four, ADAPTIVE of third order with three and steps
-   * that AdaptiveTolerance limits, EULER of first order with one (Brownlee et al. 2011). Where the
-   * index changes by more than a twentieth in a step, as at a face of glass, steps are adaptive
-   * except with EULER. A warning reports a MomentumDrift above 1 % and its position.
-   */
-  vtkSetClampMacro(Integrator, int, LEAPFROG, EULER);
-  vtkGetMacro(Integrator, int);
-  ///@}
-
-  ///@{
-  /**
-   * Length of an integration step, voxels; for ADAPTIVE, its maximum. 0.001 (SINGLE: 0.01) to 16.
+   * Length of an integration step, voxels; of adaptive ones its maximum. 0.001 (SINGLE: 0.01) to 16.
+   * Up to 1, and with a target error, cubic splines through the samples are traced through, else
+   * quadratic ones.
    */
   vtkSetMacro(StepSize, double);
   vtkGetMacro(StepSize, double);
@@ -898,16 +871,6 @@ public:
    */
   vtkSetMacro(HomogeneityTolerance, double);
   vtkGetMacro(HomogeneityTolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Interpolation between samples, one of Interpolations: QUADRATIC and CUBIC B-splines have a
-   * continuous gradient; LINEAR is faster and shows the grid in the image; CENTRAL uses central
-   * differences for the gradient (Brownlee et al. 2011).
-   */
-  vtkSetClampMacro(Interpolation, int, QUADRATIC, CUBIC);
-  vtkGetMacro(Interpolation, int);
   ///@}
 
   ///@{
@@ -929,27 +892,11 @@ public:
 
   ///@{
   /**
-   * Floating-point precision of tracing, one of Precisions.
+   * Floating-point precision of tracing, one of Precisions. With DOUBLE and no target error, the
+   * steps of refracted rays are adaptive.
    */
   virtual void SetPrecision(int precision);
   vtkGetMacro(Precision, int);
-  ///@}
-
-  ///@{
-  /**
-   * Error allowed in a step of ADAPTIVE, relative to the deflection by the medium's steepest
-   * gradient over the same path. 1e-12 to 1.
-   */
-  vtkSetMacro(AdaptiveTolerance, double);
-  vtkGetMacro(AdaptiveTolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Maximum distance between straight and refracted rays for AUTO_PATH, pixels. Not negative.
-   */
-  vtkSetMacro(PathTolerance, double);
-  vtkGetMacro(PathTolerance, double);
   ///@}
 
   ///@{
@@ -968,7 +915,7 @@ public:
    * is read in: of an interferogram fringes; with Background Oriented pixels of displacement; else a
    * fraction of full scale, of a shadowgraph of the undisturbed light (what light displaced by 0.05
    * pixels explains does not count). 0, the default: off. It chooses StepSize, SamplesPerPixel (up to
-   * 64), MediumTolerance (0.01 to 0.0003), Interpolation (Cubic), HomogeneityTolerance (0) and
+   * 64), MediumTolerance (0.01 to 0.0003), HomogeneityTolerance (0), cubic splines and
    * Precision, whatever these properties are, by tracing some thousand pixels with several settings,
    * and verifies its choice with others. The image's field data say what is reached: ErrorReached,
    * ErrorLargest (of the pixels that were traced) and ErrorLimit, what contributes most. ErrorReached
@@ -1148,8 +1095,9 @@ public:
   ///@{
   /**
    * Stops an unfinished image, which counts as finished until Refine() resumes it or something
-   * changes the image. Aborting an update with a TimeLimit while it computes the refractivity also
-   * stops it, with an empty output. GetStopped() returns whether that is so.
+   * changes the image. Aborting an update with a TimeLimit while it computes the refractivity, or
+   * any that has called Stop() by then, also stops it, with an empty output: else the next update
+   * makes the image anew. GetStopped() returns whether that is so.
    */
   void Stop();
   bool GetStopped();
@@ -1173,8 +1121,7 @@ public:
 
   /**
    * Returns a text about the last image, in one line: samples per pixel; rays per second of the
-   * last tracing; device; path model and, for straight rays, the bound on their displacement in
-   * pixels (DisplacementBound), if useful. Empty before the first image; after a failure, "No image: " and why.
+   * last tracing; device; path model. Empty before the first image; after a failure, "No image: " and why.
    */
   const char* GetStatus() const { return this->Status.c_str(); }
 

@@ -244,7 +244,7 @@ def filter_like(display, view, size=None):
     size: columns and rows, default: those of the view."""
     own = display.SchlierenBench
     bench = servermanager.filters.Schlieren(Input=display.Input)
-    for name in own.ListProperties():
+    for name in bench.ListProperties():
         if name not in OF_THE_VIEW and name != "Input" and not own.GetProperty(name).SMProperty.GetInformationOnly():
             bench.SMProxy.GetProperty(name).Copy(own.SMProxy.GetProperty(name))
     camera = view.GetActiveCamera()

@@ -15,14 +15,14 @@ Pilot<Real>& Bench::Stages::pilotFor(MediumOnDevices<Real>& onDevices, const Lig
   const Field& field = request.field;
   const Scene& scene = request.scene;
   const bool wantsAllPixels = scene.estimatesErrors || scene.errorNorm == ErrorNorm::Largest;
-  const BoundedRays bounded = boundRays(onDevices, light, request, image);
-  const Projection projection = projectionFor(bounded.settings, light, request, image);
-  return targets.pilotOf<Real>({ bounded.key, bounded.settings.kernel, field.lengthScale,
-                                 projection, scene.filmEstimator, scene.seed, wantsAllPixels },
+  const RaysOfView rays = raysFor(onDevices, light, request, image);
+  const Projection projection = projectionFor(rays.settings, light, request, image);
+  return targets.pilotOf<Real>(
+    { rays.key, field.lengthScale, projection, scene.filmEstimator, scene.seed, wantsAllPixels },
     [&]
     {
-      const PilotBench<Real> bench{ &onDevices.medium, light, scene, projection, bounded.settings,
-        marginFor(bounded.bound, scene, image.frame, light) };
+      const PilotBench<Real> bench{ &onDevices.medium, light, scene, projection, rays.settings,
+        rays.margin };
       return std::make_unique<Pilot<Real>>(
         bench, deflectionErrors(onDevices.medium, light, field, image), wantsAllPixels);
     });

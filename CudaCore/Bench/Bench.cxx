@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace schlieren
 {
@@ -69,32 +70,33 @@ Image Bench::Stages::begin(const UnfinishedImage& request) const
 }
 
 template <class Real>
-BoundedRays Bench::Stages::boundRays(MediumOnDevices<Real>& onDevices, const Light& light,
+RaysOfView Bench::Stages::raysFor(MediumOnDevices<Real>& onDevices, const Light& light,
   const UnfinishedImage& request, Image& image)
 {
   const Field& field = request.field;
   const Scene& scene = request.scene;
   const Medium<Real>& medium = onDevices.medium;
-  const bool maySkip = !field.source && scene.homogeneityTolerance > 0;
-  const double atLeast =
-    maySkip ? steepestOf(scene.interpolation) * homogeneityLimit(medium, scene) : 0;
-  // Steps for a target error are no longer than those that are tried first.
-  const double step = scene.targetError > 0 ? longestStep : scene.stepSize;
-  const BoundKey key{ image.frame, scene.view.width, scene.view.height, step, atLeast,
-    LightKey::of(scene, image.frame, filmDistance(scene, image.frame, light.faces), light.faces),
-    onDevices.changes };
-  const DisplacementBound bound =
-    rays.boundOf(key, [&] { return boundDisplacement(medium, light, scene.view, step, atLeast); });
-  image.displacementBound = bound.displacement;
-  image.displacementWithin = bound.withinMedium;
-  const SteepestPlace& steepest = onDevices.steepest();
-  image.steepestChange = steepest.perVoxel;
-  image.steepestPlace = placeOf(field.grid, steepest.at);
-  const RaySettings settings =
-    settingsOf(scene, field.lengthScale, bound, image.frame, steepest.perVoxel);
+  image.steepestChange = medium.steepest.perVoxel;
+  image.steepestPlace =
+    placeOf(field.grid, { medium.steepest.at[0], medium.steepest.at[1], medium.steepest.at[2] });
+  const RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
   image.pathModel = settings.kernel.path;
   image.integrator = settings.kernel.integrator;
-  return { key, bound, settings };
+  const ViewKey key{ image.frame, scene.view.width, scene.view.height, settings.kernel,
+    LightKey::of(scene, image.frame, filmDistance(scene, image.frame, light.faces), light.faces),
+    onDevices.changes };
+  const auto look = [&]
+  {
+    RaySettings coarse = settings;
+    coarse.stepVoxels = longestStep;
+    coarse.adaptiveTolerance = std::max(settings.adaptiveTolerance, usualTolerance);
+    return lookAtLight(
+      makeTask<Real>(medium, nullptr, {}, light, coarse), scene.view, scene.threads);
+  };
+  const bool mayMove = !isOfCamera(scene.cutoff);
+  return { key, settings,
+    marginFor(
+      mayMove ? rays.movedIn(key, look) : std::vector<MovedRay>{}, scene, image.frame, light) };
 }
 
 template <class Real>
@@ -105,7 +107,7 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
   const Scene& scene = request.scene;
   const View& view = scene.view;
   const Medium<Real>& medium = onDevices.medium;
-  const auto [boundKey, bound, settings] = boundRays(onDevices, light, request, image);
+  const auto [viewKey, settings, margin] = raysFor(onDevices, light, request, image);
 
   // An adaptive step is as long as the medium lets it be without a map.
   const double skips = field.source || settings.kernel.integrator == Integrator::Adaptive
@@ -120,9 +122,8 @@ RaysOfImage<Real> Bench::Stages::prepareRays(
       light.faces.ratio * skippingBound(medium, light, limit, scene.interpolation);
   }
 
-  const std::int64_t margin = marginFor(bound, scene, image.frame, light);
   RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, request.device,
-    {}, boundKey.light };
+    {}, viewKey.light };
   if (field.gradients.count > 0)
   {
     key.gradients = field.gradients.version;
@@ -195,9 +196,9 @@ Light Bench::Stages::prepareMedium(
   return light;
 }
 
-template BoundedRays Bench::Stages::boundRays(
+template RaysOfView Bench::Stages::raysFor(
   MediumOnDevices<float>&, const Light&, const UnfinishedImage&, Image&);
-template BoundedRays Bench::Stages::boundRays(
+template RaysOfView Bench::Stages::raysFor(
   MediumOnDevices<double>&, const Light&, const UnfinishedImage&, Image&);
 template Light Bench::Stages::prepareMedium(
   MediumInUse<float>&, UnfinishedImage&, const Watch&, Image&);

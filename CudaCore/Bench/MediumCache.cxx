@@ -80,16 +80,6 @@ const HomogeneityMap<Real>* MediumOnDevices<Real>::mapFor(
 }
 
 template <class Real>
-const SteepestPlace& MediumOnDevices<Real>::steepest()
-{
-  if (!steepest_ || steepest_->first != changes)
-  {
-    steepest_.emplace(changes, findSteepest(medium.slopes));
-  }
-  return steepest_->second;
-}
-
-template <class Real>
 bool MediumOnDevices<Real>::refineFor(const Column& column, bool isShared, const Monitor& monitor)
 {
   if (refine(medium, column, monitor, isShared ? Unneeded::Stays : Unneeded::Goes))

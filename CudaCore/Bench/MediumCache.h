@@ -6,7 +6,6 @@
 
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
-#include "Medium/Samples/SlopeBlocks.h"
 #include "Medium/Tree/BrickRays.h"
 #include "Rays/Cuda/CudaTracer.h"
 #include "Rays/Ranks/ProcessTracer.h"
@@ -76,9 +75,6 @@ public:
   const HomogeneityMap<Real>* mapFor(double tolerance, Interpolation interpolation, int threads);
   double mapTolerance() const { return mapTolerance_; } ///< of the last map
 
-  /// Where the medium is steepest.
-  const SteepestPlace& steepest();
-
   /// Makes the voxels of a source that a view needs and that are not there. False where they do not fit. `isShared`: other
   /// benches keep theirs.
   bool refineFor(const Column& column, bool isShared, const Monitor& monitor);
@@ -88,7 +84,6 @@ private:
   std::unique_ptr<ProcessTracer<Real>> together_;
   std::unique_ptr<HomogeneityMap<Real>> map_; ///< once something was to be skipped
   double mapTolerance_ = 0;                   ///< of nu
-  std::optional<std::pair<std::int64_t, SteepestPlace>> steepest_; ///< after so many changes
 };
 
 /// The medium of a bench.

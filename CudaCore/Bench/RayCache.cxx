@@ -31,14 +31,14 @@ bool RayCache::prepare(RaysKey key, std::int64_t margin)
   return true;
 }
 
-const DisplacementBound& RayCache::boundOf(
-  const BoundKey& key, const std::function<DisplacementBound()>& find)
+const std::vector<MovedRay>& RayCache::movedIn(
+  const ViewKey& key, const std::function<std::vector<MovedRay>()>& find)
 {
-  if (!bound_ || bound_->first.tie() != key.tie())
+  if (!moved_ || moved_->first.tie() != key.tie())
   {
-    bound_.emplace(key, find());
+    moved_.emplace(key, find());
   }
-  return bound_->second;
+  return moved_->second;
 }
 
 void RayCache::prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields)
@@ -155,7 +155,7 @@ void RayCache::finish()
 
 void RayCache::clear()
 {
-  bound_.reset();
+  moved_.reset();
   key_.reset();
   passes_.clear();
   finish();

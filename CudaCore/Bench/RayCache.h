@@ -16,6 +16,8 @@
 #include <functional>
 #include <optional>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace schlieren
 {
@@ -77,19 +79,19 @@ inline auto tieOf(const Frame& frame)
     frame.pupil, frame.focus);
 }
 
-/// What a bound is of, apart from which medium.
-struct BoundKey
+/// What a view is of, apart from which medium.
+struct ViewKey
 {
   Frame frame;
   int width, height;
-  double stepVoxels, atLeast; ///< see boundDisplacement
+  KernelChoice kernel;
   LightKey light;
   std::int64_t changes; ///< of the medium's voxels
 
   auto tie() const
   {
-    return std::tuple_cat(
-      light.tie(), tieOf(frame), std::tie(width, height, stepVoxels, atLeast, changes));
+    return std::tuple_cat(light.tie(), tieOf(frame),
+      std::tie(width, height, kernel.path, kernel.integrator, kernel.interpolation, changes));
   }
 };
 
@@ -124,9 +126,9 @@ public:
   bool prepare(RaysKey key, std::int64_t margin);
   std::int64_t margin() const { return margin_; } ///< of the rays that are cached
 
-  /// The bound of a view, which is found where it is that of another one.
-  const DisplacementBound& boundOf(
-    const BoundKey& key, const std::function<DisplacementBound()>& find);
+  /// How far a view's light is moved, which is found where it is that of another one.
+  const std::vector<MovedRay>& movedIn(
+    const ViewKey& key, const std::function<std::vector<MovedRay>()>& find);
 
   /// Traces a pass, or resumes it. False if aborted or paused. `isWantedOnHost`: or else where it was traced.
   using Trace = std::function<bool(TracedPass& traced, bool isWantedOnHost)>;
@@ -149,14 +151,14 @@ public:
 
   /// Gives back the memory that only served to make more rays.
   void finish();
-  /// All of it, bounds, too, for rays in another medium or on another device.
+  /// All of it, for rays in another medium or on another device.
   void clear();
 
 private:
   /// Makes scratch_ the place for the rays of a pass, where it is not that already.
   void prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields);
 
-  std::optional<std::pair<BoundKey, DisplacementBound>> bound_; ///< of the last view
+  std::optional<std::pair<ViewKey, std::vector<MovedRay>>> moved_; ///< in the last view
   std::optional<RaysKey> key_;
   std::int64_t margin_ = 0;
   std::deque<TracedPass> passes_;                ///< from pass 0 on

@@ -12,22 +12,16 @@
 namespace schlieren
 {
 
-RaySettings settingsOf(const Scene& scene, double lengthScale, const DisplacementBound& bound,
-  const Frame& frame, double steepest)
+RaySettings settingsOf(const Scene& scene, double lengthScale, double steepest)
 {
   RaySettings settings;
-  const bool straightWillDo = scene.pathModel == PathModel::Auto &&
-    bound.withinMedium <= scene.pathTolerance * frame.pixelSize;
-  settings.kernel.path = straightWillDo || scene.pathModel == PathModel::Straight
-    ? PathModel::Straight
-    : PathModel::Refracted;
+  settings.kernel.path = scene.pathModel;
   settings.kernel.interpolation = scene.interpolation;
   if (settings.kernel.path == PathModel::Refracted)
   {
     // Whatever the step is: with leapfrog, half of it would be far less exact than all of an adaptive one.
     const bool isTooSteep = steepest > largestChangeByVoxel;
-    settings.kernel.integrator =
-      isTooSteep && scene.integrator != Integrator::Euler ? Integrator::Adaptive : scene.integrator;
+    settings.kernel.integrator = isTooSteep ? Integrator::Adaptive : scene.integrator;
   }
   if (settings.kernel.integrator == Integrator::Adaptive)
   {
@@ -105,22 +99,6 @@ double magnificationAt(const Scene& scene, const Frame& frame, double film, doub
     : 1;
 }
 
-/// See DisplacementBound::slope: the same of rays where they have left the data.
-double slopeOutside(const DisplacementBound& bound, const Light& light)
-{
-  const double ratio = light.faces.ratio;
-  if (ratio == 1)
-  {
-    return bound.slope;
-  }
-  // The sine of undisturbed light and that of what bends it add up at the most; the slope's derivative by the sine is
-  // 1 / cosine^3. Light that hardly gets out is dim, and no image is wider for it.
-  constexpr double grazing = 0.95;
-  const double cosine = light.smallestCosine();
-  const double sine = std::min(grazing, ratio * (std::sqrt(1 - cosine * cosine) + bound.bend));
-  return ratio * bound.bend / std::pow(1 - sine * sine, 1.5);
-}
-
 } // namespace
 
 double exitRefractivityOf(const Scene& scene, double ambient)
@@ -187,24 +165,24 @@ Aperture apertureOf(const Scene& scene, const Frame& frame, const ExitFaces& fac
 }
 
 std::int64_t marginFor(
-  const DisplacementBound& bound, const Scene& scene, const Frame& frame, const Light& light)
+  const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame, const Light& light)
 {
   if (isOfCamera(scene.cutoff))
   {
     return 2; // what the light of a pixel's mean depends on
   }
   const double depth = frame.exit - frame.entry;
-  const double slope = slopeOutside(bound, light);
   double largest = 0; // data units of the image
   for (const double distance : { scene.screenDistance.value_or(depth),
          focusDistance(frame, focusOffsetOf(scene, frame)), focusDistance(frame, 0) })
   {
     const double film = apparentDistance(distance, frame, light.faces.ratio);
     const double magnification = magnificationAt(scene, frame, film, light.faces.ratio);
-    const double moved = bound.displacement + std::abs(film) * slope;
+    const double moved = maximumShift(rays, film);
     largest = std::max(largest, magnification > 0 ? moved / magnification : 0);
   }
-  const double pixels = std::ceil(largest / frame.pixelSize) + 1;
+  constexpr double between = 1.2; // what lies between the rays may be moved further
+  const double pixels = std::ceil(between * largest / frame.pixelSize) + 1;
   const auto most = static_cast<double>(maxMargin(scene.view));
   return static_cast<std::int64_t>(pixels < most ? pixels : most);
 }

@@ -4,28 +4,28 @@
 #pragma once
 
 #include "Bench/CutoffMaker.h"
+#include "Bench/MovedLight.h"
 #include "Film/Development.h"
 #include "Film/Shading.h"
 #include "Medium/Medium.h"
 #include "Rays/Light.h"
-#include "Rays/March/DisplacementBound.h"
 #include "Rays/March/MakeTask.h"
 #include "Schlieren.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace schlieren
 {
 
-/// The most that nu may change by voxel with Integrator::Leapfrog or Rk4: steps of one voxel keep |p| = 1 + nu to a few
+/// The most that nu may change by voxel with Integrator::Leapfrog: steps of one voxel keep |p| = 1 + nu to a few
 /// thousandths then.
 constexpr double largestChangeByVoxel = 0.05;
 
-/// How a scene's rays are to be traced where no ray is displaced further than `bound`, and nu changes by no more than
-/// `steepest` from voxel to voxel: where that is too much, as at faces of glass, steps are adaptive. What does
-/// not matter to them has its default, so that changing it needs no re-tracing.
-RaySettings settingsOf(const Scene& scene, double lengthScale, const DisplacementBound& bound,
-  const Frame& frame, double steepest);
+/// How a scene's rays are to be traced where nu changes by no more than `steepest` from voxel to voxel: where that is too
+/// much, as at faces of glass, steps are adaptive. What does not matter to them has its default, so that changing it needs
+/// no re-tracing.
+RaySettings settingsOf(const Scene& scene, double lengthScale, double steepest);
 
 /// The largest |d nu / d index| in a cube in which nu varies by 1: see NuRange.
 double steepestOf(Interpolation interpolation);
@@ -56,11 +56,10 @@ double filmDistance(const Scene& scene, const Frame& frame, const ExitFaces& fac
 /// The aperture through which a scene is seen: a pinhole where there is no camera.
 Aperture apertureOf(const Scene& scene, const Frame& frame, const ExitFaces& faces);
 
-/// Pixels around the image from which light may be bent into it, at most an eighth of its longer
-/// side (or 16). At least one, because the film distributes a ray over four pixels. The same for all
+/// Pixels around the image from which light may be bent into it, by a coarse look at it: at most maxMargin(). At least one, because the film distributes a ray over four pixels. The same for all
 /// cutoffs, so that changing the cutoff needs no re-tracing, but for a camera's rays, which stay in their pixel.
 std::int64_t marginFor(
-  const DisplacementBound& bound, const Scene& scene, const Frame& frame, const Light& light);
+  const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame, const Light& light);
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces);
 

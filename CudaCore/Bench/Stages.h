@@ -15,6 +15,7 @@
 #include "Bench/Watch.h"
 #include "Schlieren.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -25,20 +26,19 @@ namespace schlieren
 struct Aim
 {
   Field field;
-  Scene
-    scene; ///< with the medium and the path model that the target needs, as far as that is known
+  Scene scene; ///< with the medium that the target needs, as far as that is known
   Device device;
   std::unique_ptr<UnfinishedImage> request{}; ///< with all settings, once they are found
   bool isPaused = false;
   bool isShown = false; ///< with one ray per pixel
 };
 
-/// How the rays of a view are bounded and to be traced.
-struct BoundedRays
+/// Which rays a view needs, and how they are to be traced.
+struct RaysOfView
 {
-  BoundKey key;
-  DisplacementBound bound;
+  ViewKey key;
   RaySettings settings;
+  std::int64_t margin; ///< pixels around the image from which light may be bent into it
 };
 
 inline Projection projectionFor(const RaySettings& settings, const Light& light,
@@ -99,7 +99,7 @@ private:
   template <class Real>
   Pilot<Real>& pilotFor(MediumOnDevices<Real>& onDevices, const Light& light,
     const UnfinishedImage& request, Image& image);
-  /// Finds the settings with the medium and the path model of the scene. False if others are needed, which it then writes
+  /// Finds the settings with the medium of the scene. False if others are needed, which it then writes
   /// into the scene.
   template <class Real>
   bool findSettings(Aim& ofImage, const Watch& watch);
@@ -113,9 +113,9 @@ private:
   }
   /// Drops them where another medium is to be made.
   const Scene& clearedFor(const UnfinishedImage& request);
-  /// How the rays of an image are bounded and to be traced, and where the medium is steepest.
+  /// Which rays an image needs, and how they are to be traced; and where the medium is steepest.
   template <class Real>
-  BoundedRays boundRays(MediumOnDevices<Real>& onDevices, const Light& light,
+  RaysOfView raysFor(MediumOnDevices<Real>& onDevices, const Light& light,
     const UnfinishedImage& request, Image& image);
   /// Finds the medium's voxels that a view needs, and its light.
   template <class Real>

@@ -251,13 +251,6 @@ KnownErrors knownErrors(
     const double fringes = view.path / scene.wavelength;
     known.rounding = scene.precision == Precision::Single ? roundingOfPath * fringes : 0;
     known.voxels = deflectionError > 0 ? typicalByLargest * scene.mediumTolerance * fringes : 0;
-    if (bench.settings.kernel.path == PathModel::Straight && scene.pathModel == PathModel::Auto)
-    {
-      // The bend makes a ray longer by half of its square, and Fermat's principle leaves less than that of it.
-      const double depth = bench.light.depth * bench.light.unit * bench.settings.lengthScale;
-      known.straight =
-        0.5 * view.largestDeflection * view.largestDeflection * depth / scene.wavelength;
-    }
   }
   else if (technique.plane == RecordedPlane::Background)
   {
@@ -279,12 +272,7 @@ KnownErrors knownErrors(
 bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene)
 {
   const double allowed = scene.targetError / margin;
-  constexpr double shareOfRounding = 0.25, shareOfVoxels = 0.7, shareOfStraight = 0.25;
-  if (known.straight > shareOfStraight * allowed)
-  {
-    scene.pathModel = PathModel::Refracted;
-    return true;
-  }
+  constexpr double shareOfRounding = 0.25, shareOfVoxels = 0.7;
   if (scene.precision == Precision::Single && known.rounding > shareOfRounding * allowed)
   {
     scene.precision = Precision::Double;

@@ -29,7 +29,6 @@ struct KnownErrors
 {
   double voxels = 0;
   double rounding = 0;
-  double straight = 0; ///< of the path of rays that PathModel::Auto does not bend
 };
 
 /// What keeps the target, or comes closest.
@@ -68,8 +67,7 @@ double errorOfData(Pilot<Real>& pilot, const Field& field, const Column& column,
 /// What a pilot's rays and patches are of.
 struct PilotKey
 {
-  BoundKey view;
-  KernelChoice kernel;
+  ViewKey view;
   double lengthScale;
   Projection projection;
   FilmEstimator estimator;
@@ -80,9 +78,8 @@ struct PilotKey
   {
     const Projection& p = projection;
     return std::tuple_cat(view.tie(),
-      std::tie(kernel.path, kernel.integrator, kernel.interpolation, lengthScale, p.distance,
-        p.perDataUnit, p.pathPerDataUnit, p.exitRatio, p.perSourceDistance, p.isOfCamera, estimator,
-        seed, wantsAllPixels));
+      std::tie(lengthScale, p.distance, p.perDataUnit, p.pathPerDataUnit, p.exitRatio,
+        p.perSourceDistance, p.isOfCamera, estimator, seed, wantsAllPixels));
   }
 };
 

@@ -35,7 +35,7 @@ void validateTolerances(const Scene& scene)
       throw Error(text.str());
     }
   };
-  require(scene.adaptiveTolerance >= 1e-12 && scene.adaptiveTolerance <= 1, "AdaptiveTolerance",
+  require(scene.adaptiveTolerance >= 1e-12 && scene.adaptiveTolerance <= 1, "adaptiveTolerance",
     scene.adaptiveTolerance,
     "between 1e-12 (smaller errors are lost in rounding) and 1 (all steps are as long as "
     "StepSize).");
@@ -49,8 +49,6 @@ void validateTolerances(const Scene& scene)
     "between 0 (voxels are as fine as the data) and 1, as a fraction of the largest deflection.");
   require(scene.targetError >= 0 && std::isfinite(scene.targetError), "TargetError",
     scene.targetError, "to a positive error, or to 0 for the settings as they are.");
-  require(scene.pathTolerance >= 0 && std::isfinite(scene.pathTolerance), "PathTolerance",
-    scene.pathTolerance, "to zero or more, in pixels.");
 }
 
 void validateSource(const LightSource& source)

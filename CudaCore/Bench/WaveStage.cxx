@@ -188,7 +188,7 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
   {
     return std::string("LightModel is Waves, but PathModel is Straight, and straight rays lack the "
                        "length of bent "
-                       "paths. Set PathModel to Auto or Refracted,") +
+                       "paths. Set PathModel to Refracted,") +
       orRays;
   }
   if (field.gradients.count > 0)
@@ -355,9 +355,8 @@ bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
   const Scene scene = sceneOfRays(request_.scene, screen.raysPerPixel);
   const Frame frame = frameOf(field.grid, scene.view);
   const Light ofRays = lightOf(scene, field.grid, frame, faces_);
-  DisplacementBound unknown{};
   const RaySettings settings =
-    settingsOf(scene, field.lengthScale, unknown, frame, medium_.steepest().perVoxel);
+    settingsOf(scene, field.lengthScale, medium_.medium.steepest.perVoxel);
   const RayTask<Real> task =
     makeTask<Real>(medium_.medium, nullptr, medium_.medium.gradientsOf(field), ofRays, settings);
   const std::int64_t border = borderOf(image, screen) * screen.raysPerPixel;

@@ -63,7 +63,7 @@ struct Image
   int threads = 0;             ///< on the CPU
   int processes = 1;           ///< that traced rays
   std::string deviceNote;      ///< why Device::Auto left a device that answers; else empty
-  PathModel pathModel = PathModel::Refracted;   ///< the one used: Straight or Refracted
+  PathModel pathModel = PathModel::Refracted;   ///< the one used
   Integrator integrator = Integrator::Leapfrog; ///< the one used
   double kScale = 0;                            ///< the k used; 0 where there is no cutoff
   double undisturbedLevel = 1;                  ///< intensity of light that nothing bends
@@ -71,15 +71,13 @@ struct Image
   double saturatedFraction = 0;
   LightBalance light;
   Histogram histogram;
-  double ambient = 0;            ///< the ambient refractivity used
-  double exitRefractivity = 0;   ///< of what light leaves the data into
-  std::int64_t raysTraced = 0;   ///< rays of this image that crossed the grid
-  std::int64_t stepsTaken = 0;   ///< integration steps of these rays
-  std::int64_t raysBlocked = 0;  ///< rays that a solid stopped
-  std::int64_t raysLost = 0;     ///< rays trapped in the medium (step limit) or turned back by it
-  double traceSeconds = 0;       ///< spent tracing for it; 0 when cached rays were re-shaded
-  double displacementBound = 0;  ///< no ray of this image is displaced further, data units
-  double displacementWithin = 0; ///< the same up to where the medium bends it for the last time
+  double ambient = 0;           ///< the ambient refractivity used
+  double exitRefractivity = 0;  ///< of what light leaves the data into
+  std::int64_t raysTraced = 0;  ///< rays of this image that crossed the grid
+  std::int64_t stepsTaken = 0;  ///< integration steps of these rays
+  std::int64_t raysBlocked = 0; ///< rays that a solid stopped
+  std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
+  double traceSeconds = 0;      ///< spent tracing for it; 0 when cached rays were re-shaded
   /// Skipping homogeneous cubes changes no deflection cosine by more than this, but for what the ray meets
   /// because it is elsewhere then, which is of second order.
   double skippingBound = 0;

@@ -41,7 +41,7 @@ constexpr Real infinite = std::numeric_limits<Real>::infinity();
 ///     what a ray misses that is bent once (less by far, of second order, where the medium is smooth);
 ///   - of nu differs from L times nu at the middle by at most L * (highest - lowest).
 /// No smaller factors hold for all media. A face belongs to the cube above it, as it does for
-/// homogeneousCube and for Linear's derivative, which jumps there.
+/// homogeneousCube.
 template <class Real>
 struct NuRange
 {

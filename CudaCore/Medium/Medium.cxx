@@ -247,8 +247,8 @@ void widenByDifferences(const Real* a, const Real* b, std::int64_t count, Real* 
   }
 }
 
-/// Cells along the edges of Medium::slopes.
-constexpr std::int64_t slopeEdge = SlopeBlock::voxels;
+/// Cells along the edges of the boxes of Medium::steepest.
+constexpr std::int64_t slopeEdge = 8;
 
 /// Largest differences of neighbours along each axis.
 template <class Real>
@@ -307,8 +307,7 @@ void findSlopesOfPlane(
 /// Largest |sample|, and, box by box, largest difference of neighbouring samples along each axis, ghosts included
 /// where they are used. With all schemes the value is a weighted mean of samples and a derivative one of
 /// these differences, no weight negative, so that neither can be larger: the derivative of a B-spline is a
-/// B-spline of one degree less of the differences; Central's, at f within a cell, has the weights
-/// (1 - f) / 2, 1 / 2 and f / 2; across the derivative's axis all schemes weigh as for the value.
+/// B-spline of one degree less of the differences; across the derivative's axis they weigh as for the value.
 template <class Real>
 void findBounds(Medium<Real>& medium, int threads)
 {
@@ -337,7 +336,6 @@ void findBounds(Medium<Real>& medium, int threads)
       }
     });
   medium.largestNu = static_cast<double>(*std::max_element(largestNu.begin(), largestNu.end()));
-  medium.slopes.reserve(static_cast<std::size_t>(ofPlane * layers));
   for (std::int64_t n = 0; n < ofPlane * layers; ++n)
   {
     const std::int64_t at[3] = { n % columns, n / columns % rows, n / ofPlane };
@@ -349,31 +347,14 @@ void findBounds(Medium<Real>& medium, int threads)
       most = { std::max(most.x, one.x), std::max(most.y, one.y),
         k < ofLayer.last ? std::max(most.z, one.z) : most.z };
     }
-    if (most.x == 0 && most.y == 0 && most.z == 0)
-    {
-      continue;
-    }
-    const auto low = [&](std::size_t axis) { return static_cast<float>(at[axis] * slopeEdge); };
-    medium.slopes.push_back({ { low(0), low(1), low(2) }, static_cast<float>(slopeEdge),
-      { static_cast<float>(most.x), static_cast<float>(most.y), static_cast<float>(most.z) } });
-    medium.slope.x = std::max(medium.slope.x, static_cast<double>(most.x));
-    medium.slope.y = std::max(medium.slope.y, static_cast<double>(most.y));
-    medium.slope.z = std::max(medium.slope.z, static_cast<double>(most.z));
-  }
-}
-
-/// Linear's derivative on the grid's far faces is that of the last cells, Central's is of second order there
-/// as it is inside, and the B-splines continue as they do in the prefilter.
-int degreeOfGhosts(Interpolation interpolation)
-{
-  switch (interpolation)
-  {
-    case Interpolation::Linear:
-      return 1;
-    case Interpolation::Cubic:
-      return 3;
-    default:
-      return 2;
+    const Vec3<double> slope{ static_cast<double>(most.x), static_cast<double>(most.y),
+      static_cast<double>(most.z) };
+    const auto middle = [&](std::size_t axis)
+    { return (static_cast<double>(at[axis]) + 0.5) * static_cast<double>(slopeEdge); };
+    medium.steepest.include({ length(slope), { middle(0), middle(1), middle(2) } });
+    medium.slope.x = std::max(medium.slope.x, slope.x);
+    medium.slope.y = std::max(medium.slope.y, slope.y);
+    medium.slope.z = std::max(medium.slope.z, slope.z);
   }
 }
 
@@ -407,15 +388,9 @@ Medium<Real> build(
   {
     setSolids(samples, medium, threads);
   }
-  if (interpolation == Interpolation::Quadratic)
-  {
-    prefilterQuadratic(medium.volume, threads);
-  }
-  else if (interpolation == Interpolation::Cubic)
-  {
-    prefilterCubic(medium.volume, threads);
-  }
-  fillGhosts(medium.volume, degreeOfGhosts(interpolation));
+  const bool isCubic = interpolation == Interpolation::Cubic;
+  isCubic ? prefilterCubic(medium.volume, threads) : prefilterQuadratic(medium.volume, threads);
+  fillGhosts(medium.volume, isCubic ? 3 : 2); // as it continues in the prefilter
   cutTails(medium.volume, std::max(range.highest - ambient, ambient - range.lowest) / (1 + ambient),
     threads);
   findBounds(medium, threads);
@@ -455,10 +430,7 @@ bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor, 
   medium.rangeOfNu = tree.rangeOfNu();
   medium.largestNu = tree.largestNu();
   medium.slope = tree.slope();
-  if (hasChanged || medium.slopes.empty())
-  {
-    medium.slopes = tree.slopes();
-  }
+  medium.steepest = tree.steepest();
   return hasChanged;
 }
 

@@ -65,7 +65,6 @@ nb::dict imageOf(const Field& field, const Scene& scene)
   made["pixel_size"] = image.frame.pixelSize;
   made["k"] = image.kScale;
   made["ambient"] = image.ambient;
-  made["displacement_bound"] = image.displacementBound;
   return made;
 }
 
@@ -128,12 +127,10 @@ nb::dict traceSamples(
   scene.kScale = k;
   scene.screenDistance = screenDistance;
   scene.wavelength = wavelength;
-  scene.pathModel = choice<PathModel>("path", path,
-    { { "auto", PathModel::Auto }, { "straight", PathModel::Straight },
-      { "refracted", PathModel::Refracted } });
+  scene.pathModel = choice<PathModel>(
+    "path", path, { { "straight", PathModel::Straight }, { "refracted", PathModel::Refracted } });
   scene.interpolation = choice<Interpolation>("interpolation", interpolation,
-    { { "linear", Interpolation::Linear }, { "quadratic", Interpolation::Quadratic },
-      { "cubic", Interpolation::Cubic } });
+    { { "quadratic", Interpolation::Quadratic }, { "cubic", Interpolation::Cubic } });
   scene.precision = choice<Precision>(
     "precision", precision, { { "single", Precision::Single }, { "double", Precision::Double } });
   scene.stepSize = stepSize;

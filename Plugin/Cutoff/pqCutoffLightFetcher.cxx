@@ -3,15 +3,14 @@
 #include "pqCutoffLightFetcher.h"
 
 #include "pqFetchedImage.h"
-#include "pqImageRefiner.h"
+#include "pqRepresentationRefiner.h"
 
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
 #include "vtkImageData.h"
-#include "vtkPVDataInformation.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMSourceProxy.h"
+#include "vtkSMProxy.h"
 
 #include <QEvent>
 #include <QWidget>
@@ -19,7 +18,7 @@
 namespace
 {
 
-constexpr int imagePort = 0, histogramPort = 1;
+constexpr int histogramPort = 1;
 constexpr int patience = 100; // milliseconds without another image
 
 int informationOf(vtkSMProxy* filter, const char* name)
@@ -27,21 +26,6 @@ int informationOf(vtkSMProxy* filter, const char* name)
   vtkSMProperty* property = filter->GetProperty(name);
   filter->UpdatePropertyInformation(property);
   return vtkSMPropertyHelper(property).GetAsInt();
-}
-
-/// Returns whether the image is finished. Fetching an unfinished one would first finish it. Filters
-/// in representations announce only finished images.
-bool isWhole(vtkSMProxy* filter)
-{
-  if (filter->GetProperty("ImageSize")->GetIsInternal())
-  {
-    return informationOf(filter, "Finished") != 0;
-  }
-  auto* source = vtkSMSourceProxy::SafeDownCast(filter);
-  int extent[6];
-  source->GetDataInformation(imagePort)->GetExtent(extent);
-  const int width = vtkSMPropertyHelper(filter, "ImageSize").GetAsInt(0);
-  return extent[1] - extent[0] + 1 == width && informationOf(filter, "Finished") != 0;
 }
 
 } // namespace
@@ -56,7 +40,8 @@ pqCutoffLightFetcher::pqCutoffLightFetcher(vtkSMProxy* filter, QWidget* widget)
   this->Timer.setInterval(patience);
   QObject::connect(&this->Timer, &QTimer::timeout, this, &pqCutoffLightFetcher::fetch);
   this->Connection->Connect(filter, vtkCommand::UpdateDataEvent, this, SLOT(imageUpdated()));
-  QObject::connect(pqImageRefiner::instance(), &pqImageRefiner::imageChanged, this,
+  QObject::connect(pqRepresentationRefiner::instance(), &pqRepresentationRefiner::imageChanged,
+    this,
     [this](vtkSMProxy* changed)
     {
       if (changed == this->Filter)
@@ -103,14 +88,10 @@ void pqCutoffLightFetcher::fetch()
   {
     return;
   }
-  if (pqImageRefiner::instance()->isPlaying())
-  {
-    this->Timer.start();
-    return;
-  }
   const int image = informationOf(this->Filter, "PictureCount");
   Q_EMIT this->imageChanged();
-  if (image != this->FetchedImage && isWhole(this->Filter))
+  // Fetching an unfinished image would first finish it.
+  if (image != this->FetchedImage && informationOf(this->Filter, "Finished") != 0)
   {
     this->FetchedImage = image;
     this->Light = pqCutoffLight(fetchedImage(this->Filter, histogramPort, { "Rays" }));

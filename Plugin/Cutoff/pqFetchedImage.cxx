@@ -29,29 +29,6 @@ vtkSmartPointer<vtkSMSourceProxy> newFilter(const char* name, vtkSMProxy* input,
   return filter;
 }
 
-/// Limits updates: continues an unfinished image, but does not finish it.
-class ShortUpdates
-{
-public:
-  explicit ShortUpdates(vtkSMProxy* filter)
-    : Filter(filter)
-  {
-    this->setLimit(0.03);
-  }
-  ~ShortUpdates() { this->setLimit(0); }
-  ShortUpdates(const ShortUpdates&) = delete;
-  void operator=(const ShortUpdates&) = delete;
-
-private:
-  void setLimit(double seconds)
-  {
-    vtkSMPropertyHelper(this->Filter, "TimeLimit").Set(seconds);
-    this->Filter->UpdateProperty("TimeLimit");
-  }
-
-  vtkSMProxy* Filter;
-};
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -65,7 +42,6 @@ vtkSmartPointer<vtkImageData> fetchedImage(
     return nullptr;
   }
   SCOPED_UNDO_EXCLUDE();
-  const ShortUpdates shortUpdates(filter);
   const double time = server->getTimeKeeper()->getTime();
   const auto only = newFilter("PassArrays", filter, port);
   const auto mover = only ? newFilter("ClientServerMoveData", only, 0) : nullptr;

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqImagePainter.h"
 
+#include "ImagesInViews.h"
 #include "pqApplicationCore.h"
 #include "pqColorFilterImage.h"
 #include "pqDataRepresentation.h"
 #include "pqFetchedImage.h"
 #include "pqPipelineSource.h"
-#include "pqRepresentationRefiner.h"
 #include "pqServerManagerModel.h"
 #include "pqView.h"
 
@@ -52,7 +52,7 @@ bool shows(pqView* view, vtkSMProxy* filter)
     source ? source->getRepresentations(imagePort, view) : QList<pqDataRepresentation*>();
   return std::any_of(images.begin(), images.end(),
            [](pqDataRepresentation* image) { return image->isVisible(); }) ||
-    pqRepresentationRefiner::benchesIn(view).contains(filter);
+    imagesInViews::benchesIn(view).contains(filter);
 }
 
 /// The plane of an image in a view: z = 0 for a filter's output; for a representation, the plane
@@ -249,7 +249,7 @@ void pqImagePainter::brush(vtkRenderWindowInteractor* interactor)
 {
   QPointF position;
   vtkRenderer* renderer = renderViewOf(this->Pressed)->GetRenderer();
-  const ImagePlane plane = pqRepresentationRefiner::benchesIn(this->Pressed).contains(this->Filter)
+  const ImagePlane plane = imagesInViews::benchesIn(this->Pressed).contains(this->Filter)
     ? ImagePlane::ofRepresentation(renderer)
     : ImagePlane();
   if (!placeUnder(interactor->GetEventPosition(), renderer, plane, position))

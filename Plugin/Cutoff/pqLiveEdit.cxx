@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqLiveEdit.h"
 
-#include "pqImageRefiner.h"
+#include "pqApplicationCore.h"
 #include "pqSMAdaptor.h"
 #include "pqUndoStack.h"
 
@@ -57,7 +57,7 @@ void pqLiveEdit::show(const QMap<QString, QVariant>& values)
     SCOPED_UNDO_EXCLUDE();
     this->push(this->Now);
   }
-  pqImageRefiner::instance()->refine(this->Filter);
+  pqApplicationCore::instance()->render();
 }
 
 //------------------------------------------------------------------------------
@@ -77,7 +77,7 @@ void pqLiveEdit::finish()
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Filter);
     this->push(this->Now);
   }
-  pqImageRefiner::instance()->refine(this->Filter);
+  pqApplicationCore::instance()->render();
 }
 
 //------------------------------------------------------------------------------
@@ -87,6 +87,6 @@ void pqLiveEdit::cancel()
   {
     SCOPED_UNDO_EXCLUDE();
     this->push(this->Before);
-    pqImageRefiner::instance()->refine(this->Filter);
+    pqApplicationCore::instance()->render();
   }
 }

@@ -2,19 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMSchlierenRepresentationProxy
- * @brief   fetches images of vtkSchlierenRepresentation from a server that cannot draw
+ * @brief   announces updates of vtkSchlierenRepresentation by the proxy of the filter inside
  *
- * The client, which alone knows camera and size, requests each image when it draws. Updates of the
- * data are announced by the proxy of the filter inside, as by any filter's.
+ * As any filter's proxy does: vtkSMSchlierenLockDomain waits for it.
  */
 #ifndef vtkSMSchlierenRepresentationProxy_h
 #define vtkSMSchlierenRepresentationProxy_h
 
 #include "vtkSMRepresentationProxy.h"
 #include "vtkSchlierenRepresentationModule.h" // for export macro
-#include "vtkSmartPointer.h"                  // for Fetch
-
-class vtkImageData;
 
 class VTKSCHLIERENREPRESENTATION_EXPORT vtkSMSchlierenRepresentationProxy
   : public vtkSMRepresentationProxy
@@ -25,18 +21,14 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
-  vtkSMSchlierenRepresentationProxy();
-  ~vtkSMSchlierenRepresentationProxy() override;
+  vtkSMSchlierenRepresentationProxy() = default;
+  ~vtkSMSchlierenRepresentationProxy() override = default;
 
-  void CreateVTKObjects() override;
   void PostUpdateData(bool usingCache) override;
 
 private:
   vtkSMSchlierenRepresentationProxy(const vtkSMSchlierenRepresentationProxy&) = delete;
   void operator=(const vtkSMSchlierenRepresentationProxy&) = delete;
-
-  /// The image for a request; see vtkSchlierenRepresentation::TraceForClient().
-  vtkSmartPointer<vtkImageData> Fetch(const double request[16]);
 };
 
 #endif

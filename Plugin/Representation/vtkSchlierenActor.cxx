@@ -305,10 +305,7 @@ void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
   }
   else
   {
-    if (!this->IsDrawnElsewhere)
-    {
-      this->LookThrough(ViewOf(renderer));
-    }
+    this->LookThrough(ViewOf(renderer));
     this->TraceUpTo(this->TimeSlice);
   }
   this->HasData = true;
@@ -446,17 +443,7 @@ int vtkSchlierenActor::DrawImage(vtkViewport* viewport)
                                                               : STILL;
   const View view = ViewOf(renderer);
   this->UpdateScene(renderer, view);
-  if (this->TracerElsewhere)
-  {
-    this->Seen = view;
-    const vtkSmartPointer<vtkImageData> image = this->TracerElsewhere(view, occasion);
-    if (!image)
-    {
-      return 0;
-    }
-    this->Pixels->ShallowCopy(image);
-  }
-  else if (!this->Image(view, occasion))
+  if (!this->MakeImage(view, occasion))
   {
     return 0;
   }
@@ -468,36 +455,21 @@ int vtkSchlierenActor::DrawImage(vtkViewport* viewport)
 }
 
 //------------------------------------------------------------------------------
-vtkImageData* vtkSchlierenActor::Image(const View& view, int occasion)
+bool vtkSchlierenActor::MakeImage(const View& view, int occasion)
 {
   if (!this->Bench || !this->HasData || this->HasFailed())
   {
-    return nullptr;
+    return false;
   }
   const Silent silent(this->Silence);
   this->Trace(occasion, this->LookThrough(view));
   this->NoteTimes();
   if (this->Bench->GetOutput()->GetNumberOfPoints() == 0) // it failed, or rank 0 has it
   {
-    return nullptr;
+    return false;
   }
   this->UpdatePixels();
-  return this->Pixels;
-}
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkSchlierenActor::ImageForElsewhere(const View& view, int occasion)
-{
-  this->IsDrawnElsewhere = true;
-  if (this->Bench)
-  {
-    this->Bench->SetBackgroundScene(nullptr, -1); // unknown here
-  }
-  if (occasion == STILL && this->HasSeen && view == this->Seen && this->Bench && this->HasData)
-  {
-    this->Refine();
-  }
-  return this->Image(view, occasion);
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -536,7 +508,7 @@ bool vtkSchlierenActor::HasScene() const
 //------------------------------------------------------------------------------
 void vtkSchlierenActor::UseGreyScene()
 {
-  if (this->HasScene() && !this->HasDrawnScene && !this->IsDrawnElsewhere && !this->HasOtherRanks)
+  if (this->HasScene() && !this->HasDrawnScene && !this->HasOtherRanks)
   {
     constexpr int grey = 128;
     vtkNew<vtkImageData> pixel;

@@ -5,8 +5,7 @@
  * @brief   an image of vtkSchlierenFilter that fills a view, behind everything else
  *
  * Traces the image during rendering, because only then camera and size are those of the rendering,
- * on servers and in larger screenshots, too; the bench may be in another process. The image lies
- * just before the far plane, so that all surfaces hide it; with the background pattern SCENE it
+ * on servers and in larger screenshots, too. The image lies just before the far plane, so that all surfaces hide it; with the background pattern SCENE it
  * lies at the back of the flow and replaces what is behind. With a perspective camera each pixel
  * has its own direction.
  */
@@ -19,7 +18,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 
 class vtkCallbackCommand;
 class vtkCamera;
@@ -60,30 +58,10 @@ public:
   /// Returns what is drawn over the image.
   vtkSchlierenLegend* GetLegend() const { return this->Legend; }
 
-  enum Occasions
-  {
-    TURNED,
-    STILL,
-    SCREENSHOT
-  };
-
   /**
    * Returns whether another actor is drawn instead: light cannot pass through both flows.
    */
   bool IsHidden(vtkRenderer* renderer);
-
-  /**
-   * Traces an image for a rendering: bytes, with its position in the view's plane. Null if it
-   * fails. ImageForElsewhere() is for a rendering by another process, and includes Refine().
-   */
-  vtkImageData* Image(const View& view, int occasion);
-  vtkImageData* ImageForElsewhere(const View& view, int occasion);
-
-  /**
-   * Sets a function that traces in another process. Unset: the bench is in this one.
-   */
-  using Tracer = std::function<vtkSmartPointer<vtkImageData>(const View& view, int occasion)>;
-  void SetTracerElsewhere(Tracer tracer) { this->TracerElsewhere = std::move(tracer); }
 
   /**
    * Sets the flow's bounds, behind which the scene of the background pattern SCENE begins.
@@ -161,6 +139,15 @@ private:
   vtkSchlierenActor(const vtkSchlierenActor&) = delete;
   void operator=(const vtkSchlierenActor&) = delete;
 
+  enum Occasions
+  {
+    TURNED,
+    STILL,
+    SCREENSHOT
+  };
+
+  /// Traces the image for a rendering. Returns whether there is one.
+  bool MakeImage(const View& view, int occasion);
   /// Gives the bench the renderer's view. Returns whether it has changed.
   bool LookThrough(const View& view);
   void Trace(int occasion, bool isMoved);
@@ -178,8 +165,6 @@ private:
   void PlaceQuad(vtkRenderer* renderer);
 
   vtkSmartPointer<vtkSchlierenFilter> Bench;
-  Tracer TracerElsewhere;
-  bool IsDrawnElsewhere = false;
   vtkNew<vtkCallbackCommand> Silence; // ignores the bench's progress while drawing
   vtkNew<vtkCallbackCommand> SuspendFXAA;
   vtkNew<vtkCallbackCommand> RestoreFXAA;

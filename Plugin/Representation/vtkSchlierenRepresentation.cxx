@@ -10,14 +10,15 @@
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
+#include "vtkPVSession.h"
 #include "vtkPolyData.h"
+#include "vtkProcessModule.h"
 #include "vtkRenderer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -99,37 +100,6 @@ bool vtkSchlierenRepresentation::GetFinished()
 
 //------------------------------------------------------------------------------
 int vtkSchlierenRepresentation::GetReduction() { return this->Actor->GetReduction(); }
-
-//------------------------------------------------------------------------------
-void vtkSchlierenRepresentation::TraceForClient(const double request[16])
-{
-  vtkSchlierenActor::View view;
-  std::copy(request, request + 3, view.Direction.begin());
-  std::copy(request + 3, request + 6, view.Up.begin());
-  std::copy(request + 6, request + 9, view.FocalPoint.begin());
-  view.ParallelScale = request[9];
-  view.ViewAngle = request[10];
-  view.Size = { static_cast<int>(request[11]), static_cast<int>(request[12]) };
-  view.Pupil = request[14];
-  view.FocusDistance = request[15];
-  this->TracedImage = nullptr;
-  this->Guarded(
-    [&]
-    {
-      if (this->Actor->GetBench())
-      {
-        this->PassTimeToBench();
-      }
-      this->TracedImage = this->Actor->ImageForElsewhere(view, static_cast<int>(request[13]));
-      return 1;
-    });
-}
-
-//------------------------------------------------------------------------------
-void vtkSchlierenRepresentation::SetRequest(Request request)
-{
-  this->RequestOfServer = std::move(request);
-}
 
 //------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::SetVisibility(bool isVisible)
@@ -240,24 +210,20 @@ void vtkSchlierenRepresentation::TellIfHidden()
 }
 
 //------------------------------------------------------------------------------
-void vtkSchlierenRepresentation::UseRequest()
+void vtkSchlierenRepresentation::TellIfServerCannotDraw()
 {
-  if (!this->RequestOfServer || canServerDraw(this->GetView()))
+  auto* session = vtkPVSession::SafeDownCast(vtkProcessModule::GetProcessModule()->GetSession());
+  const bool isClient = session && !(session->GetProcessRoles() & vtkPVSession::DATA_SERVER);
+  const bool isToTell = isClient && this->GetVisibility() && !canServerDraw(this->GetView());
+  if (isToTell && !this->HasToldOfServer)
   {
-    this->Actor->SetTracerElsewhere(nullptr);
-    return;
+    vtkErrorMacro(
+      << "The server cannot draw, so it does not show the flow as Schlieren, whose image is made "
+         "where views are drawn. Start it with a display, such as "
+         "'xvfb-run -a -s -noreset pvserver', or take a pvserver that was built with EGL or "
+         "OSMesa. Or use the filter Schlieren, which works without.");
   }
-  this->Actor->SetTracerElsewhere(
-    [this](const vtkSchlierenActor::View& view, int occasion)
-    {
-      double request[16] = { 0, 0, 0, 0, 0, 0, 0, 0, 0, view.ParallelScale, view.ViewAngle,
-        static_cast<double>(view.Size[0]), static_cast<double>(view.Size[1]),
-        static_cast<double>(occasion), view.Pupil, view.FocusDistance };
-      std::copy(view.Direction.begin(), view.Direction.end(), request);
-      std::copy(view.Up.begin(), view.Up.end(), request + 3);
-      std::copy(view.FocalPoint.begin(), view.FocalPoint.end(), request + 6);
-      return this->RequestOfServer(request);
-    });
+  this->HasToldOfServer = isToTell;
 }
 
 //------------------------------------------------------------------------------
@@ -327,7 +293,7 @@ int vtkSchlierenRepresentation::RespondToView(
     vtkPVRenderView::SetDeliverToClientAndRenderingProcesses(input, this, false, false);
     vtkPVRenderView::SetGeometryBounds(input, this, this->Bounds);
     vtkPVRenderView::SetRequiresDistributedRendering(input, this, canServerDraw(this->GetView()));
-    this->UseRequest();
+    this->TellIfServerCannotDraw();
     vtkPVRenderView::SetStreamable(input, this, true);
   }
   else if (request == vtkPVView::REQUEST_UPDATE_LOD())

@@ -7,19 +7,16 @@
  * The image has the camera and the size of the view, behind all surfaces; see vtkSchlierenActor. An
  * update, with progress and abort, computes the refractivity. Rays are traced when the view is
  * rendered: coarsely while it is turned and, if TimeSlice is positive, progressively afterwards, by
- * vtkPVRenderView::StreamingUpdate(). A server that cannot draw traces the image for the client,
- * whose representation requests it when it draws.
+ * vtkPVRenderView::StreamingUpdate(). It takes a server that can draw.
  */
 #ifndef vtkSchlierenRepresentation_h
 #define vtkSchlierenRepresentation_h
 
-#include "vtkImageData.h" // for GetTracedImage
 #include "vtkNew.h"
 #include "vtkPVDataRepresentation.h"
 #include "vtkSchlierenRepresentationModule.h" // for export macro
-#include "vtkSmartPointer.h"                  // for TracedImage
 
-#include <functional> // for SetRequest, Guarded
+#include <functional> // for Guarded
 
 class vtkPolyData;
 class vtkSchlierenActor;
@@ -59,22 +56,6 @@ public:
   bool GetFinished();
   int GetReduction();
 
-  ///@{
-  /**
-   * Traces an image on a server that cannot draw, for the client to fetch by GetTracedImage()
-   * (null: it failed). `request`: direction, up, focal point, parallel scale, columns, rows and one
-   * of vtkSchlierenActor::Occasions.
-   */
-  void TraceForClient(const double request[16]);
-  VTK_WRAPEXCLUDE vtkImageData* GetTracedImage() const { return this->TracedImage; }
-  ///@}
-
-  /**
-   * Sets, on a client, the function that requests an image of its server.
-   */
-  using Request = std::function<vtkSmartPointer<vtkImageData>(const double request[16])>;
-  VTK_WRAPEXCLUDE void SetRequest(Request request);
-
   void SetVisibility(bool isVisible) override;
 
   vtkTypeBool ProcessRequest(
@@ -104,16 +85,16 @@ private:
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output);
   void PassTimeToBench();
   void ShowOrHideLegend();
-  void UseRequest();
-  /// Reports once, until that changes, that another flow is shown instead.
+  /// Report once, until that changes, that another flow is shown instead, or that the server cannot
+  /// draw.
   void TellIfHidden();
+  void TellIfServerCannotDraw();
 
   vtkNew<vtkSchlierenActor> Actor;
-  Request RequestOfServer;
-  vtkSmartPointer<vtkImageData> TracedImage;
   vtkNew<vtkPolyData>
     Nothing; // delivered data: only the image leaves this process, as part of the view
   bool IsHidden = false;
+  bool HasToldOfServer = false;
   bool HasLegend = true;
   double Bounds[6];
 };

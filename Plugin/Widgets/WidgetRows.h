@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <QBoxLayout>
 #include <QComboBox>
 #include <QGridLayout>
 #include <QWidget>
@@ -18,29 +17,6 @@ inline void appendToRow(QWidget* row, QWidget* added)
   else if (layout)
   {
     layout->addWidget(added);
-  }
-  else
-  {
-    added->hide();
-  }
-}
-
-/// Adds a widget below the others of a property's row.
-inline void appendBelow(QWidget* row, QWidget* added)
-{
-  QLayout* layout = row->layout();
-  if (auto* grid = qobject_cast<QGridLayout*>(layout))
-  {
-    grid->addWidget(added, grid->rowCount(), 0, 1, -1);
-  }
-  else if (auto* box = qobject_cast<QBoxLayout*>(layout))
-  {
-    if (box->direction() == QBoxLayout::LeftToRight || box->direction() == QBoxLayout::RightToLeft)
-    {
-      // Rows have only one line.
-      box->setDirection(QBoxLayout::TopToBottom);
-    }
-    box->addWidget(added);
   }
   else
   {

@@ -2,33 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqFieldsWidget.h"
 
-#include "pqArrayComboBox.h"
-
 #include "pqColorChooserButton.h"
 #include "pqPropertyWidgetDecorator.h"
+#include "pqProxyWidget.h"
 #include "pqTransferFunctionWidget.h"
 
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
 #include "vtkPiecewiseFunction.h"
+#include "vtkSMArrayListDomain.h"
+#include "vtkSMPropertyGroup.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMProxyProperty.h"
-#include "vtkSMSessionProxyManager.h"
 #include "vtkSMTrace.h"
-#include "vtkSMTransferFunctionManager.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
 #include <QBoxLayout>
+#include <QComboBox>
 #include <QDoubleValidator>
+#include <QEvent>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
-#include <QSignalBlocker>
 #include <QTableWidget>
+#include <QToolButton>
 
+#include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace
@@ -42,45 +43,39 @@ enum Column
   COLOR
 };
 
-const char* const group = "piecewise_functions";
-const std::string prefix = "SchlierenField"; // of the functions' names
-
 /// Returns the filter's default colour.
 QColor colorOf(int row) { return QColor::fromHsvF(std::fmod(row * 0.61803398875, 1), 1, 1); }
 
 void complete(QVariantList& list, int count)
 {
-  while (list.size() > count)
-  {
-    list.removeLast();
-  }
+  list = list.mid(0, count);
   while (list.size() < count)
   {
     list.append(0.);
   }
 }
 
-/// Registers a straight line from 0 to 1 under a new name.
-vtkSmartPointer<vtkSMProxy> newFunction(vtkSMSessionProxyManager* manager)
+/// Lists the arrays of the flow, each once, although points and cells may both have it.
+QStringList arraysFor(vtkSMProxy* proxy)
 {
-  int number = 1;
-  const auto name = [&]() { return prefix + std::to_string(number); };
-  while (manager->GetProxy(group, (name() + ".PiecewiseFunction").c_str()))
+  auto* domain = proxy->GetProperty("Density")->FindDomain<vtkSMArrayListDomain>();
+  QStringList names;
+  for (unsigned int i = 0; domain && i < domain->GetNumberOfStrings(); ++i)
   {
-    ++number;
+    names << QString::fromUtf8(domain->GetString(i));
   }
-  vtkNew<vtkSMTransferFunctionManager> functions;
-  return functions->GetOpacityTransferFunction(name().c_str(), manager);
+  names.removeDuplicates();
+  return names;
 }
 
-QLineEdit* newLimitEdit(const QString& limit)
+QLineEdit* newLimitEdit(const QString& text)
 {
-  auto* edit = new QLineEdit;
+  auto* edit = new QLineEdit(text);
   auto* validator = new QDoubleValidator(edit);
   validator->setLocale(QLocale::c());
   edit->setValidator(validator);
   edit->setFrame(false);
-  edit->setPlaceholderText(limit);
+  edit->setPlaceholderText(pqFieldsWidget::tr("auto"));
   edit->setToolTip(
     pqFieldsWidget::tr("Both limits of the range, or none (auto): that of the data. What lies "
                        "beyond is clamped."));
@@ -131,28 +126,63 @@ private:
 //------------------------------------------------------------------------------
 pqFieldsWidget::pqFieldsWidget(
   vtkSMProxy* smproxy, vtkSMPropertyGroup* smgroup, QWidget* parentObject)
-  : pqRowsWidget(smproxy, smgroup, { tr("Array"), tr("From"), tr("To"), QString() }, tr("a field"),
-      QString(), parentObject)
-  , HasColors(smproxy->GetProperty("FieldColors") != nullptr)
+  : pqPropertyWidget(smproxy, parentObject)
+  , Table(new QTableWidget(0, COLOR + 1, this))
   , Title(new QLabel(this))
   , Editor(new pqTransferFunctionWidget(this))
-  , FunctionsProperty(vtkSMProxyProperty::SafeDownCast(smproxy->GetProperty("TransferFunctions")))
+  , Functions(vtkSMProxyProperty::SafeDownCast(smproxy->GetProperty("TransferFunctions")))
 {
-  this->table()->setColumnHidden(COLOR, !this->HasColors);
-  this->table()->horizontalHeader()->setSectionResizeMode(COLOR, QHeaderView::Fixed);
-  this->table()->setColumnWidth(COLOR, this->table()->verticalHeader()->defaultSectionSize());
+  const bool hasColors = smproxy->GetProperty("FieldColors") != nullptr;
+  this->setShowLabel(false);
+  this->Table->setObjectName("Table");
+  this->Table->setHorizontalHeaderLabels({ tr("Array"), tr("From"), tr("To"), QString() });
+  QHeaderView* header = this->Table->horizontalHeader();
+  header->setMinimumSectionSize(24);
+  header->setSectionResizeMode(QHeaderView::Stretch);
+  header->setSectionResizeMode(COLOR, QHeaderView::Fixed);
+  this->Table->setColumnWidth(COLOR, this->Table->verticalHeader()->defaultSectionSize());
+  this->Table->setColumnHidden(COLOR, !hasColors);
+  this->Table->verticalHeader()->hide();
+  this->Table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  this->Table->setSelectionMode(QAbstractItemView::SingleSelection);
+  this->Table->setTabKeyNavigation(false); // Tab leaves the table after the last cell
+  QObject::connect(
+    this->Table, &QTableWidget::itemSelectionChanged, this, &pqFieldsWidget::showFunction);
   this->Title->setWordWrap(true);
-  this->below()->addWidget(this->Title);
   this->Editor->setObjectName("TransferFunction");
   this->Editor->setMinimumHeight(150);
-  this->below()->addWidget(this->Editor);
   QObject::connect(this->Editor, &pqTransferFunctionWidget::controlPointsModified, this,
     &pqFieldsWidget::pointsMoved);
+
+  auto* buttons = new QHBoxLayout;
+  const auto addButton = [&](const char* name, const char* icon, const QString& tip)
+  {
+    auto* button = new QToolButton(this);
+    button->setObjectName(name);
+    button->setIcon(QIcon(icon));
+    button->setToolTip(tip);
+    button->setAccessibleName(tip);
+    button->setFocusPolicy(Qt::StrongFocus);
+    buttons->addWidget(button);
+    return button;
+  };
+  QObject::connect(addButton("Add", ":/QtWidgets/Icons/pqPlus.svg", tr("Add a field")),
+    &QToolButton::clicked, this, &pqFieldsWidget::addRow);
+  QObject::connect(addButton("Remove", ":/QtWidgets/Icons/pqMinus.svg", tr("Remove a field")),
+    &QToolButton::clicked, this, &pqFieldsWidget::removeRow);
+  buttons->addStretch();
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(pqProxyWidget::newGroupLabelWidget(smgroup->GetXMLLabel(), this));
+  layout->addWidget(this->Table);
+  layout->addLayout(buttons);
+  layout->addWidget(this->Title);
+  layout->addWidget(this->Editor);
 
   this->addPropertyLink(this, "fields", SIGNAL(fieldsChanged()), smproxy->GetProperty("Fields"));
   this->addPropertyLink(
     this, "ranges", SIGNAL(rangesChanged()), smproxy->GetProperty("FieldRanges"));
-  if (this->HasColors)
+  if (hasColors)
   {
     this->addPropertyLink(
       this, "colors", SIGNAL(colorsChanged()), smproxy->GetProperty("FieldColors"));
@@ -161,10 +191,10 @@ pqFieldsWidget::pqFieldsWidget(
     { vtkCommand::ModifiedEvent, vtkCommand::UncheckedPropertyModifiedEvent })
   {
     this->Connection->Connect(
-      smproxy->GetProperty("IndexModel"), event, this, SLOT(modelChanged()));
+      smproxy->GetProperty("IndexModel"), event, this, SLOT(showFunction()));
   }
   this->Connection->Connect(
-    this->FunctionsProperty, vtkCommand::ModifiedEvent, this, SLOT(readFunctions()));
+    this->Functions.property(), vtkCommand::ModifiedEvent, this, SLOT(readFunctions()));
   this->readFunctions();
 
   this->addDecorator(new Decorator(this));
@@ -186,15 +216,7 @@ void pqFieldsWidget::completeLists()
     this->Colors[3 * row + 1] = color.greenF();
     this->Colors[3 * row + 2] = color.blueF();
   }
-  this->RowFunctions.resize(this->rows());
-  for (vtkSmartPointer<vtkSMProxy>& function : this->RowFunctions)
-  {
-    if (!function)
-    {
-      function = newFunction(this->proxy()->GetSessionProxyManager());
-      this->Created.append(function);
-    }
-  }
+  this->Functions.complete(this->rows());
 }
 
 //------------------------------------------------------------------------------
@@ -207,67 +229,134 @@ void pqFieldsWidget::emitChanges()
 }
 
 //------------------------------------------------------------------------------
-void pqFieldsWidget::appendToLists()
+void pqFieldsWidget::setList(QVariantList& list, const QVariantList& values)
 {
-  QStringList taken;
-  for (const QVariant& name : this->Fields)
+  if (list != values)
   {
-    taken << name.toString();
+    list = values;
+    this->showRows();
   }
-  this->Fields.append(pqArrayComboBox::firstBut(taken, this->proxy()->GetProperty("Density")));
-  this->completeLists();
 }
 
 //------------------------------------------------------------------------------
-void pqFieldsWidget::removeFromLists(int row)
+void pqFieldsWidget::addRow()
 {
+  const QStringList arrays = arraysFor(this->proxy());
+  const auto unused = std::find_if(arrays.begin(), arrays.end(),
+    [this](const QString& name) { return !this->Fields.contains(name); });
+  this->Fields.append(unused == arrays.end() ? QString() : *unused);
+  this->completeLists();
+  this->showRows();
+  this->emitChanges();
+  this->Table->selectRow(this->rows() - 1);
+}
+
+//------------------------------------------------------------------------------
+void pqFieldsWidget::removeRow()
+{
+  const int row = this->Table->currentRow();
+  if (row < 0)
+  {
+    return;
+  }
   this->completeLists();
   this->Fields.removeAt(row);
-  for (int i = 0; i < 2; ++i)
-  {
-    this->Ranges.removeAt(2 * row);
-  }
-  for (int i = 0; i < 3; ++i)
-  {
-    this->Colors.removeAt(3 * row);
-  }
-  this->RowFunctions.removeAt(row);
+  this->Ranges = this->Ranges.mid(0, 2 * row) + this->Ranges.mid(2 * row + 2);
+  this->Colors = this->Colors.mid(0, 3 * row) + this->Colors.mid(3 * row + 3);
+  this->Functions.remove(row);
+  this->showRows();
+  this->emitChanges();
 }
 
 //------------------------------------------------------------------------------
-void pqFieldsWidget::makeRow(int row)
+void pqFieldsWidget::setCell(int row, int column, QWidget* widget, const QString& name)
 {
-  auto* array = new pqArrayComboBox(this->proxy()->GetProperty("Density"));
-  this->setCell(row, ARRAY, array, "Field");
-  QObject::connect(array, &QComboBox::currentTextChanged, this,
-    [this, row](const QString& name)
-    {
-      this->Fields[row] = name;
-      this->emitChanges();
-      this->rowSelected(this->currentRow());
-    });
+  widget->setObjectName(QString("%1%2").arg(name).arg(row));
+  widget->setAccessibleName(QString("%1 %2").arg(name).arg(row + 1));
+  widget->setProperty("row", row);
+  widget->installEventFilter(this);
+  this->Table->setCellWidget(row, column, widget);
+}
 
-  for (const int column : { FROM, TO })
+//------------------------------------------------------------------------------
+bool pqFieldsWidget::eventFilter(QObject* cell, QEvent* event)
+{
+  if (event->type() == QEvent::FocusIn)
   {
-    QLineEdit* edit = newLimitEdit(tr("auto"));
-    this->setCell(row, column, edit, column == FROM ? "From" : "To");
-    QObject::connect(
-      edit, &QLineEdit::editingFinished, this, [this, row]() { this->rangeEdited(row); });
+    this->Table->selectRow(cell->property("row").toInt());
   }
+  return this->pqPropertyWidget::eventFilter(cell, event);
+}
 
-  auto* color = new pqColorChooserButton(nullptr);
-  color->setShowAlphaChannel(false);
-  color->setToolTip(tr("The field's colour, for Color By Field"));
-  this->setCell(row, COLOR, color, "Color");
-  QObject::connect(color, &pqColorChooserButton::chosenColorChanged, this,
-    [this, row](const QColor& chosen)
+//------------------------------------------------------------------------------
+void pqFieldsWidget::showRows()
+{
+  constexpr int fewest = 2, most = 4; // rows without scrolling
+  const int chosen = std::max(0, this->Table->currentRow());
+  for (int row = 0; row < this->Table->rowCount(); ++row)
+  {
+    for (int column = ARRAY; column <= COLOR; ++column)
     {
-      this->completeLists();
-      this->Colors[3 * row] = chosen.redF();
-      this->Colors[3 * row + 1] = chosen.greenF();
-      this->Colors[3 * row + 2] = chosen.blueF();
-      this->emitChanges();
-    });
+      this->Table->cellWidget(row, column)->setObjectName(QString()); // because it is deleted later
+    }
+  }
+  this->Table->setRowCount(0);
+  this->Table->setRowCount(this->rows());
+  for (int row = 0; row < this->rows(); ++row)
+  {
+    auto* array = new QComboBox;
+    array->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    array->setMinimumContentsLength(4);
+    array->addItems(arraysFor(this->proxy()));
+    const QString name = this->Fields[row].toString();
+    if (array->findText(name) < 0)
+    {
+      array->addItem(name);
+    }
+    array->setCurrentText(name);
+    this->setCell(row, ARRAY, array, "Field");
+    QObject::connect(array, &QComboBox::currentTextChanged, this,
+      [this, row](const QString& text)
+      {
+        this->Fields[row] = text;
+        this->emitChanges();
+        this->showFunction();
+      });
+
+    const double range[2] = { this->Ranges.value(2 * row).toDouble(),
+      this->Ranges.value(2 * row + 1).toDouble() };
+    for (const int column : { FROM, TO })
+    {
+      QLineEdit* edit = newLimitEdit(
+        range[0] == range[1] ? QString() : QString::number(range[column - FROM], 'g', 12));
+      this->setCell(row, column, edit, column == FROM ? "From" : "To");
+      QObject::connect(
+        edit, &QLineEdit::editingFinished, this, [this, row]() { this->rangeEdited(row); });
+    }
+
+    auto* color = new pqColorChooserButton(nullptr);
+    color->setShowAlphaChannel(false);
+    color->setToolTip(tr("The field's colour, for Color By Field"));
+    color->setChosenColor(this->Colors.size() >= 3 * (row + 1)
+        ? QColor::fromRgbF(this->Colors[3 * row].toDouble(), this->Colors[3 * row + 1].toDouble(),
+            this->Colors[3 * row + 2].toDouble())
+        : colorOf(row));
+    this->setCell(row, COLOR, color, "Color");
+    QObject::connect(color, &pqColorChooserButton::chosenColorChanged, this,
+      [this, row](const QColor& picked)
+      {
+        this->completeLists();
+        this->Colors[3 * row] = picked.redF();
+        this->Colors[3 * row + 1] = picked.greenF();
+        this->Colors[3 * row + 2] = picked.blueF();
+        this->emitChanges();
+      });
+  }
+  this->Table->setFixedHeight(this->Table->horizontalHeader()->sizeHint().height() +
+    qBound(fewest, this->rows(), most) * this->Table->verticalHeader()->defaultSectionSize() +
+    2 * this->Table->frameWidth());
+  this->Table->selectRow(std::min(chosen, this->rows() - 1));
+  this->showFunction();
 }
 
 //------------------------------------------------------------------------------
@@ -278,8 +367,10 @@ void pqFieldsWidget::rangeEdited(int row)
     return;
   }
   this->completeLists();
-  const QString from = this->cell<QLineEdit>(row, FROM)->text();
-  const QString to = this->cell<QLineEdit>(row, TO)->text();
+  const auto textOf = [this, row](int column)
+  { return qobject_cast<QLineEdit*>(this->Table->cellWidget(row, column))->text(); };
+  const QString from = textOf(FROM);
+  const QString to = textOf(TO);
   // Waits until both limits are given.
   const bool given = !from.isEmpty() && !to.isEmpty();
   const double range[2] = { given ? from.toDouble() : 0, given ? to.toDouble() : 0 };
@@ -293,47 +384,10 @@ void pqFieldsWidget::rangeEdited(int row)
 }
 
 //------------------------------------------------------------------------------
-void pqFieldsWidget::showRow(int row)
+void pqFieldsWidget::showFunction()
 {
-  this->cell<pqArrayComboBox>(row, ARRAY)->setArray(this->Fields[row].toString());
-
-  const double range[2] = { this->Ranges.value(2 * row).toDouble(),
-    this->Ranges.value(2 * row + 1).toDouble() };
-  auto* from = this->cell<QLineEdit>(row, FROM);
-  auto* to = this->cell<QLineEdit>(row, TO);
-  const auto show = [](QLineEdit* edit, double value)
-  {
-    if (edit->text().isEmpty() || edit->text().toDouble() != value)
-    {
-      edit->setText(QString::number(value, 'g', 12));
-      edit->setCursorPosition(0);
-    }
-  };
-  if (range[0] != range[1])
-  {
-    show(from, range[0]);
-    show(to, range[1]);
-  }
-  else if (!from->text().isEmpty() && !to->text().isEmpty())
-  {
-    from->clear();
-    to->clear();
-  }
-
-  const bool given = this->Colors.size() >= 3 * (row + 1);
-  auto* color = this->cell<pqColorChooserButton>(row, COLOR);
-  const QSignalBlocker blocker(color);
-  color->setChosenColor(given
-      ? QColor::fromRgbF(this->Colors[3 * row].toDouble(), this->Colors[3 * row + 1].toDouble(),
-          this->Colors[3 * row + 2].toDouble())
-      : colorOf(row));
-}
-
-//------------------------------------------------------------------------------
-void pqFieldsWidget::rowSelected(int row)
-{
-  vtkSMProxy* function =
-    row >= 0 && row < this->RowFunctions.size() ? this->RowFunctions[row].Get() : nullptr;
+  const int row = this->rows() > 0 ? this->Table->currentRow() : -1;
+  vtkSMProxy* function = this->Functions.at(row);
   if (function != this->Shown)
   {
     this->Shown = function;
@@ -350,9 +404,6 @@ void pqFieldsWidget::rowSelected(int row)
       : tr("Contribution of the refractivity over %1, from the low to the high end of its range:")
           .arg(this->Fields.value(row).toString()));
 }
-
-//------------------------------------------------------------------------------
-void pqFieldsWidget::modelChanged() { this->rowSelected(this->currentRow()); }
 
 //------------------------------------------------------------------------------
 void pqFieldsWidget::pointsMoved()
@@ -375,64 +426,25 @@ void pqFieldsWidget::pointsMoved()
 }
 
 //------------------------------------------------------------------------------
-pqFieldsWidget::Functions pqFieldsWidget::usedFunctions() const
-{
-  Functions used;
-  for (unsigned int i = 0; i < this->FunctionsProperty->GetNumberOfProxies(); ++i)
-  {
-    used.append(this->FunctionsProperty->GetProxy(i));
-  }
-  return used;
-}
-
-//------------------------------------------------------------------------------
 void pqFieldsWidget::readFunctions()
 {
-  this->RowFunctions = this->usedFunctions();
-  this->refresh();
-}
-
-//------------------------------------------------------------------------------
-void pqFieldsWidget::unregisterUnused(Functions candidates)
-{
-  const Functions used = this->usedFunctions();
-  for (const vtkSmartPointer<vtkSMProxy>& function : qAsConst(candidates))
-  {
-    // Keeps functions that copied properties share with another filter.
-    if (used.contains(function) || function->GetNumberOfConsumers() > 0)
-    {
-      continue;
-    }
-    this->Created.removeAll(function);
-    vtkSMSessionProxyManager* manager = function->GetSessionProxyManager();
-    const char* registered = manager->GetProxyName(group, function);
-    const std::string name = registered ? registered : "";
-    if (name.rfind(prefix, 0) == 0) // only our own
-    {
-      manager->UnRegisterProxy(group, name.c_str(), function);
-    }
-  }
+  this->Functions.read();
+  this->showRows();
 }
 
 //------------------------------------------------------------------------------
 void pqFieldsWidget::apply()
 {
-  const Functions before = this->usedFunctions();
-  if (this->RowFunctions != before)
-  {
-    const Functions now = this->RowFunctions; // a copy, because setting it reads them back
-    std::vector<vtkSMProxy*> proxies(now.begin(), now.end());
-    this->FunctionsProperty->SetProxies(static_cast<unsigned int>(proxies.size()), proxies.data());
-  }
-  this->pqRowsWidget::apply();
+  this->Functions.write();
+  this->pqPropertyWidget::apply();
   this->proxy()->UpdateVTKObjects();
-  this->unregisterUnused(this->Created + before);
+  this->Functions.dropUnused();
 }
 
 //------------------------------------------------------------------------------
 void pqFieldsWidget::reset()
 {
-  this->pqRowsWidget::reset();
+  this->pqPropertyWidget::reset();
   this->readFunctions();
-  this->unregisterUnused(this->Created);
+  this->Functions.dropUnused();
 }

@@ -2,28 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pqRowsWidget.h"
+#include "FieldFunctions.h"
+#include "pqPropertyWidget.h"
 
 #include "vtkNew.h"
-#include "vtkSmartPointer.h"
 
-#include <QVector>
+#include <QVariant>
 
 class pqTransferFunctionWidget;
 class QLabel;
+class QTableWidget;
 class vtkEventQtSlotConnect;
-class vtkPiecewiseFunction;
 class vtkSMPropertyGroup;
-class vtkSMProxyProperty;
 
 /// Edits the fields of transfer functions, one in a row: the array, its range (empty: that of the
 /// data) and, for filters with FieldColors, its colour; below the table, with the index model
 /// Transfer Functions, ParaView's editor shows the function of the selected row. The properties are
-/// Fields, FieldRanges, FieldColors and TransferFunctions. The functions are ParaView's opacity
-/// functions "SchlierenField1", ..., which state files and scripts can restore. Moving a point
-/// changes the function at once and the image with Apply. Shown for the index model Transfer
-/// Functions and for ColorByField.
-class pqFieldsWidget : public pqRowsWidget
+/// Fields, FieldRanges, FieldColors and TransferFunctions. Moving a point changes the function at
+/// once and the image with Apply. Shown for the index model Transfer Functions and for ColorByField.
+class pqFieldsWidget : public pqPropertyWidget
 {
   Q_OBJECT
   Q_PROPERTY(QList<QVariant> fields READ fields WRITE setFields NOTIFY fieldsChanged)
@@ -51,34 +48,30 @@ Q_SIGNALS:
   void colorsChanged();
 
 protected:
-  void emitChanges() override;
-  int rows() const override { return this->Fields.size(); }
-  void makeRow(int row) override;
-  void showRow(int row) override;
-  void appendToLists() override;
-  void removeFromLists(int row) override;
-  void rowSelected(int row) override;
+  /// Selects the row of a cell that gets the focus.
+  bool eventFilter(QObject* cell, QEvent* event) override;
 
 private Q_SLOTS:
   void readFunctions();
-  void modelChanged();
+  void showFunction();
   void pointsMoved();
 
 private:
-  using Functions = QVector<vtkSmartPointer<vtkSMProxy>>;
-
+  int rows() const { return this->Fields.size(); }
+  void setList(QVariantList& list, const QVariantList& values);
   void completeLists();
+  void emitChanges();
+  void showRows();
+  void addRow();
+  void removeRow();
+  void setCell(int row, int column, QWidget* widget, const QString& name);
   void rangeEdited(int row);
-  Functions usedFunctions() const;
-  void unregisterUnused(Functions candidates); // a copy, which the function removes from Created
 
   QVariantList Fields, Ranges, Colors;
-  Functions RowFunctions;      // null: not needed yet
-  Functions Created;           // by this widget; some may be unused
-  vtkSMProxy* Shown = nullptr; // the one of RowFunctions in the editor
-  bool HasColors;
+  vtkSMProxy* Shown = nullptr; // the one of Functions in the editor
+  QTableWidget* Table;
   QLabel* Title;
   pqTransferFunctionWidget* Editor;
-  vtkSmartPointer<vtkSMProxyProperty> FunctionsProperty;
+  FieldFunctions Functions;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

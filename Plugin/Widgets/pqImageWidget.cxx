@@ -359,14 +359,12 @@ void pqImageWidget::paintOnImage(bool on)
     this->Painter->stop();
     return;
   }
-  const auto valueOf = [this](const char* name)
-  { return vtkSMPropertyHelper(this->proxy(), name).GetAsInt(); };
-  if (valueOf("Cutoff") != vtkSchlierenFilter::COLOR_FILTER ||
-    valueOf("PathModel") == vtkSchlierenFilter::DIFFERENCE || !this->Painter->start())
+  if (vtkSMPropertyHelper(this->proxy(), "Cutoff").GetAsInt() != vtkSchlierenFilter::COLOR_FILTER ||
+    !this->Painter->start())
   {
     this->OnImage->setChecked(false);
     this->Note->setText(tr("No view shows an image made with the colour filter. Press Apply, and "
-                           "show it in a render view; not as the difference of two paths."));
+                           "show it in a render view."));
   }
 }
 

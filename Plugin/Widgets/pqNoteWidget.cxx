@@ -3,8 +3,8 @@
 #include "pqNoteWidget.h"
 
 #include "pqApplicationCore.h"
-#include "pqImageRefiner.h"
 #include "pqPipelineSource.h"
+#include "pqRepresentationRefiner.h"
 #include "pqServerManagerModel.h"
 
 #include "vtkCommand.h"
@@ -31,18 +31,18 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
   box->setContentsMargins(0, 0, 0, 0);
   box->addWidget(this->Label);
   this->Connection->Connect(smProperty, vtkCommand::ModifiedEvent, this, SLOT(showText()));
-  this->Source =
+  auto* source =
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(smProxy);
-  if (this->Source)
+  if (source)
   {
     // Updates after the filter, unlike ParaView, which updates before, with the output's extent.
-    QObject::connect(this->Source.data(),
-      QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), this,
+    QObject::connect(source, QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), this,
       &pqNoteWidget::refresh);
   }
   else // a filter inside of a representation
   {
-    QObject::connect(pqImageRefiner::instance(), &pqImageRefiner::imageChanged, this,
+    QObject::connect(pqRepresentationRefiner::instance(), &pqRepresentationRefiner::imageChanged,
+      this,
       [this](vtkSMProxy* changed)
       {
         if (changed == this->proxy())
@@ -74,12 +74,6 @@ void pqNoteWidget::refresh() { this->proxy()->UpdatePropertyInformation(this->pr
 //------------------------------------------------------------------------------
 void pqNoteWidget::showText()
 {
-  // Skips updates that the filter does not signal to the window, because more follow, and each new
-  // text makes the panel arrange its rows.
-  if (this->Source && this->Source->signalsBlocked())
-  {
-    return;
-  }
   const QString text = QString::fromUtf8(vtkSMPropertyHelper(this->property(), true).GetAsString());
   this->Label->setText(text.isEmpty() ? tr("known after Apply") : text);
 }

@@ -6,10 +6,7 @@
 
 #include "vtkNew.h"
 
-#include <QPointer>
-
 class QLabel;
-class pqPipelineSource;
 class vtkEventQtSlotConnect;
 
 /// Shows a filter's text property, to read and copy: ParaView would show a line edit.
@@ -30,6 +27,5 @@ private Q_SLOTS:
 
 private:
   QLabel* Label;
-  QPointer<pqPipelineSource> Source; // the filter
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -8,16 +8,12 @@
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
 #include "pqRenderView.h"
-#include "pqRepresentationRefiner.h"
 #include "pqServerManagerModel.h"
 
 #include "vtkPVRenderView.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewLayoutProxy.h"
-
-#include <QSet>
-#include <QWidget>
 
 #include <algorithm>
 #include <cstring>
@@ -26,32 +22,6 @@ namespace
 {
 
 pqServerManagerModel* model() { return pqApplicationCore::instance()->getServerManagerModel(); }
-
-/// Adds the views of a source and of all that is made from it.
-void addViews(
-  pqPipelineSource* source, QSet<pqPipelineSource*>& seen, QList<QPointer<pqView>>& views)
-{
-  if (seen.contains(source))
-  {
-    return;
-  }
-  seen.insert(source);
-  for (pqOutputPort* port : source->getOutputPorts())
-  {
-    for (pqDataRepresentation* representation : port->getRepresentations(nullptr))
-    {
-      pqView* view = representation->isVisible() ? representation->getView() : nullptr;
-      if (view && view->widget() && view->widget()->isVisible() && !views.contains(view))
-      {
-        views << view;
-      }
-    }
-  }
-  for (pqPipelineSource* consumer : source->getAllConsumers())
-  {
-    addViews(consumer, seen, views);
-  }
-}
 
 } // namespace
 
@@ -82,6 +52,35 @@ pqPipelineSource* imagesInViews::filterOf(pqPipelineSource* source)
 }
 
 //------------------------------------------------------------------------------
+vtkSMProxy* imagesInViews::benchOf(pqRepresentation* representation)
+{
+  vtkSMProperty* bench = representation->getProxy()->GetProperty("SchlierenBench");
+  return bench ? vtkSMPropertyHelper(bench).GetAsProxy() : nullptr;
+}
+
+//------------------------------------------------------------------------------
+bool imagesInViews::isDrawn(pqRepresentation* representation)
+{
+  return representation->isVisible() && benchOf(representation) &&
+    std::strcmp(vtkSMPropertyHelper(representation->getProxy(), "Representation").GetAsString(),
+      "Schlieren") == 0;
+}
+
+//------------------------------------------------------------------------------
+QList<vtkSMProxy*> imagesInViews::benchesIn(pqView* view)
+{
+  QList<vtkSMProxy*> benches;
+  for (pqRepresentation* representation : view->getRepresentations())
+  {
+    if (isDrawn(representation))
+    {
+      benches << benchOf(representation);
+    }
+  }
+  return benches;
+}
+
+//------------------------------------------------------------------------------
 pqRenderView* imagesInViews::scene(pqOutputPort* flow)
 {
   QList<pqRenderView*> views = model()->findItems<pqRenderView*>(flow->getServer());
@@ -94,8 +93,7 @@ pqRenderView* imagesInViews::scene(pqOutputPort* flow)
     [flow](pqRenderView* view)
     {
       pqDataRepresentation* shown = flow->getRepresentation(view);
-      return pqRepresentationRefiner::benchesIn(view).empty() ||
-        (shown && pqRepresentationRefiner::isSchlieren(shown));
+      return benchesIn(view).empty() || (shown && isDrawn(shown));
     });
   vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
   const auto isMeant = [active, layout](pqRenderView* view)
@@ -105,25 +103,6 @@ pqRenderView* imagesInViews::scene(pqOutputPort* flow)
   };
   const auto found = std::find_if(views.begin(), views.end(), isMeant);
   return found == views.end() ? nullptr : *found;
-}
-
-//------------------------------------------------------------------------------
-QList<pqPipelineSource*> imagesInViews::filters()
-{
-  QList<pqPipelineSource*> sources = model()->findItems<pqPipelineSource*>();
-  sources.erase(std::remove_if(sources.begin(), sources.end(),
-                  [](pqPipelineSource* source) { return !isSchlieren(source); }),
-    sources.end());
-  return sources;
-}
-
-//------------------------------------------------------------------------------
-QList<QPointer<pqView>> imagesInViews::showing(pqPipelineSource* filter)
-{
-  QSet<pqPipelineSource*> seen;
-  QList<QPointer<pqView>> views;
-  addViews(filter, seen, views);
-  return views;
 }
 
 //------------------------------------------------------------------------------

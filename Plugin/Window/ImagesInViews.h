@@ -3,14 +3,15 @@
 #pragma once
 
 #include <QList>
-#include <QPointer>
 
 class pqOutputPort;
 class pqPipelineSource;
 class pqRenderView;
+class pqRepresentation;
 class pqView;
+class vtkSMProxy;
 
-/// Finds the views that show images of filters.
+/// Finds images of filters, and flows that are drawn as Schlieren, in views.
 namespace imagesInViews
 {
 
@@ -23,11 +24,14 @@ pqPipelineSource* filterOf(pqPipelineSource* source);
 /// layout, and rather one that draws no other flow as Schlieren. Null if all show images of filters.
 pqRenderView* scene(pqOutputPort* flow);
 
-/// Lists the filters that make images, of all servers.
-QList<pqPipelineSource*> filters();
+/// Returns the proxy of the filter inside of a representation; null if it has none.
+vtkSMProxy* benchOf(pqRepresentation* representation);
 
-/// Lists the visible views of a filter's outputs and of what is made from them.
-QList<QPointer<pqView>> showing(pqPipelineSource* filter);
+/// Returns whether a representation is visible and draws its data as Schlieren.
+bool isDrawn(pqRepresentation* representation);
+
+/// Lists the filters inside of the representations that a view draws as Schlieren.
+QList<vtkSMProxy*> benchesIn(pqView* view);
 
 /// Lists the filters whose images are visible in a view.
 QList<pqPipelineSource*> imagesIn(pqView* view);

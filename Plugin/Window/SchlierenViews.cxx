@@ -9,8 +9,6 @@
 #include "PluginFile.h"
 #include "UndoStep.h"
 #include "VolumeDisplay.h"
-#include "pqImageRefiner.h"
-#include "pqRepresentationRefiner.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
@@ -24,6 +22,7 @@
 #include "pqUndoStack.h"
 #include "vtkNew.h"
 #include "vtkPVRenderView.h"
+#include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
@@ -108,7 +107,7 @@ vtkSMProxy* benchOf(vtkSMProxy* representation)
 vtkSMProxy* drawnAsSchlieren(pqOutputPort* flow, pqView* view)
 {
   pqDataRepresentation* shown = view ? flow->getRepresentation(view) : nullptr;
-  return shown && pqRepresentationRefiner::isSchlieren(shown) ? shown->getProxy() : nullptr;
+  return shown && imagesInViews::isDrawn(shown) ? shown->getProxy() : nullptr;
 }
 
 /// Renders a view once, with complete images.
@@ -163,11 +162,9 @@ public:
           2, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::INTERFEROGRAM); });
         break;
       case Arrangement::Comparison:
-        this->addViews({ "Straight Rays", "Refracted Rays", "Difference" });
+        this->addViews({ "Straight Rays", "Refracted Rays" });
         this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::STRAIGHT); });
         this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::REFRACTED); });
-        this->addImage(
-          2, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::DIFFERENCE); });
         break;
     }
     this->useCameraOfScene();
@@ -193,21 +190,30 @@ public:
     return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
 
-  /// Shows the image of a filter in a view of its own, which it fills.
+  /// Shows the image of a filter in a view of its own, which it fills: that in which ParaView has
+  /// shown it, where nothing else is visible, or a new one.
   void show(pqPipelineSource* filter)
   {
-    this->findScene();
-    this->addViews({ "Image of " + filter->getSMName() });
-    pqRenderView* view = this->Views[0];
+    pqRenderView* view = this->viewWith(filter);
+    if (!view || view->getNumberOfVisibleDataRepresentations() > 1)
+    {
+      if (view)
+      {
+        this->Controller->Hide(filter->getSourceProxy(), 0, view->getViewProxy());
+      }
+      this->findScene();
+      this->addViews({ "Image of " + filter->getSMName() });
+      view = this->Views[0];
+    }
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
       flatten(window);
     }
-    const pqImageRefiner::ShortUpdates shortly;
     vtkSMProxy* representation = this->Controller->Show(filter->getSourceProxy(), 0, window);
     if (representation)
     {
+      vtkSMPVRepresentationProxy::SetScalarBarVisibility(representation, window, false);
       // Avoids the outline that ParaView shows without data.
       vtkSMPropertyHelper type(representation, "Representation");
       if (std::strcmp(type.GetAsString(), "Outline") == 0)
@@ -244,6 +250,19 @@ public:
   }
 
 private:
+  /// Returns the render view in which the image of a filter is visible; null if there is none.
+  static pqRenderView* viewWith(pqPipelineSource* filter)
+  {
+    for (pqDataRepresentation* shown : filter->getRepresentations(0, nullptr))
+    {
+      if (auto* view = qobject_cast<pqRenderView*>(shown->isVisible() ? shown->getView() : nullptr))
+      {
+        return view;
+      }
+    }
+    return nullptr;
+  }
+
   /// Finds the 3-D view, or makes one that shows the flow.
   void findScene()
   {
@@ -285,7 +304,11 @@ private:
     const int left =
       isCrowded ? layout->SplitVertical(0, 0.5) : layout->SplitHorizontal(scene, 0.5);
     std::vector<int> cells = { left + 1 };
-    if (isCrowded) // the first one as wide as the tab
+    if (isCrowded && names.size() == 2)
+    {
+      cells = { left, left + 1 };
+    }
+    else if (isCrowded) // the first one as wide as the tab
     {
       const int below = layout->SplitHorizontal(left + 1, 0.5);
       cells = { left, below, below + 1 };
@@ -293,8 +316,11 @@ private:
     else if (names.size() > 1)
     {
       const int right = layout->SplitVertical(left + 1, 0.5);
-      const int underScene = layout->SplitVertical(left, 0.5) + 1;
-      cells = { right, underScene, right + 1 };
+      cells = { right, right + 1 };
+      if (names.size() > 2)
+      {
+        cells.insert(cells.begin() + 1, layout->SplitVertical(left, 0.5) + 1); // below the scene
+      }
     }
     // Activates the 3-D view, because ParaView's toolbar shows the axes of the first active view,
     // which traces would not survive while that is made.

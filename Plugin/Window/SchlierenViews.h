@@ -18,7 +18,7 @@ enum class Arrangement
 {
   OneImage,
   ThreeImages, ///< knife edge, shadowgraph and interferogram
-  Comparison   ///< straight and refracted rays, and their difference, at one k
+  Comparison   ///< straight and refracted rays at one k
 };
 
 /// An empty cell of a layout; none: beside the 3-D view.

@@ -4,27 +4,23 @@
 
 #include "ImageDisplay.h"
 #include "ImagesInViews.h"
+#include "SchlierenViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqDataRepresentation.h"
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
-#include "pqRenderView.h"
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
-#include "vtkPVXMLElement.h"
-#include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
-#include "vtkSMProxyLocator.h"
 #include "vtkSMTrace.h"
 
 #include <QVariant>
 
-#include <cstring>
-#include <sstream>
+#include <utility>
 
 namespace
 {
@@ -44,8 +40,6 @@ pqImageDisplayKeeper::pqImageDisplayKeeper(QObject* parentObject)
   {
     this->watch(source);
   }
-  QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::stateLoaded, this,
-    &pqImageDisplayKeeper::onStateLoaded);
 }
 
 //------------------------------------------------------------------------------
@@ -59,6 +53,17 @@ void pqImageDisplayKeeper::watch(pqPipelineSource* source)
     source->setProperty(lastWhite, ImageDisplay::white(source->getProxy()));
     this->Events->Connect(
       source->getProxy(), vtkCommand::UpdateEvent, this, SLOT(onFilterChanged(vtkObject*)));
+    QObject::connect(source, &pqPipelineSource::modifiedStateChanged, this,
+      [source, state = source->modifiedState()]() mutable
+      {
+        const pqProxy::ModifiedState before = std::exchange(state, source->modifiedState());
+        pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
+        if (before == pqProxy::UNINITIALIZED && state == pqProxy::UNMODIFIED &&
+          !(stack && (stack->getInUndo() || stack->getInRedo())))
+        {
+          SchlierenViews::show(source); // where ParaView has shown it
+        }
+      });
   }
 }
 
@@ -81,37 +86,6 @@ void pqImageDisplayKeeper::onFilterChanged(vtkObject* filter)
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
       ImageDisplay::apply(representation, proxy);
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqImageDisplayKeeper::onStateLoaded(vtkPVXMLElement* root, vtkSMProxyLocator* locator)
-{
-  vtkPVXMLElement* nested = root->FindNestedElementByName("ServerManagerState");
-  vtkPVXMLElement* state = nested ? nested : root;
-  auto* model = pqApplicationCore::instance()->getServerManagerModel();
-  for (unsigned int i = 0; i < state->GetNumberOfNestedElements(); ++i)
-  {
-    vtkPVXMLElement* element = state->GetNestedElement(i);
-    vtkTypeUInt32 id = 0;
-    std::istringstream(element->GetAttributeOrDefault("id", "0")) >> id;
-    const bool isView = std::strcmp(element->GetAttributeOrDefault("group", ""), "views") == 0;
-    auto* view = model->findItem<pqRenderView*>(isView ? locator->LocateProxy(id) : nullptr);
-    for (unsigned int j = 0; view && j < element->GetNumberOfNestedElements(); ++j)
-    {
-      vtkPVXMLElement* property = element->GetNestedElement(j);
-      vtkPVXMLElement* value = property->FindNestedElementByName("Element");
-      int isOn = 0;
-      if (value && value->GetScalarAttribute("value", &isOn) &&
-        std::strcmp(property->GetAttributeOrDefault("name", ""), "UseFXAA") == 0 &&
-        !imagesInViews::imagesIn(view).isEmpty())
-      {
-        SCOPED_UNDO_EXCLUDE();
-        vtkSMPropertyHelper(view->getProxy(), "UseFXAA").Set(isOn);
-        view->getProxy()->UpdateVTKObjects();
-        view->render();
-      }
     }
   }
 }

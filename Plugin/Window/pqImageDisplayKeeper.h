@@ -9,12 +9,10 @@
 class pqPipelineSource;
 class vtkEventQtSlotConnect;
 class vtkObject;
-class vtkPVXMLElement;
-class vtkSMProxyLocator;
 
-/// Adapts the display of images to changes of their filters' cutoffs: grey, with twice the range
-/// for a shadowgraph, or colour, unless the user has coloured them. Restores FXAA of such views
-/// from state files, where ParaView uses its settings.
+/// Gives the image of a filter a view of its own when it is applied for the first time, and adapts
+/// its display to changes of the cutoff: grey, with twice the range for a shadowgraph, or colour,
+/// unless the user has coloured it.
 class pqImageDisplayKeeper : public QObject
 {
   Q_OBJECT
@@ -26,7 +24,6 @@ public:
 private Q_SLOTS:
   void watch(pqPipelineSource* source);
   void onFilterChanged(vtkObject* filter);
-  void onStateLoaded(vtkPVXMLElement* root, vtkSMProxyLocator* locator);
 
 private:
   vtkNew<vtkEventQtSlotConnect> Events;

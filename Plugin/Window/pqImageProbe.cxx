@@ -3,7 +3,6 @@
 #include "pqImageProbe.h"
 
 #include "ImagesInViews.h"
-#include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -46,7 +45,7 @@ QString placeInWords(vtkSMProxy* filter, double right, double up)
 /// Returns what the image that a view draws has at a place, from 0 to 1 to the right and up.
 QString drawnInWords(pqRenderView* view, double right, double up)
 {
-  const QList<vtkSMProxy*> benches = pqRepresentationRefiner::benchesIn(view);
+  const QList<vtkSMProxy*> benches = imagesInViews::benchesIn(view);
   return benches.isEmpty() ? QString() : placeInWords(benches.front(), right, up);
 }
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqImageProgress.h"
 
-#include "pqImageRefiner.h"
+#include "ImagesInViews.h"
+#include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
-#include "pqPipelineSource.h"
 #include "pqProgressManager.h"
 #include "pqProgressWidget.h"
 #include "pqRepresentation.h"
@@ -14,8 +14,8 @@
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
-#include "vtkSMPropertyHelper.h"
-#include "vtkSMSourceProxy.h"
+#include "vtkSMProxy.h"
+#include "vtkSchlierenFilter.h"
 
 #include <QCoreApplication>
 #include <QEvent>
@@ -24,8 +24,6 @@
 #include <QStatusBar>
 #include <QToolButton>
 #include <QWidget>
-
-#include <cstring>
 
 namespace
 {
@@ -74,8 +72,8 @@ bool isForLater(QObject* receiver, QEvent* event)
 pqImageProgress::pqImageProgress(QObject* parentObject)
   : QObject(parentObject)
 {
-  QObject::connect(
-    pqImageRefiner::instance(), &pqImageRefiner::progressed, this, &pqImageProgress::show);
+  QObject::connect(pqRepresentationRefiner::instance(), &pqRepresentationRefiner::progressed, this,
+    &pqImageProgress::show);
   QObject::connect(manager(), &pqProgressManager::progressEndEvent, this,
     [this]()
     {
@@ -87,16 +85,10 @@ pqImageProgress::pqImageProgress(QObject* parentObject)
       }
     });
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  QObject::connect(model, &pqServerManagerModel::sourceAdded, this, &pqImageProgress::watch);
-  for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
+  QObject::connect(model, &pqServerManagerModel::proxyAdded, this, &pqImageProgress::watch);
+  for (pqProxy* item : model->findItems<pqProxy*>())
   {
-    this->watch(source);
-  }
-  QObject::connect(
-    model, &pqServerManagerModel::representationAdded, this, &pqImageProgress::watchBenchOf);
-  for (pqRepresentation* representation : model->findItems<pqRepresentation*>())
-  {
-    this->watchBenchOf(representation);
+    this->watch(item);
   }
 }
 
@@ -104,37 +96,15 @@ pqImageProgress::pqImageProgress(QObject* parentObject)
 pqImageProgress::~pqImageProgress() = default;
 
 //------------------------------------------------------------------------------
-void pqImageProgress::watch(pqPipelineSource* source)
+void pqImageProgress::watch(pqProxy* item)
 {
-  const char* name = source->getProxy()->GetXMLName();
-  auto* filter = vtkAlgorithm::SafeDownCast(source->getProxy()->GetClientSideObject());
-  if (filter && name &&
-    (std::strcmp(name, "Schlieren") == 0 || std::strcmp(name, "RefractiveIndex") == 0))
+  auto* representation = qobject_cast<pqRepresentation*>(item);
+  vtkSMProxy* proxy = representation ? imagesInViews::benchOf(representation) : item->getProxy();
+  vtkObjectBase* filter = proxy ? proxy->GetClientSideObject() : nullptr;
+  if (filter && (filter->IsA("vtkSchlierenFilter") || filter->IsA("vtkRefractiveIndex")))
   {
-    this->Connection->Connect(
-      filter, vtkCommand::ProgressEvent, this, SLOT(onProgress(vtkObject*)));
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqImageProgress::watchBenchOf(pqRepresentation* representation)
-{
-  vtkSMProperty* property = representation->getProxy()->GetProperty("SchlierenBench");
-  vtkSMProxy* bench = property ? vtkSMPropertyHelper(property).GetAsProxy() : nullptr;
-  auto* filter = bench ? vtkAlgorithm::SafeDownCast(bench->GetClientSideObject()) : nullptr;
-  if (filter)
-  {
-    this->Connection->Connect(
-      filter, vtkCommand::ProgressEvent, this, SLOT(onProgressOfView(vtkObject*)));
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqImageProgress::onProgressOfView(vtkObject* bench)
-{
-  if (!pqImageRefiner::instance()->isPlaying())
-  {
-    this->letAbort(bench);
+    this->Connection->Connect(vtkAlgorithm::SafeDownCast(filter), vtkCommand::ProgressEvent, this,
+      SLOT(letAbort(vtkObject*)));
   }
 }
 
@@ -164,6 +134,10 @@ void pqImageProgress::abort()
 {
   if (this->Executing)
   {
+    if (auto* filter = vtkSchlierenFilter::SafeDownCast(this->Executing))
+    {
+      filter->Stop(); // ParaView updates it again
+    }
     this->Executing->SetAbortExecute(1);
     if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
     {
@@ -172,16 +146,7 @@ void pqImageProgress::abort()
   }
   else
   {
-    pqImageRefiner::instance()->stop();
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqImageProgress::onProgress(vtkObject* filter)
-{
-  if (pqImageRefiner::instance()->isShort())
-  {
-    this->letAbort(filter);
+    pqRepresentationRefiner::instance()->stop();
   }
 }
 

@@ -7,15 +7,14 @@
 #include <QElapsedTimer>
 #include <QObject>
 
-class pqPipelineSource;
 class pqProgressWidget;
-class pqRepresentation;
+class pqProxy;
 class vtkAlgorithm;
 class vtkEventQtSlotConnect;
 class vtkObject;
 
-/// Shows ParaView's progress bar and abort button while images are refined and, with the builtin
-/// server, while Apply computes a refractive index.
+/// Shows ParaView's progress bar and abort button while images are refined, and with the builtin
+/// server lets that button abort an update.
 class pqImageProgress : public QObject
 {
   Q_OBJECT
@@ -29,13 +28,10 @@ protected:
   bool eventFilter(QObject* receiver, QEvent* event) override;
 
 private Q_SLOTS:
-  void onProgress(vtkObject* filter);
-  void onProgressOfView(vtkObject* bench);
+  void letAbort(vtkObject* filter);
 
 private:
-  void letAbort(vtkObject* filter);
-  void watch(pqPipelineSource* source);
-  void watchBenchOf(pqRepresentation* representation);
+  void watch(pqProxy* item);
   void show(const QString& what, int percent);
   void abort();
   void enableAbort(pqProgressWidget* bar, bool isEnabled);

@@ -3,7 +3,6 @@
 #include "pqImageStatus.h"
 
 #include "ImagesInViews.h"
-#include "pqRepresentationRefiner.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -12,6 +11,7 @@
 #include "pqServerManagerModel.h"
 #include "pqSettings.h"
 
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 
@@ -57,11 +57,15 @@ QString statusOf(vtkSMProxy* filter)
 
   for (const char* name : { "Status", "Stopped" })
   {
-    filter->UpdatePropertyInformation(filter->GetProperty(name));
+    if (vtkSMProperty* property = filter->GetProperty(name))
+    {
+      filter->UpdatePropertyInformation(property);
+    }
   }
   QString status = QString::fromUtf8(vtkSMPropertyHelper(filter, "Status").GetAsString());
   status.remove(speed);
-  return vtkSMPropertyHelper(filter, "Stopped").GetAsInt() != 0 ? "Stopped. " + status : status;
+  return vtkSMPropertyHelper(filter, "Stopped", true).GetAsInt() != 0 ? "Stopped. " + status
+                                                                      : status;
 }
 
 } // namespace
@@ -131,7 +135,7 @@ void pqImageStatus::show(pqRenderView* view)
       lines << statusOf(filter->getProxy());
     }
   }
-  for (vtkSMProxy* bench : pqRepresentationRefiner::benchesIn(view))
+  for (vtkSMProxy* bench : imagesInViews::benchesIn(view))
   {
     lines << statusOf(bench);
   }

@@ -2,28 +2,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqRepresentationRefiner.h"
 
+#include "ImagesInViews.h"
+
 #include "pqApplicationCore.h"
-#include "pqImageRefiner.h"
-#include "pqProgressManager.h"
 #include "pqRenderView.h"
 #include "pqRepresentation.h"
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
+#include "pqUndoStack.h"
 
 #include "vtkPVRenderView.h"
 #include "vtkRenderWindow.h"
 #include "vtkSMCameraLink.h"
-#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSmartPointer.h"
 
+#include <QPointer>
+#include <QRegularExpression>
 #include <QTimer>
 #include <QVariant>
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace
@@ -33,21 +36,11 @@ namespace
 constexpr double timeSlice = 0.03;
 constexpr int pauseMilliseconds = 1;
 
-constexpr auto isSchlieren = &pqRepresentationRefiner::isSchlieren;
+/// Milliseconds: shorter work is not reported.
+constexpr qint64 unreported = 500;
 
-vtkSMProxy* benchOf(pqRepresentation* representation)
+bool isUnfinished(vtkSMProxy* bench)
 {
-  vtkSMProperty* bench = representation->getProxy()->GetProperty("SchlierenBench");
-  return bench ? vtkSMPropertyHelper(bench).GetAsProxy() : nullptr;
-}
-
-bool isUnfinished(pqRepresentation* representation)
-{
-  vtkSMProxy* bench = isSchlieren(representation) ? benchOf(representation) : nullptr;
-  if (!bench)
-  {
-    return false;
-  }
   // Reads from the server, because the client's own representation knows nothing.
   for (const char* name : { "Finished", "Status", "Stopped" })
   {
@@ -58,7 +51,18 @@ bool isUnfinished(pqRepresentation* representation)
       vtkSMPropertyHelper(bench, "Stopped").GetAsInt() == 0);
 }
 
-/// Returns whether streaming updates refine images, in the process that draws; else renderings do.
+/// Returns a text such as "Refining: 3 of 64 samples, about 3 min".
+QString refinementInWords(vtkSMProxy* bench)
+{
+  static const QRegularExpression samples(
+    "^(\\d+ of \\d+ samples?) per pixel(?:(, about [^,]*) more)?");
+  const QRegularExpressionMatch found =
+    samples.match(QString::fromUtf8(vtkSMPropertyHelper(bench, "Status").GetAsString()));
+  return found.hasMatch() ? "Refining: " + found.captured(1) + found.captured(2)
+                          : QString("Refining");
+}
+
+/// Returns whether the process with the data draws the view, and traces its images.
 bool isTracedWhereDrawn(pqView* view)
 {
   auto* client = vtkPVRenderView::SafeDownCast(view->getProxy()->GetClientSideObject());
@@ -71,7 +75,8 @@ bool isBeingTurned(pqView* view)
   return proxy->GetRenderWindow()->GetDesiredUpdateRate() > 1;
 }
 
-/// Disables camera links during its lifetime: a link renders the other view, too, though a refined image is not turned.
+/// Disables camera links during its lifetime: a link renders the other view, too, though a refined
+/// image is not turned.
 class UnlinkedCameras
 {
 public:
@@ -110,6 +115,8 @@ pqRepresentationRefiner::pqRepresentationRefiner(QObject* parentObject)
 {
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::viewAdded, this, &pqRepresentationRefiner::watch);
+  QObject::connect(model, &pqServerManagerModel::preViewRemoved, this,
+    [this](pqView* view) { this->note(view, false); });
   QObject::connect(
     model, &pqServerManagerModel::representationAdded, this, &pqRepresentationRefiner::limit);
   for (pqView* view : model->findItems<pqView*>())
@@ -123,46 +130,14 @@ pqRepresentationRefiner::pqRepresentationRefiner(QObject* parentObject)
 }
 
 //------------------------------------------------------------------------------
-bool pqRepresentationRefiner::isSchlieren(pqRepresentation* representation)
+pqRepresentationRefiner* pqRepresentationRefiner::instance()
 {
-  vtkSMProxy* proxy = representation->getProxy();
-  return representation->isVisible() && proxy->GetProperty("SchlierenFinished") &&
-    std::strcmp(vtkSMPropertyHelper(proxy, "Representation").GetAsString(), "Schlieren") == 0;
-}
-
-//------------------------------------------------------------------------------
-QList<vtkSMProxy*> pqRepresentationRefiner::benchesIn(pqView* view)
-{
-  QList<vtkSMProxy*> benches;
-  for (pqRepresentation* representation : view->getRepresentations())
+  static QPointer<pqRepresentationRefiner> refiner;
+  if (!refiner)
   {
-    if (isSchlieren(representation))
-    {
-      benches << benchOf(representation);
-    }
+    refiner = new pqRepresentationRefiner(pqApplicationCore::instance());
   }
-  return benches;
-}
-
-//------------------------------------------------------------------------------
-bool pqRepresentationRefiner::isAnyBeingTurned()
-{
-  const QList<pqRenderView*> views =
-    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqRenderView*>();
-  return std::any_of(views.begin(), views.end(), isBeingTurned);
-}
-
-//------------------------------------------------------------------------------
-void pqRepresentationRefiner::renderViewsOf(vtkSMProxy* bench)
-{
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  for (pqRepresentation* representation : model->findItems<pqRepresentation*>())
-  {
-    if (isSchlieren(representation) && benchOf(representation) == bench)
-    {
-      representation->renderViewEventually();
-    }
-  }
+  return refiner;
 }
 
 //------------------------------------------------------------------------------
@@ -188,15 +163,14 @@ void pqRepresentationRefiner::watch(pqView* view)
 //------------------------------------------------------------------------------
 void pqRepresentationRefiner::refineLater(pqView* view)
 {
-  const QList<pqRepresentation*> shown = view->getRepresentations();
   if (isBeingTurned(view))
   {
-    pqImageRefiner::instance()->onRefinedInView(view, false); // each turn restarts the image
+    this->note(view, false); // each turn restarts the image
     return;
   }
   // Uses one timer for each view, because streaming updates render, too.
-  if (view->property("SchlierenIsRefined").toBool() ||
-    std::none_of(shown.begin(), shown.end(), isSchlieren))
+  if (view->property("SchlierenIsRefined").toBool() || !isTracedWhereDrawn(view) ||
+    imagesInViews::benchesIn(view).isEmpty())
   {
     return;
   }
@@ -207,36 +181,83 @@ void pqRepresentationRefiner::refineLater(pqView* view)
 //------------------------------------------------------------------------------
 void pqRepresentationRefiner::refine(pqView* view)
 {
-  const QList<pqRepresentation*> shown = view->getRepresentations();
-  pqProgressManager* progress = pqApplicationCore::instance()->getProgressManager();
-  progress->lockProgress(view); // else the bar would show the rendering
   if (!isBeingTurned(view) && !view->getServer()->isProcessingPending())
   {
     auto* proxy = vtkSMRenderViewProxy::SafeDownCast(view->getProxy());
     const UnlinkedCameras unlinked(proxy->GetSessionProxyManager());
-    if (isTracedWhereDrawn(view))
-    {
-      proxy->StreamingUpdate(true);
-    }
-    else if (std::any_of(shown.begin(), shown.end(), isUnfinished))
-    {
-      proxy->StillRender();
-    }
+    proxy->StreamingUpdate(true);
   }
-  progress->unlockProgress(view);
   view->setProperty("SchlierenIsRefined", false);
-  const bool isMore = std::any_of(shown.begin(), shown.end(), isUnfinished);
-  pqImageRefiner::instance()->onRefinedInView(view, isMore);
+  const QList<vtkSMProxy*> benches = imagesInViews::benchesIn(view);
+  const bool isMore = std::any_of(benches.begin(), benches.end(), isUnfinished);
+  this->note(view, isMore);
   if (isMore)
   {
     this->refineLater(view);
     return;
   }
-  for (pqRepresentation* representation : shown)
+  for (vtkSMProxy* bench : benches)
   {
-    if (isSchlieren(representation))
+    Q_EMIT this->imageChanged(bench);
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqRepresentationRefiner::note(pqView* view, bool isUnfinished)
+{
+  if (!isUnfinished)
+  {
+    this->Since.remove(view);
+  }
+  else if (!this->Since.contains(view))
+  {
+    this->Since[view].start();
+  }
+  this->report();
+}
+
+//------------------------------------------------------------------------------
+void pqRepresentationRefiner::report()
+{
+  QList<vtkSMProxy*> benches;
+  for (auto since = this->Since.begin(); since != this->Since.end(); ++since)
+  {
+    if (since->elapsed() >= unreported)
     {
-      Q_EMIT pqImageRefiner::instance()->imageChanged(benchOf(representation));
+      benches << imagesInViews::benchesIn(since.key());
     }
   }
+  if (benches.isEmpty())
+  {
+    if (std::exchange(this->IsReported, false))
+    {
+      Q_EMIT this->progressed(QString(), 0);
+    }
+    return;
+  }
+  this->IsReported = true;
+  int percent = 0;
+  for (vtkSMProxy* bench : benches)
+  {
+    bench->UpdatePropertyInformation(bench->GetProperty("PercentDone"));
+    percent += vtkSMPropertyHelper(bench, "PercentDone").GetAsInt();
+  }
+  Q_EMIT this->progressed(benches.size() == 1 ? refinementInWords(benches.front())
+                                              : QString("Refining %1 images").arg(benches.size()),
+    percent / static_cast<int>(benches.size()));
+}
+
+//------------------------------------------------------------------------------
+void pqRepresentationRefiner::stop()
+{
+  for (pqView* view : std::exchange(this->Since, {}).keys())
+  {
+    for (vtkSMProxy* bench : imagesInViews::benchesIn(view))
+    {
+      SCOPED_UNDO_EXCLUDE();
+      bench->InvokeCommand("Stop");
+    }
+    view->render(); // the line over the image says it
+  }
+  this->report();
 }

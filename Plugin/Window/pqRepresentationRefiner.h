@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <QList>
+#include <QElapsedTimer>
+#include <QHash>
 #include <QObject>
 
 class pqRepresentation;
@@ -17,25 +18,31 @@ class pqRepresentationRefiner : public QObject
   Q_OBJECT
 
 public:
-  explicit pqRepresentationRefiner(QObject* parent);
+  /// Returns the only instance; the first call makes it.
+  static pqRepresentationRefiner* instance();
 
-  /// Returns whether a representation is visible and draws its data as Schlieren.
-  static bool isSchlieren(pqRepresentation* representation);
+  /// Stops refining all images until something else changes them.
+  void stop();
 
-  /// Lists the proxies of the filters inside of the representations that a view draws as Schlieren.
-  static QList<vtkSMProxy*> benchesIn(pqView* view);
+Q_SIGNALS:
+  /// The image of a filter inside of a representation is complete.
+  void imageChanged(vtkSMProxy* bench);
 
-  /// Returns whether the user turns or moves a render view.
-  static bool isAnyBeingTurned();
-
-  /// Renders the views of a filter inside of a representation after changes; ignores others.
-  static void renderViewsOf(vtkSMProxy* bench);
+  /// Reports what is refined for some time, in words, and its completed fraction; empty: nothing is.
+  void progressed(const QString& what, int percent);
 
 private Q_SLOTS:
   void watch(pqView* view);
 
 private:
+  explicit pqRepresentationRefiner(QObject* parent);
   void limit(pqRepresentation* representation);
   void refineLater(pqView* view);
   void refine(pqView* view);
+  /// Notes whether a view has unfinished images.
+  void note(pqView* view, bool isUnfinished);
+  void report();
+
+  QHash<pqView*, QElapsedTimer> Since; // of views with unfinished images
+  bool IsReported = false;
 };

@@ -143,7 +143,7 @@ void arguments(benchmark::internal::Benchmark* b)
   constexpr int straight = static_cast<int>(PathModel::Straight);
   const int best = static_cast<int>(bestSimd());
   for (const int interpolation :
-    { 1, 0 }) // Linear, Quadratic: the rate and its ratio to one ray at a time
+    { 0, 1 }) // Quadratic, Cubic: the rate and its ratio to one ray at a time
   {
     for (const int simd : { 0, 1, 2, 3, 4 })
     {
@@ -156,19 +156,12 @@ void arguments(benchmark::internal::Benchmark* b)
     b->Args({ interpolation, 0, refracted, 0, best, 1, Oblique, 0 });
     b->Args({ interpolation, 0, straight, 0, best, 2, Oblique, 0 });
   }
-  for (const int interpolation : { 2, 3 }) // Central, Cubic
-  {
-    b->Args({ interpolation, 0, refracted, 0, best, 2, Oblique, 0 });
-  }
-  for (const int integrator : { 1, 2, 3 }) // Rk4, Adaptive, Euler
-  {
-    b->Args({ 0, integrator, refracted, 0, best, 2, Oblique, 0 });
-  }
-  for (const int interpolation : { 0, 1, 2, 3 })
+  b->Args({ 0, 1, refracted, 0, best, 2, Oblique, 0 }); // Adaptive
+  for (const int interpolation : { 0, 1 })
   {
     b->Args({ interpolation, 0, refracted, 1, best, 2, Oblique, 0 });
   }
-  b->Args({ 3, 2, refracted, 1, best, 2, Oblique, 0 }); // as the Reference preset
+  b->Args({ 1, 1, refracted, 1, best, 2, Oblique, 0 }); // as the Reference preset
   for (const int exponent : { 4, 3, 2 })                // homogeneity tolerances 1e-4 ... 1e-2
   {
     b->Args({ 0, 0, refracted, 0, best, 2, Oblique, exponent });

@@ -411,17 +411,14 @@ inline View raysAround(const Vector& point, int columns, int rows, double distan
 
 inline const char* name(Integrator integrator)
 {
-  const char* names[] = { "Leapfrog", "Rk4", "Adaptive", "Euler" };
-  return names[static_cast<int>(integrator)];
+  return integrator == Integrator::Leapfrog ? "Leapfrog" : "Adaptive";
 }
 inline const char* name(PathModel model)
 {
-  const char* names[] = { "Auto", "Straight", "Refracted" };
-  return names[static_cast<int>(model)];
+  return model == PathModel::Straight ? "Straight" : "Refracted";
 }
 
-inline constexpr Integrator allIntegrators[] = { Integrator::Leapfrog, Integrator::Rk4,
-  Integrator::Adaptive, Integrator::Euler };
+inline constexpr Integrator allIntegrators[] = { Integrator::Leapfrog, Integrator::Adaptive };
 inline constexpr Precision bothPrecisions[] = { Precision::Single, Precision::Double };
 
 } // namespace schlieren

@@ -19,6 +19,21 @@
 namespace schlieren
 {
 
+inline Vec3<double> vec(const Vector& a) { return { a[0], a[1], a[2] }; }
+
+/// A view of what is in the middle, of one ray per pixel.
+inline Scene shadowgraphOf(const Vector& direction, Device device = Device::Cpu)
+{
+  Scene scene = sceneOnCpu(160, 120, direction);
+  scene.view.viewUp = { 0.1, 1, 0.2 };
+  scene.view.parallelScale = 0.7;
+  scene.samplesPerPixel = 1;
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.screenDistance = 0;
+  scene.device = device;
+  return scene;
+}
+
 /// The area of the shadow, and how many pixels from the circle the farthest pixel is that is wrong.
 struct Shadow
 {
@@ -60,8 +75,7 @@ inline void expectPacksToDoWhatOneDoes(const Field& field)
     view.height = 29;
     const Light light = collimatedLight(field.grid, frameOf(field.grid, view));
     refine(medium, { light.u, light.v, { 0, 0 }, { 2, 2 }, 0.01 }, {});
-    for (const Integrator integrator :
-      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
+    for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Adaptive })
     {
       SCOPED_TRACE(std::string(name(interpolation)) + " integrator " +
         std::to_string(static_cast<int>(integrator)));

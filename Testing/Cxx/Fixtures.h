@@ -259,6 +259,14 @@ struct GaussianColumn
   }
 };
 
+/// A cube with that column as its array "N".
+inline vtkSmartPointer<vtkImageData> columnImage(int points = 24)
+{
+  auto image = cube(points);
+  addPointArray(image, "N", GaussianColumn());
+  return image;
+}
+
 /// Compares the image of a column with the closed form: largest errors of the deflection and of the
 /// optical path difference, relative to their largest values.
 struct ColumnErrors

@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rays and steps per second on a GPU, beside what the device could do at most, and how far its images
-// are from the CPU's. Needs no library, so that it runs wherever nvcc does.
+// Rays and steps per second on a GPU, and how far its images are from the CPU's. Needs no library, so that it runs wherever
+// nvcc does.
 //
 //   GpuBenchmarks [largest grid, points per axis = 1024]
 //
 // The medium is a wavy jet in still gas, and a tree of bricks. In the paper's configuration (Brownlee et al. 2011, table 1) it has
 // 480 x 720 x 100 points, seen along the third axis in 512 x 512 pixels with 10 samples each.
 #include "Core/AnalyticSources.h"
-#include "Device/CudaBuffer.h"
-#include "Device/DeviceError.h"
 #include "Device/Parallel.h"
 #include "Schlieren.h"
 
@@ -21,6 +19,8 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace schlieren
@@ -28,109 +28,6 @@ namespace schlieren
 
 namespace
 {
-
-constexpr int samplesPerPixel = 10;
-
-/// What a device can do at most in a second.
-struct Peak
-{
-  double memoryBytes;  ///< of its memory
-  double cacheBytes;   ///< of all first-level caches: 128 bytes a cycle each
-  double instructions; ///< of single threads: four warps' a cycle on each multiprocessor
-
-  static Peak ofDevice()
-  {
-    const auto attribute = [](cudaDeviceAttr which)
-    {
-      int value = 0;
-      checkCuda(cudaDeviceGetAttribute(&value, which, 0), "Asking for an attribute");
-      return static_cast<double>(value);
-    };
-    const double cycles =
-      1e3 * attribute(cudaDevAttrClockRate) * attribute(cudaDevAttrMultiProcessorCount);
-    constexpr double bothEdges = 2;
-    return { bothEdges * 1e3 * attribute(cudaDevAttrMemoryClockRate) *
-        attribute(cudaDevAttrGlobalMemoryBusWidth) / 8,
-      128 * cycles, 128 * cycles };
-  }
-};
-
-/// Of one step with one sample of the medium, in single precision: points that are read, and instructions,
-/// counted in what nvcc 13.0 makes of the loop for sm_90 (without those for leaving the grid).
-struct Cost
-{
-  double points, instructions;
-
-  static Cost of(Interpolation interpolation)
-  {
-    switch (interpolation)
-    {
-      case Interpolation::Linear:
-        return { 8, 200 };
-      case Interpolation::Central:
-        return { 64, 454 };
-      case Interpolation::Cubic:
-        return { 64, 495 };
-      default:
-        return { 27, 298 };
-    }
-  }
-};
-
-const char* name(Interpolation interpolation)
-{
-  switch (interpolation)
-  {
-    case Interpolation::Linear:
-      return "Linear";
-    case Interpolation::Central:
-      return "Central";
-    case Interpolation::Cubic:
-      return "Cubic";
-    default:
-      return "Quadratic";
-  }
-}
-
-const char* name(Integrator integrator)
-{
-  switch (integrator)
-  {
-    case Integrator::Rk4:
-      return "RK4";
-    case Integrator::Adaptive:
-      return "Adaptive";
-    case Integrator::Euler:
-      return "Euler";
-    default:
-      return "Leapfrog";
-  }
-}
-
-const char* name(Cutoff cutoff)
-{
-  switch (cutoff)
-  {
-    case Cutoff::Shadowgraph:
-      return "Shadowgraph";
-    case Cutoff::Circular:
-      return "Circular";
-    case Cutoff::CircularComplement:
-      return "Complement";
-    case Cutoff::NumericalSchlieren:
-      return "Numerical";
-    case Cutoff::GradedFilter:
-      return "Graded";
-    case Cutoff::ColorFilter:
-      return "Color";
-    case Cutoff::Interferogram:
-      return "Fringes";
-    case Cutoff::Background:
-      return "Background";
-    default:
-      return "Knife Edge";
-  }
-}
 
 /// A jet along y, wavy, in still gas.
 struct Jet
@@ -179,7 +76,7 @@ Scene sceneOf(const Vector& viewDirection)
 {
   Scene scene;
   scene.view.viewDirection = viewDirection;
-  scene.samplesPerPixel = samplesPerPixel;
+  scene.samplesPerPixel = 10;
   scene.kScale = 1000; // the image alone, not the search for its k
   scene.pathModel = PathModel::Refracted;
   scene.device = Device::Cuda;
@@ -191,8 +88,7 @@ double secondsOf(const std::chrono::steady_clock::time_point& start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// By the largest value. With Linear, whose gradient jumps from cell to cell, rounding puts single rays
-/// into the next cell: the root mean square shows more there.
+/// Root mean square and worst, by the largest value.
 struct Differences
 {
   double rms, worst;
@@ -213,21 +109,13 @@ Differences differences(const Values& host, const Values& device)
   return { std::sqrt(squares / static_cast<double>(host.size())) / most, worst / most };
 }
 
-void printHeader()
-{
-  std::printf("%-26s %-11s %-9s %-8s %-5s %8s %8s %9s %9s %6s %6s %6s %7s %7s %7s\n", "medium",
-    "cutoff", "sampling", "steps", "skip", "rays/s", "steps/s", "image", "again", "L1", "issue",
-    "memory", "rms", "worst", "OPD");
-}
-
 /// Measures one scene. Rays are traced again for each image, because the seed changes.
-void measure(const char* medium, Bench& bench, const Field& field, Scene scene, const Peak& peak)
+void measure(const std::string& what, Bench& bench, const Field& field, Scene scene)
 {
   bench.render(field, scene); // sends the medium to the device
   double traced = 1e300, whole = 1e300;
   Image image;
-  constexpr int repetitions = 3;
-  for (int n = 0; n < repetitions; ++n)
+  for (int n = 0; n < 3; ++n)
   {
     ++scene.seed;
     const auto start = std::chrono::steady_clock::now();
@@ -245,157 +133,104 @@ void measure(const char* medium, Bench& bench, const Field& field, Scene scene, 
   const Image device = bench.render(field, scene);
   scene.device = Device::Cpu;
   const Image host = bench.render(field, scene);
-
-  const double bytes = scene.precision == Precision::Single ? sizeof(float) : sizeof(double);
-  const double steps = static_cast<double>(image.stepsTaken);
-  const Cost cost = Cost::of(scene.interpolation);
-  const std::array<std::int64_t, 3>& points = field.grid.dimensions;
-  const double volume = field.source
-    ? static_cast<double>(image.medium.bytes)
-    : bytes * static_cast<double>(points[0] * points[1] * points[2]);
   const Differences deflection = differences(host.deflection, device.deflection);
-  const Differences opticalPath =
-    differences(host.opticalPathDifference, device.opticalPathDifference);
-  std::printf(
-    "%-26s %-11s %-9s %-8s %-5g %8.2e %8.2e %7.2fms %7.2fms %5.1f%% %5.1f%% %5.1f%% %7.0e "
-    "%7.0e %7.0e\n",
-    medium, name(scene.cutoff), name(scene.interpolation),
-    image.pathModel == PathModel::Straight ? "straight" : name(scene.integrator),
-    scene.homogeneityTolerance, static_cast<double>(image.raysTraced) / traced, steps / traced,
-    1e3 * whole, 1e3 * again, 100 * steps * cost.points * bytes / traced / peak.cacheBytes,
-    100 * steps * cost.instructions / traced / peak.instructions,
-    100 * samplesPerPixel * volume / traced / peak.memoryBytes, deflection.rms, deflection.worst,
-    opticalPath.worst);
+  std::printf("%-50s %8.2e %8.2e %7.2fms %7.2fms %7.0e %7.0e %7.0e\n", what.c_str(),
+    static_cast<double>(image.raysTraced) / traced, static_cast<double>(image.stepsTaken) / traced,
+    1e3 * whole, 1e3 * again, deflection.rms, deflection.worst,
+    differences(host.opticalPathDifference, device.opticalPathDifference).worst);
   std::fflush(stdout);
 }
 
-void measureAll(
-  const char* medium, const Field& field, const Vector& viewDirection, const Peak& peak)
+/// Quadratic and Cubic splines, all and with what is homogeneous skipped; and with the k that is found by the image.
+void measureMedium(const std::string& medium, const Field& field, const Vector& viewDirection)
 {
   Bench bench;
-  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Cubic })
   {
     for (const double tolerance : { 0., 0.001 })
     {
-      for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph })
-      {
-        Scene scene = sceneOf(viewDirection);
-        scene.interpolation = interpolation;
-        scene.homogeneityTolerance = tolerance;
-        scene.cutoff = cutoff;
-        measure(medium, bench, field, scene, peak);
-      }
+      Scene scene = sceneOf(viewDirection);
+      scene.interpolation = interpolation;
+      scene.homogeneityTolerance = tolerance;
+      measure(medium + (interpolation == Interpolation::Cubic ? ", cubic" : ", quadratic") +
+          (tolerance > 0 ? ", skipping" : ""),
+        bench, field, scene);
     }
+  }
+  Scene scene = sceneOf(viewDirection);
+  scene.kScale.reset();
+  measure(medium + ", automatic k", bench, field, scene);
+}
+
+/// What another cutoff costs is under "again".
+void measureCutoffs(const Field& field, const Vector& viewDirection)
+{
+  Bench bench;
+  Scene scene = sceneOf(viewDirection);
+  for (const auto& [name, cutoff] : { std::pair{ "shadowgraph", Cutoff::Shadowgraph },
+         std::pair{ "circular", Cutoff::Circular }, std::pair{ "graded", Cutoff::GradedFilter },
+         std::pair{ "colour", Cutoff::ColorFilter }, std::pair{ "fringes", Cutoff::Interferogram },
+         std::pair{ "background", Cutoff::Background } })
+  {
+    scene.cutoff = cutoff;
+    measure(name, bench, field, scene);
   }
 }
 
 /// The medium of a mesh: two balls in a far field of 50 times their size.
-void measureTree(const Peak& peak)
+void measureTree()
 {
   const auto source = std::make_shared<BallsSource>(std::vector<Ball>{
     { { -0.005, 0.002, 0 }, 0.01, 1e-4 }, { { 0.012, -0.01, 0.01 }, 0.004, 1e-4 } });
-  Field field;
-  field.source = source;
-  field.grid = coarsestGrid(*source);
-  field.version = 1;
+  const Field field = fieldOf(source);
   Bench bench;
   for (const Vector& direction : { Vector{ 0, 0, -1 }, Vector{ -0.64, 0.48, -0.6 } })
   {
     Scene scene = sceneOf(direction);
     scene.view.parallelScale = 0.04;
     scene.mediumTolerance = 0.003;
-    measure(direction[0] == 0 ? "tree, along z" : "tree, aslant", bench, field, scene, peak);
+    measure(direction[0] == 0 ? "tree, along z" : "tree, aslant", bench, field, scene);
   }
 }
 
-/// As ParaView shows it by default: with the histogram of deflections and the k that is found by it.
-void measureDefaults(
-  const char* medium, const Field& field, const Vector& viewDirection, const Peak& peak)
+/// Other kernels than leapfrog in single precision.
+void measureKernels(const Field& field, const Vector& viewDirection)
 {
   Bench bench;
   Scene scene = sceneOf(viewDirection);
-  scene.kScale.reset();
-  scene.histogramSize = 256;
-  measure(medium, bench, field, scene, peak);
-}
-
-/// Every cutoff by both estimators. What another cutoff costs is under "again".
-void measureCutoffs(
-  const char* medium, const Field& field, const Vector& viewDirection, const Peak& peak)
-{
-  Bench bench;
-  for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
-  {
-    std::printf("%s\n", estimator == FilmEstimator::Sheet ? "by sheet" : "by photon");
-    for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular,
-           Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::ColorFilter,
-           Cutoff::Interferogram, Cutoff::Background, Cutoff::NumericalSchlieren })
-    {
-      Scene scene = sceneOf(viewDirection);
-      scene.filmEstimator = estimator;
-      scene.cutoff = cutoff;
-      measure(medium, bench, field, scene, peak);
-    }
-  }
-}
-
-/// Every kernel once.
-void measureKernels(
-  const char* medium, const Field& field, const Vector& viewDirection, const Peak& peak)
-{
-  for (const Precision precision : { Precision::Single, Precision::Double })
-  {
-    std::printf("%s precision\n", precision == Precision::Single ? "single" : "double");
-    for (const Interpolation interpolation : { Interpolation::Linear, Interpolation::Central,
-           Interpolation::Quadratic, Interpolation::Cubic })
-    {
-      Bench bench;
-      Scene scene = sceneOf(viewDirection);
-      scene.precision = precision;
-      scene.interpolation = interpolation;
-      for (const Integrator integrator :
-        { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive, Integrator::Euler })
-      {
-        scene.integrator = integrator;
-        measure(medium, bench, field, scene, peak);
-      }
-      scene.pathModel = PathModel::Straight;
-      measure(medium, bench, field, scene, peak);
-    }
-  }
+  scene.integrator = Integrator::Adaptive;
+  measure("adaptive", bench, field, scene);
+  scene.precision = Precision::Double;
+  measure("adaptive, double", bench, field, scene);
+  scene.integrator = Integrator::Leapfrog;
+  measure("leapfrog, double", bench, field, scene);
+  scene.pathModel = PathModel::Straight;
+  measure("straight, double", bench, field, scene);
 }
 
 void run(std::int64_t largest)
 {
-  const Peak peak = Peak::ofDevice();
-  std::printf(
-    "At most: memory %.2f TB/s, first-level caches %.1f TB/s, %.1f T instructions/s.\n"
-    "rays/s, steps/s: of tracing\n"
-    "image: all of it; again: with another knife edge\n"
-    "L1, issue: of the most that reading and calculating allow, if a step takes one sample\n"
-    "  (RK4 takes four, Adaptive three)\n"
-    "memory: if every pass, of a ray per pixel, read all of the medium from there\n"
-    "rms, worst, OPD: differences of GPU and CPU, by the largest value\n",
-    1e-12 * peak.memoryBytes, 1e-12 * peak.cacheBytes, 1e-12 * peak.instructions);
-  printHeader();
+  std::printf("rays/s, steps/s: of tracing. image: all of it; again: with another knife edge.\n"
+              "rms, worst, OPD: differences of GPU and CPU, by the largest value\n"
+              "%-50s %8s %8s %9s %9s %7s %7s %7s\n",
+    "medium", "rays/s", "steps/s", "image", "again", "rms", "worst", "OPD");
+  const Vector aslant{ -0.64, 0.48, -0.6 }, alongZ{ 0, 0, -1 };
   {
     const Jet jet(480, 720, 100);
-    measureAll("480 x 720 x 100, along z", jet.field, { 0, 0, -1 }, peak);
-    measureDefaults("the same, automatic k", jet.field, { 0, 0, -1 }, peak);
-    measureCutoffs("480 x 720 x 100, along z", jet.field, { 0, 0, -1 }, peak);
+    measureMedium("480 x 720 x 100, along z", jet.field, alongZ);
+    measureCutoffs(jet.field, alongZ);
   }
-  measureTree(peak);
-  const Vector aslant{ -0.64, 0.48, -0.6 };
+  measureTree();
   {
     const Jet jet(256, 256, 256);
-    measureAll("256^3, along z", jet.field, { 0, 0, -1 }, peak);
-    measureAll("256^3, aslant", jet.field, aslant, peak);
-    measureKernels("256^3, aslant", jet.field, aslant, peak);
+    measureMedium("256^3, along z", jet.field, alongZ);
+    measureMedium("256^3, aslant", jet.field, aslant);
+    measureKernels(jet.field, aslant);
   }
   if (largest > 256)
   {
     const Jet jet(largest, largest, largest);
-    measureAll((std::to_string(largest) + "^3, aslant").c_str(), jet.field, aslant, peak);
+    measureMedium(std::to_string(largest) + "^3, aslant", jet.field, aslant);
   }
 }
 

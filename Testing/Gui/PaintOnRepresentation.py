@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Painting the colour filter through the image of data that are drawn as Schlieren, with a parallel and a perspective
 camera: where the rays of the brushed pixels meet the filter, it is painted, and the view shows it. With an argument,
-where a server that cannot draw makes the image; skipped without pvserver."""
+where a server makes the image; skipped without pvserver."""
 
 import os
 import sys
@@ -11,7 +11,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
-from server_testing import DISMISS, connect, start_server  # noqa: E402
+from server_testing import connect, start_server  # noqa: E402
 from views_testing import png, png_of_text  # noqa: E402
 from window_testing import BENCH, DISPLAY, FOLDER, Session  # noqa: E402
 
@@ -79,8 +79,8 @@ assert not widget("propertiesPanel", "SchlierenBench", "ColorFilterImage", "Pain
 
 server, prefix = None, "from paraview.simple import *"
 if is_remote:
-    server, port = start_server("env", "-u", "DISPLAY")
-    prefix = DISMISS + connect(port)
+    server, port = start_server()
+    prefix = connect(port)
 try:
     user.play(prefix + """
 flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")

@@ -1,12 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The properties panel as it is read: units behind names, what is there without asking for advanced properties, which
-gas a constant is of, the point at the image's centre, which presets are faster, notes that look like notes,
-and texts that can be read with dark colours."""
+"""The properties panel as it is read: units behind names, what is there without asking for advanced properties, notes that
+look like notes, and texts that can be read with dark colours."""
 
 import os
 
-from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession, simple
+from views_testing import FOLDER, INSIDE, OPEN_JET, ViewsSession
 from window_testing import PANEL
 
 REPORT = os.path.join(FOLDER, "report.txt")
@@ -32,27 +31,6 @@ for name, text in (("LengthScale", "Length Scale (m per data unit)"), ("DensityS
     check_label(name, text)
 user.check("FocalPoint", "visible", "false")
 
-# How large the data are, before that is applied: 239 times 0.125 mm long.
-user.check("LengthScale/Note", "text", "The data are 29.9 × 16 × 16 mm.")
-user.choose("LengthScale/DoubleLineEdit0", "1e-3")
-user.check("LengthScale/Note", "text", "The data are 29.9 × 16 × 16 µm.")
-user.choose("LengthScale/DoubleLineEdit0", "100")
-user.check("LengthScale/Note", "text", "The data are 2.99 × 1.6 × 1.6 m.")
-
-# What Custom is, before it is applied.
-user.check("Gas/Note", "text", "Custom: 0.000226 m³/kg (air, visible light)")
-user.choose("GladstoneDaleConstant/DoubleLineEdit0", "2.38e-4")
-user.check("Gas/Note", "text", "Custom: 0.000238 m³/kg")
-user.choose("Gas/ComboBox", "helium")
-user.check("Gas/Note", "text", "helium: 0.0001954 m³/kg at 632.8 nm")
-check_label("Wavelength", "Wavelength (nm)")
-user.choose("Wavelength/DoubleLineEdit0", "500")
-user.check("Gas/Note", "text", "helium: 0.0001961 m³/kg at 500 nm")
-user.choose("IndexModel/ComboBox", "Gladstone-Dale Mixture")
-user.check("BackgroundGas/Note", "text", "Custom: 0.000226 m³/kg (air, visible light)")
-user.reset()
-user.check("Gas/Note", "text", "Custom: 0.000226 m³/kg (air, visible light)")
-
 # An interferogram's wavelength, in the panel and among what its cutoff is sensitive to.
 user.check("Wavelength", "visible", "false")
 user.choose("Cutoff/ComboBox", "Interferogram")
@@ -62,13 +40,6 @@ user.python("settle(FindSource('Schlieren1'))")
 user.check("Sensitivity/Note", "text",
            "a fringe is 632.8 nm of optical path: Wavelength, in the group Medium")
 
-# The centre of the image: none, three numbers, none again.
-user.python("""
-bench = FindSource("Schlieren1")
-bench.FocalPoint = []
-Render()
-settle(bench)
-""")
 user.event(PANEL + "/SearchBox/AdvancedButton", "set_boolean", "true")
 check_label("FocalPoint", "Focal Point (data units)")
 
@@ -76,30 +47,9 @@ check_label("FocalPoint", "Focal Point (data units)")
 for name, isSeen in (("LockAmbient", "true"), ("LockedAmbient", "false"), ("LockedK", "false")):
     user.check(name, "visible", isSeen)
 
-POINT = "FocalPoint/Coordinate{}"
-for axis in range(3):
-    user.check(POINT.format(axis), "text", "")
-user.check("FocalPoint/Clear", "enabled", "false")
-user.type(POINT.format(1), "0.0025")
-for axis, value in enumerate(("0", "0.0025", "0")):
-    user.check(POINT.format(axis), "text", value)
-user.type(POINT.format(0), "0.01")
-user.apply()
-user.save_state("point.pvsm")
-user.click("FocalPoint/Clear")
-user.check(POINT.format(0), "text", "")
-user.apply()
-user.save_state("none.pvsm")
-user.menu("menu_Edit", "actionEditUndo")
-user.check(POINT.format(0), "text", "0.01")
-
-# From fast to fine; and notes can be read and copied like other text in a window.
+# Notes can be read and copied like other text in a window.
 user.python(f"""
-quality = widget("propertiesPanel", "Quality").findChild(QtWidgets.QComboBox)
-names = [quality.itemText(i) for i in range(quality.count())]
 with open({REPORT!r}, "w", encoding="utf-8") as file:
-    for name in names:
-        file.write(quality.itemDelegate().displayText(name, QtCore.QLocale()) + "\\n")
     for name in ("Grid", "Status"):
         note = widget("propertiesPanel", name, "Note")
         around = widget("propertiesPanel", "ProxyPanel").grab().toImage().pixelColor(0, 0)
@@ -141,7 +91,7 @@ for palette in usual, dark:
     for name in ("Gas", "LengthScale", "Cutoff", "LockK", "Sensitivity", "ColorFilterImage", "SchlierenCutoff", "Status"):
         check(name, texts(panel.findChild(QWidget, name)))
     assert contrast(plane, top=round(plane.property("side")) + 5) >= 4.5
-    for model, name in (("Gladstone-Dale Mixture", "SchlierenGasMixture"), ("Transfer Functions", "SchlierenFields")):
+    for model, name in (("Transfer Functions", "SchlierenFields"),):
         widget("propertiesPanel", "IndexModel", "ComboBox").setCurrentText(model)
         until(panel.findChild(QWidget, name).isVisible)
         check(name, texts(panel.findChild(QWidget, name)))
@@ -155,14 +105,4 @@ user.play(INSIDE + OPEN_JET)
 
 with open(REPORT, encoding="utf-8") as file:
     lines = file.read().splitlines()
-assert lines == ["Interactive – errors up to 10 %, fastest",
-                 "Fine – errors up to 1 %, 5 times as long",
-                 "Publication – errors up to 0.2 %, 20 times as long",
-                 "Reference – to compare with, hundreds of times as long",
-                 "Automatic – errors that cannot be seen", "Custom – as set below",
-                 "Grid True True", "Status True True", "readable"], lines
-
-for state, point in (("point", [0.01, 0.0025, 0]), ("none", [])):
-    simple.ResetSession()
-    simple.LoadState(os.path.join(FOLDER, state + ".pvsm"))
-    assert list(simple.FindSource("Schlieren1").FocalPoint) == point, state
+assert lines == ["Grid True True", "Status True True", "readable"], lines

@@ -66,20 +66,11 @@ def finished(source):
     return information(source, "Finished") == 1
 
 
-def rows_of(source):
-    """Of the image that a filter holds in this program."""
-    return source.GetClientSideObject().GetOutputDataObject(0).GetDimensions()[1]
-
-
 def settle(*filters):
-    """Until their images are whole and nothing changes them any more. Rough ones are finished, too, but have
-    fewer rows; with a server only that one knows how many."""
-    def whole():
-        return all(finished(one) and (one.GetClientSideObject() is None or rows_of(one) == one.ImageSize[1])
-                   for one in filters)
-    until(whole)
+    """Until views show the images of filters as they are set."""
+    simple.RenderAllViews()
     pause(0.3)
-    until(whole)
+    assert all(finished(one) for one in filters)
 
 
 def displays():
@@ -108,7 +99,7 @@ def save(name, source, *views):
         os.path.join(FOLDER, name),
         intensity=vtk_to_numpy(image.GetPointData().GetArray("Intensity")),
         dimensions=image.GetDimensions(), origin=image.GetOrigin(), spacing=image.GetSpacing(),
-        reduction=source.PreviewReduction, limit=source.TimeLimit, status=information(source, "Status"),
+        status=information(source, "Status"),
         direction=source.ViewDirection, up=source.ViewUp, focus=source.FocalPoint,
         scale=source.ParallelScale, count=information(source, "PictureCount"),
         k=information(source, "KScaleUsed"),
@@ -172,13 +163,16 @@ def click(button):
 
 
 def click_during(algorithm, fraction, button):
-    """Clicks an enabled button as the mouse does, once, when an update of a VTK algorithm has come so far. Returns
-    what ends this."""
-    clicked = []
+    """Clicks an enabled button as the mouse does when an update of a VTK algorithm has come so far, until that is
+    aborted: ParaView's progress bar swallows clicks that are posted just before it is painted. Returns what ends this."""
+    clicked, aborted = [0], []
 
     def watch(*_):
-        if not clicked and algorithm.GetProgress() > fraction and button.isEnabled():
-            clicked.append(True)
+        if algorithm.GetAbortExecute():
+            aborted.append(True)
+        elif (not aborted and algorithm.GetProgress() > fraction and button.isEnabled()
+              and time.monotonic() > clicked[0] + 0.1):
+            clicked[0] = time.monotonic()
             window = widget().windowHandle()
             place = button.mapTo(widget(), button.rect().center())
             left, none = Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton

@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 
-def start_server(*launcher):
+def start_server():
     """A pvserver and its port, one that is free; skips the test where there is none."""
     pvserver = shutil.which("pvserver")
     if not pvserver:
@@ -18,7 +18,7 @@ def start_server(*launcher):
     # Without what makes MPI believe that a process belongs to others.
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_"))}
     for port in range(11200, 11300):
-        server = subprocess.Popen([*launcher, pvserver, f"--server-port={port}", "--force-offscreen-rendering"],
+        server = subprocess.Popen([pvserver, f"--server-port={port}", "--force-offscreen-rendering"],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
         line = " "
         while line and not re.search("Accepting|rror|failed", line):
@@ -28,15 +28,6 @@ def start_server(*launcher):
         server.kill()
         server.wait()
     raise RuntimeError("No port is free.")
-
-
-def start_ranks(count):
-    """The same with several ranks; skips the test where there is no mpiexec, too."""
-    if not shutil.which("mpiexec"):
-        print("Skipped: there is no mpiexec (Debian: openmpi-bin).")
-        sys.exit(77)
-    return start_server("mpiexec", "--allow-run-as-root", "--oversubscribe", "--mca", "mpi_yield_when_idle",
-                        "1", "-np", str(count))
 
 
 def connect(port):
@@ -57,16 +48,3 @@ def play(user, begin, is_remote):
     finally:
         if server:
             server.kill()
-
-
-# Before connect(), where the server cannot draw: answers the box in which ParaView says so.
-DISMISS = """
-import inside_window
-def dismiss():
-    box = inside_window.QApplication.activeModalWidget()
-    if box and box.inherits("QMessageBox") and "display" in (box.windowTitle() + box.text()).lower():
-        box.accept()
-inside_window.BOXES = inside_window.QTimer()
-inside_window.BOXES.timeout.connect(dismiss)
-inside_window.BOXES.start(200)
-"""

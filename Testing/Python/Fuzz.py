@@ -40,9 +40,8 @@ QUICK = {"ImageSize": ([16, 16], [16, 16], [33, 7], [1, 1], [0, 16], [16, -3], [
          "NumberOfThreads": (0, 1, 2, 3, -1), "HistogramSize": (0, 1, 16, 256, 2049, -1),
          "NoiseFilterRadius": (0., 1., 2.5, -1., float("nan"), float("inf")),
          "StepSize": (2., 1., .1, 16., 17., 0., -1., float("nan")),
-         "AdaptiveTolerance": (1e-5, 1e-3, 1., 0., 2., float("nan")),
          "MediumTolerance": (.02, .1, .5, 1., 0., -1., float("nan")),
-         "PreviewReduction": (1, 1, 2, 64, 0, 65), "TimeLimit": (0., 0., 1e-3, -1.)}
+         "TimeLimit": (0., 0., 1e-3, -1.)}
 
 
 def random_value(rng, item):
@@ -306,8 +305,7 @@ def case_of_proxies(rng):
 def case_of_views(rng):
     import fuzz_data
     from paraview import simple
-    of_view = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "ImageSize", "TimeLimit",
-               "PreviewReduction"}
+    of_view = {"ViewDirection", "ViewUp", "FocalPoint", "ParallelScale", "ViewAngle", "ImageSize", "TimeLimit"}
     items = [item for item in settable() if item.name not in of_view]
     view = simple.CreateRenderView()
     view.ViewSize = [48, 32]

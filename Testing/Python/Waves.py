@@ -132,10 +132,11 @@ for cutoff, settings, most in (("Graded Filter", {"AutoKScale": 0, "KScale": 300
     assert np.ptp(rays) > 0.2
 
 # A preview has no waves, and says so.
-column.LightModel, column.PreviewReduction = "Waves", 4
+column.LightModel = "Waves"
+column.GetClientSideObject().SetPreviewReduction(4)
 output(column)
 assert status_of(column).startswith("Preview: rays as yet, "), status_of(column)
-column.PreviewReduction = 1
+column.GetClientSideObject().SetPreviewReduction(1)
 
 # Stops whose light depends on |deflection| show the square of a weak phase, and of a strong one what rays do.
 for cutoff in ("Circular", "Circular Complement"):
@@ -159,8 +160,8 @@ for settings, words in (({}, "Cutoff to another technique"),
                         ({"Cutoff": "Phase Contrast", "LightModel": "Rays"}, "LightModel to Waves"),
                         ({"LightModel": "Waves", "ViewAngle": 30}, "ViewAngle to less"),
                         ({"Cutoff": "Shadowgraph", "ViewAngle": 30}, "ViewAngle to less"),
-                        ({"ViewAngle": 0, "PathModel": "Difference"}, "PathModel to Auto"),
-                        ({"PathModel": "Auto", "LengthScale": 10}, "MemoryBudget")):
+                        ({"ViewAngle": 0, "PathModel": "Straight"}, "PathModel to Refracted"),
+                        ({"PathModel": "Refracted", "LengthScale": 10}, "MemoryBudget")):
     for key, value in settings.items():
         setattr(flow, key, value)
     assert is_empty(flow), settings

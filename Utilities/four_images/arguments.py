@@ -108,7 +108,7 @@ examples:
   %(prog)s flow.vtu --array rho --view y
   %(prog)s case.foam --formula 'p/(287.05*T)' --set OutsideBlocksLight=0
   %(prog)s bluntfinxyz.bin --density-scale 0.72 --length-scale 0.0127
-  %(prog)s plume.vti --set Interpolation=Linear --set SamplesPerPixel=1""")
+  %(prog)s plume.vti --set Quality=Fine --set SamplesPerPixel=1""")
     add = parser.add_argument
     add("file", nargs="?", metavar="FILE",
         help="a data set, in any format that ParaView reads; of a PLOT3D pair, the grid file; the "

@@ -28,9 +28,6 @@ struct MediumView
   Vec3<double> last; ///< far corner of the domain, in index coordinates; the near one is 0
   /// One bit per point of an image, 1 in solids, laid out like the samples; null where there are no solids.
   const std::uint32_t* solid = nullptr;
-  /// From a sample to what the ray that looks at it will look at some steps later: a processor can be informed
-  /// to fetch that in time.
-  std::int64_t ahead = 0;
 
   // Of a tree.
   const Leaf<Real>* leaves = nullptr; ///< null: an image
@@ -52,7 +49,7 @@ MediumView<Real> viewOfBricks(const Real* samples, int edge, int apron, BrickSha
   const std::int64_t row = edge + 2 * apron;
   const bool isLayer = shape == BrickShape::Layer;
   const std::int64_t plane = isLayer ? 0 : row * row;
-  // Views begin at the first of the ghost points that all schemes have.
+  // Views begin at the first of the ghost points that both schemes have.
   const std::int64_t ghost = (apron - 1) * (plane + row + 1);
   constexpr Real low = Real(-0.5);
   const Real high = std::nextafter(Real(edge - 0.5), low); // its nearest sample is the last one
@@ -132,52 +129,6 @@ struct QuadraticInterpolation
   }
 };
 
-/// Trilinear: the derivative jumps from cell to cell.
-struct LinearInterpolation
-{
-  static constexpr int points = 2;
-  static constexpr bool nearest = false;
-  // The cell past the grid's last point ends in ghosts, which weigh in its derivative alone.
-  static constexpr int first = 0;
-  static constexpr int reach = 0;
-  static constexpr double steepest = 1;
-
-  template <class Real>
-  SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
-  {
-    w[0] = 1 - f;
-    w[1] = f;
-    d[0] = Real{} - 1;
-    d[1] = Real{} + 1;
-  }
-};
-
-/// Trilinear values and, as gradient, central differences at the grid points interpolated trilinearly
-/// (Brownlee et al. 2011, section 4.1): continuous, but no derivative of the values.
-struct CentralInterpolation
-{
-  static constexpr int points = 4;
-  static constexpr bool nearest = false;
-  static constexpr int first = -1;
-  static constexpr int reach = 1;
-  static constexpr double steepest = 0.5;
-
-  template <class Real>
-  SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
-  {
-    using Number = NumberOf<Real>;
-    const Number half = static_cast<Number>(0.5);
-    w[0] = Real{};
-    w[1] = 1 - f;
-    w[2] = f;
-    w[3] = Real{};
-    d[0] = half * f - half;
-    d[1] = -half * f;
-    d[2] = half - half * f;
-    d[3] = half * f;
-  }
-};
-
 /// Cubic B-spline (Unser, Aldroubi & Eden 1993): the second derivatives are continuous.
 struct CubicInterpolation
 {
@@ -209,19 +160,8 @@ struct CubicInterpolation
 template <class Visit>
 auto visitScheme(Interpolation interpolation, const Visit& visit)
 {
-  switch (interpolation)
-  {
-    case Interpolation::Linear:
-      return visit(LinearInterpolation{});
-#ifndef SCHLIEREN_WITHOUT_PAPER_METHODS
-    case Interpolation::Central:
-      return visit(CentralInterpolation{});
-#endif
-    case Interpolation::Cubic:
-      return visit(CubicInterpolation{});
-    default:
-      return visit(QuadraticInterpolation{});
-  }
+  return interpolation == Interpolation::Cubic ? visit(CubicInterpolation{})
+                                               : visit(QuadraticInterpolation{});
 }
 
 /// Value and gradient, by local coordinates, at a position within a leaf whose samples begin at `base`

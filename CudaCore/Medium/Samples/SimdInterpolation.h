@@ -196,16 +196,6 @@ SCHLIEREN_HD Sample<Pack> sumGathered(const MediumView<Real>& m,
   const auto& w = stencil.w;
   const auto& d = stencil.d;
   const Gatherer<Pack> rows(m, base, stencil.index);
-  if (Scheme::points == 2) // the others have enough to do meanwhile
-  {
-    std::int64_t at[lanesOf<Pack>];
-    std::memcpy(at, &rows.offsets, sizeof(at));
-#pragma GCC unroll 16
-    for (int i = 0; i < lanesOf<Pack>; ++i)
-    {
-      __builtin_prefetch(origin + m.ahead + at[i]);
-    }
-  }
   Sample<Pack> sum{};
 #pragma GCC unroll 4
   for (int k = 0; k < points; ++k)

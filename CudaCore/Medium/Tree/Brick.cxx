@@ -30,12 +30,6 @@ constexpr double distanceUnits = 8192;
 /// What coefficients may be beyond samples anyway, of the range of all.
 constexpr double overshootByRange = 1e-3;
 
-int apronOf(Interpolation interpolation)
-{
-  return interpolation == Interpolation::Quadratic || interpolation == Interpolation::Linear ? 1
-                                                                                             : 2;
-}
-
 } // namespace
 
 template <class Real>
@@ -45,11 +39,7 @@ BrickMaker<Real>::BrickMaker(const MediumSource& source, const BrickRules& rules
   , bounds_(source.bounds())
   , smallest_(1e-20 * rules.largestNu)
   , shape_(source.isFlat() ? BrickShape::Layer : BrickShape::Cube)
-  , apron_(apronOf(rules.interpolation))
-  , support_(
-      rules.interpolation == Interpolation::Quadratic || rules.interpolation == Interpolation::Cubic
-        ? 1
-        : 0)
+  , apron_(rules.interpolation == Interpolation::Cubic ? 2 : 1)
 {
   rules_.bytesOfReal = sizeof(Real);
   const MediumSource::Content content = source.contentOf(bounds_);
@@ -100,17 +90,17 @@ Box BrickMaker<Real>::boxWithApron(const NodePlace& place) const
 
 /// Points beyond the box.
 template <class Real>
-int BrickMaker<Real>::marginOf(bool hasEdges, bool hasFields) const
+int BrickMaker<Real>::marginOf(bool hasEdges) const
 {
-  const int marginOfFields = hasFields ? 1 : 0; // for central differences
-  return apron_ + std::max(support_, marginOfFields) + (hasEdges ? marginOfEdges : 0);
+  constexpr int support = 1; // of coefficients, and for central differences of fields
+  return apron_ + support + (hasEdges ? marginOfEdges : 0);
 }
 
 /// What of a source with makers is prepared: also what fronts may need.
 template <class Real>
-int BrickMaker<Real>::preparedMarginOf(bool hasEdges, bool hasFields) const
+int BrickMaker<Real>::preparedMarginOf(bool hasEdges) const
 {
-  return marginOf(hasEdges, hasFields) + (support_ > 0 ? supportOfFronts - support_ : 0);
+  return marginOf(hasEdges) + supportOfFronts - 1;
 }
 
 template <class Real>
@@ -403,43 +393,6 @@ void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) co
   }
 }
 
-/// Finds the slopes of the octants, each from all coefficients that are looked at there.
-template <class Real>
-void BrickMaker<Real>::findSlopes(Brick<Real>& brick) const
-{
-  const int stored = edge + 2 * apron_;
-  const int strides[3] = { 1, stored, stored * stored };
-  const int count = edge / 2 + 2 * apron_;                 // of an octant, along an axis
-  for (int octant = 0; octant < layersOf(2) * 4; ++octant) // of one layer: quarters
-  {
-    Vec3<float>& slope = brick.facts.slopeOf[static_cast<std::size_t>(octant)];
-    float* const of[3] = { &slope.x, &slope.y, &slope.z };
-    const Real* corner = brick.samples.data() +
-      edge / 2 *
-        ((octant & 1) * strides[0] + (octant >> 1 & 1) * strides[1] + (octant >> 2) * strides[2]);
-    for (std::size_t axis = 0; axis < axes(); ++axis)
-    {
-      std::array<Real, edge / 2 + 4> most{};
-      int to[3] = { count, count, layersOf(count) };
-      to[axis] -= 1;
-      for (int k = 0; k < to[2]; ++k)
-      {
-        for (int j = 0; j < to[1]; ++j)
-        {
-          const Real* row = corner + k * strides[2] + j * strides[1];
-          for (int i = 0; i < to[0]; ++i)
-          {
-            const Real difference = std::abs(row[i + strides[axis]] - row[i]);
-            Real& largest = most[static_cast<std::size_t>(i)];
-            largest = largest < difference ? difference : largest;
-          }
-        }
-      }
-      *of[axis] = static_cast<float>(*std::max_element(most.begin(), most.end()));
-    }
-  }
-}
-
 template <class Real>
 Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
 {
@@ -453,8 +406,8 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
   }
   const MediumSource::Content& content = outline.content;
   const bool hasEdges = outline.hasEdges, hasFields = outline.hasFields;
-  const int margin = marginOf(hasEdges, hasFields);
-  const int prepared = preparedMarginOf(hasEdges, hasFields);
+  const int margin = marginOf(hasEdges);
+  const int prepared = preparedMarginOf(hasEdges);
   BrickSamples all =
     valuesAt(place, source_.dependsOnLattice() ? prepared : margin, hasEdges, hasFields);
   BrickSamples samples = all;
@@ -496,7 +449,7 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
     brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
     const CoefficientRule rule{ rules_.interpolation == Interpolation::Cubic ? 1. / 6 : 1. / 8,
       apron_, axes(), overshoot_ };
-    if (support_ > 0 && !makeCoefficients(samples, rule))
+    if (!makeCoefficients(samples, rule))
     {
       samples =
         all.margin == prepared ? std::move(all) : valuesAt(place, prepared, hasEdges, hasFields);
@@ -505,7 +458,6 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
     }
     storeCoefficients(samples, brick);
     findBounds(place, brick);
-    findSlopes(brick);
   }
   else
   {

@@ -62,9 +62,8 @@ struct BrickFacts
   std::array<std::array<float, 2>, 3> normals{};
   double largestNu = 0; ///< |nu| of its coefficients
   std::array<double, 3> slope{ 0, 0,
-    0 }; ///< largest difference of neighbouring coefficients, a voxel
-  std::array<Vec3<float>, 8> slopeOf{};        ///< the same of its octants, x fastest
-  double steepest = 0;                         ///< largest gradient, about; nu by data unit
+    0 };               ///< largest difference of neighbouring coefficients, a voxel
+  double steepest = 0; ///< largest gradient, about; nu by data unit
   std::array<double, 3> steepestAt{ 0, 0, 0 }; ///< index coordinates
 };
 
@@ -147,8 +146,8 @@ private:
   Outline outlineOf(const BrickRequest& request) const;
   bool areEdgesFine(int level, const MediumSource::Content& content) const;
   Lattice latticeOf(const NodePlace& place, int margin) const;
-  int marginOf(bool hasEdges, bool hasFields) const;
-  int preparedMarginOf(bool hasEdges, bool hasFields) const;
+  int marginOf(bool hasEdges) const;
+  int preparedMarginOf(bool hasEdges) const;
   BrickSamples valuesAt(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
   bool findEdges(const NodePlace& place, const MediumSource::Content& content,
     BrickSamples& samples, double negligible, Brick<Real>& brick) const;
@@ -156,7 +155,6 @@ private:
     const BrickSamples& samples, BrickFacts& facts) const;
   void storeCoefficients(const BrickSamples& samples, Brick<Real>& brick) const;
   void findBounds(const NodePlace& place, Brick<Real>& brick) const;
-  void findSlopes(Brick<Real>& brick) const;
   double nuOf(double refractivity) const
   {
     return (refractivity - rules_.ambient) / (1 + rules_.ambient);
@@ -171,7 +169,6 @@ private:
   double overshoot_; ///< of a coefficient beyond the samples beside it, that is none: nu
   BrickShape shape_;
   int apron_;
-  int support_; ///< samples beyond a coefficient's place that it is made of
 };
 
 /// Value and gradient, by local coordinates, of a brick whose first stored sample is at `samples`. The place is

@@ -125,8 +125,7 @@ std::vector<std::vector<char>> BrickMaker<Real>::makeShare(
     }
     if (outline.isSampled)
     {
-      lattices.push_back(
-        latticeOf(requests[n].place, preparedMarginOf(outline.hasEdges, outline.hasFields)));
+      lattices.push_back(latticeOf(requests[n].place, preparedMarginOf(outline.hasEdges)));
     }
   }
   source_.prepareSamples(lattices);

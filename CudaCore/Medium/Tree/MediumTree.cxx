@@ -275,6 +275,7 @@ void MediumTree<Real>::summarize(const View& view)
   statistics_.coarsestLevel = View::finestLevelOfAll;
   largestNu_ = 0;
   slope_ = { 0, 0, 0 };
+  steepest_ = {};
   statistics_.smallestVoxel = std::numeric_limits<double>::infinity();
   // Rays may miss the worst leaf.
   double error = work_.error, errorOfFields = work_.errorOfGathered;
@@ -288,6 +289,8 @@ void MediumTree<Real>::summarize(const View& view)
     slope_.x = std::max(slope_.x, std::ldexp(facts.slope[0], level));
     slope_.y = std::max(slope_.y, std::ldexp(facts.slope[1], level));
     slope_.z = std::max(slope_.z, std::ldexp(facts.slope[2], level));
+    steepest_.include(
+      { length(Vec3<double>{ facts.slope[0], facts.slope[1], facts.slope[2] }), facts.steepestAt });
     if (node.brick > 0 || fields.brick > 0)
     {
       ++statistics_.bricks;
@@ -313,36 +316,6 @@ void MediumTree<Real>::summarize(const View& view)
   statistics_.deflectionError = error;
   statistics_.estimatedError =
     std::max(deflection > 0 ? error / deflection : 0, gathered > 0 ? errorOfFields / gathered : 0);
-}
-
-template <class Real>
-SlopeBlocks MediumTree<Real>::slopes() const
-{
-  SlopeBlocks blocks;
-  blocks.reserve(8 * static_cast<std::size_t>(statistics_.bricks));
-  for (const std::int32_t at : leafNodes_)
-  {
-    const Node& node = nodes_[static_cast<std::size_t>(at)];
-    for (std::int32_t octant = 0; node.brick > 0 && octant < childCount(); ++octant)
-    {
-      const Vec3<float>& slope = node.facts.slopeOf[static_cast<std::size_t>(octant)];
-      if (slope.x == 0 && slope.y == 0 && slope.z == 0)
-      {
-        continue;
-      }
-      const NodePlace place = childOf(node.place, octant);
-      const auto low = [&](std::size_t axis)
-      {
-        return static_cast<float>(
-          std::ldexp(brickEdge * static_cast<double>(place.at[axis]), -place.level));
-      };
-      const auto perIndex = static_cast<float>(std::ldexp(1., node.place.level));
-      static_assert(SlopeBlock::voxels == brickEdge / 2);
-      blocks.push_back(
-        { { low(0), low(1), low(2) }, SlopeBlock::voxels / perIndex, perIndex * slope });
-    }
-  }
-  return blocks;
 }
 
 template class MediumTree<float>;

@@ -5,7 +5,7 @@
 #include "Medium/Samples/FieldGradients.h"
 #include "Medium/Samples/Leaves.h"
 #include "Medium/Samples/MediumSource.h"
-#include "Medium/Samples/SlopeBlocks.h"
+#include "Medium/Samples/SteepestPlace.h"
 #include "Medium/Tree/BlockedLight.h"
 #include "Medium/Tree/Brick.h"
 #include "Medium/Tree/BrickRays.h"
@@ -97,7 +97,7 @@ public:
   double largestN() const { return largestN_; }
   /// Largest |d nu / d index| of all leaves, axis by axis.
   Vec3<double> slope() const { return slope_; }
-  SlopeBlocks slopes() const; ///< node by node
+  const SteepestPlace& steepest() const { return steepest_; } ///< brick by brick
   using Statistics = MediumStatistics;
   Statistics statistics() const { return statistics_; }
 
@@ -220,6 +220,7 @@ private:
 
   double largestNu_ = 0;
   Vec3<double> slope_{ 0, 0, 0 };
+  SteepestPlace steepest_;
   Statistics statistics_{};
 };
 

@@ -158,13 +158,6 @@ Simd bestSimd()
   return hasSimd(Simd::Avx2) ? Simd::Avx2 : Simd::Four;
 }
 
-Simd packsFor(const KernelChoice& kernel, Simd simd)
-{
-  const bool isOfPaper = kernel.interpolation == Interpolation::Central ||
-    (kernel.path == PathModel::Refracted && kernel.integrator == Integrator::Euler);
-  return isOfPaper ? std::min(simd, Simd::Four) : simd;
-}
-
 template <class Real>
 bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
   const Monitor& monitor, Simd simd)
@@ -187,7 +180,6 @@ std::int64_t traceTiles(const RayTask<Real>& task, const Pass& pass, const Tiles
   {
     simd = Simd::None; // the others multiply strides of 32 bits
   }
-  simd = packsFor(kernel, simd);
   const auto traceWith = [&](auto marchBatches)
   { return traceTilesWith(task, marchBatches, pass, tiles, traced, threads, monitor); };
   constexpr bool isSingle = std::is_same_v<Real, float>;

@@ -25,10 +25,6 @@ bool hasSimd(Simd simd);
 /// The best ones that it has.
 Simd bestSimd();
 
-/// Limits instructions to those that a kernel has packs for. The paper's methods, with which its images can be
-/// reproduced, have packs of four alone: wider ones would take a quarter of the tracer's compile time.
-Simd packsFor(const KernelChoice& kernel, Simd simd);
-
 /// Traces a pass on the CPU into `traced`, which has its size, or resumes it. Returns false if aborted or
 /// paused; the same call then does the rest. `simd` must be one that the processor has.
 template <class Real>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // For AVX-512 (F, DQ, BW, VL).
-#define SCHLIEREN_WITHOUT_PAPER_METHODS // see packsFor()
 #include "Rays/Cpu/SimdMarch.inl"
 
 namespace schlieren

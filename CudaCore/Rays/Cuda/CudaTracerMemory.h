@@ -168,7 +168,7 @@ struct CudaTracer<Real>::DeviceMemory
       const bool isAdaptive = kernel.integrator == Integrator::Adaptive;
       const double steps =
         static_cast<double>(task.stepLimit) / (trappedFactor * (isAdaptive ? adaptiveFactor : 1));
-      const double places = isAdaptive || kernel.integrator == Integrator::Rk4 ? 4 : 1;
+      const double places = isAdaptive ? 4 : 1;
       const double precision = sizeof(Real) == sizeof(float) ? 1 : 10;
       pace.emplace(steps * places * precision);
       paced = now;

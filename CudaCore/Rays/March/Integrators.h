@@ -7,10 +7,9 @@
 //                                                the ambient index), ds = path / n
 //
 // An integrator has
-//   order            of its error in the step
 //   samplesBeyond    whether it looks at more, or at other places, than the step's middle
 //   advance          takes one step; `sample(position)` is the medium there
-// and the adaptive one its own choice of steps (Adaptive below).
+// and the adaptive one an attempt in place of that, and its own choice of steps (Adaptive below).
 #pragma once
 
 #include "Medium/Samples/Interpolation.h"
@@ -127,7 +126,6 @@ struct StraightPath
 /// Half a drift, a kick, half a drift (Verlet 1967): symplectic, one gradient a step.
 struct Leapfrog
 {
-  static constexpr int order = 2;
   static constexpr bool samplesBeyond = false;
 
   template <class Path, class Real, class SampleAt>
@@ -142,27 +140,6 @@ struct Leapfrog
     ray.offset += (Number(0.5) * step) * scaled(light.indexScale, sum);
     ray.length += step;
     ray.addPath(step * Path::phase(sample.value, Number(0.25) * dot(sum, sum)));
-  }
-};
-
-/// Explicit Euler on p = n dx/ds with full-length vectors (Brownlee et al. 2011, eqs 7 and 8), so that the
-/// rounding of p to the precision of 1 is reproduced, too. `step` is a length here, not that over n.
-struct Euler
-{
-  static constexpr int order = 1;
-  static constexpr bool samplesBeyond = true;
-
-  template <class Path, class Real, class SampleAt>
-  SCHLIEREN_HD static void advance(Ray<Real>& ray, const StraightLight<Real>& light,
-    const Real& step, const Vec3<Real>&, const SampleAt& sampleAt)
-  {
-    const Sample<Real> sample = sampleAt(Path::position(ray, light));
-    const Real s = step / (1 + sample.value);
-    ray.addPath(s * Path::phase(sample.value, dot(ray.q, ray.q)));
-    ray.offset += s * scaled(light.indexScale, ray.q);
-    ray.length += s;
-    const Vec3<Real> p = (light.d + ray.q) + s * Path::kick(sample, light);
-    ray.q = p - light.d;
   }
 };
 
@@ -202,37 +179,10 @@ SCHLIEREN_HD Slopes<Real> operator+(const Slopes<Real>& a, const Slopes<Real>& b
   return { a.offset + b.offset, a.q + b.q, a.path + b.path };
 }
 
-/// The classical Runge-Kutta method (Kutta 1901).
-struct Rk4
-{
-  static constexpr int order = 4;
-  static constexpr bool samplesBeyond = true;
-
-  template <class Path, class Real, class SampleAt>
-  SCHLIEREN_HD static void advance(Ray<Real>& ray, const StraightLight<Real>& light,
-    const Real& step, const Vec3<Real>&, const SampleAt& sampleAt)
-  {
-    using Number = NumberOf<Real>;
-    const Real half = Number(0.5) * step;
-    Slopes<Real> slopes = Slopes<Real>::template of<Path>(ray, light, sampleAt);
-    Slopes<Real> sum = slopes;
-    for (int stage = 1; stage < 4; ++stage)
-    {
-      const Ray<Real> there = slopes.moved(ray, light, stage == 3 ? step : half);
-      slopes = Slopes<Real>::template of<Path>(there, light, sampleAt);
-      sum = sum + Number(stage == 3 ? 1 : 2) * slopes;
-    }
-    sum = Number(1. / 6) * sum;
-    ray.addPath(step * sum.path);
-    ray = sum.moved(ray, light, step);
-  }
-};
-
 /// The method of Bogacki & Shampine (1989), of third order with a second-order result to compare with.
 /// The longest step is the tracer's; the others are as long as the tolerance allows.
 struct Adaptive
 {
-  static constexpr int order = 3;
   static constexpr bool samplesBeyond = true;
 
   template <class Real>

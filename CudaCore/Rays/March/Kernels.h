@@ -9,7 +9,7 @@
 namespace schlieren
 {
 
-/// Calls visit with an object of the kernel's type, whose scheme is given; of integrators that take several samples
+/// Calls visit with an object of the kernel's type, whose scheme is given; of the integrator that takes several samples
 /// a step another one may be.
 template <class Scheme, class SchemeApart = Scheme, class Visit>
 auto visitKernelOf(const KernelChoice& choice, const Visit& visit)
@@ -18,19 +18,9 @@ auto visitKernelOf(const KernelChoice& choice, const Visit& visit)
   {
     return visit(Kernel<StraightPath, Leapfrog, Scheme>{});
   }
-  switch (choice.integrator)
-  {
-    case Integrator::Rk4:
-      return visit(Kernel<RefractedPath, Rk4, SchemeApart>{});
-    case Integrator::Adaptive:
-      return visit(Kernel<RefractedPath, Adaptive, SchemeApart>{});
-#ifndef SCHLIEREN_WITHOUT_PAPER_METHODS
-    case Integrator::Euler:
-      return visit(Kernel<RefractedPath, Euler, SchemeApart>{});
-#endif
-    default:
-      return visit(Kernel<RefractedPath, Leapfrog, Scheme>{});
-  }
+  return choice.integrator == Integrator::Adaptive
+    ? visit(Kernel<RefractedPath, Adaptive, SchemeApart>{})
+    : visit(Kernel<RefractedPath, Leapfrog, Scheme>{});
 }
 
 /// The same with the scheme that is chosen, for the CPU.

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/March/MakeTask.h"
 
-#include "Rays/March/DisplacementBound.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -41,6 +39,42 @@ Vec3<double> scaleOfSteps(const Medium<Real>& medium, const Light& light, PathMo
   return { std::max(scale.x, least), std::max(scale.y, least), std::max(scale.z, least) };
 }
 
+/// The most of q that light has where it enters the data.
+double largestKickAtEntry(double largestNu, const Light& light)
+{
+  if (!light.faces.refract)
+  {
+    return largestNu;
+  }
+  // |sqrt(cosine^2 + 2 nu + nu^2) - cosine|, of nu of both signs.
+  const double cosine = light.smallestCosine();
+  const double square = cosine * cosine;
+  const double kick = largestNu * (2 + largestNu);
+  const double back = std::min(largestNu * std::max(0., 2 - largestNu), square);
+  return std::max(
+    kick / (cosine + std::sqrt(square + kick)), back / (cosine + std::sqrt(square - back)));
+}
+
+/// The most of q that a ray has which meets the steepest gradient all along its way, or, where that may turn it around,
+/// that of such a ray.
+template <class Real>
+double largestQOf(const Medium<Real>& medium, const Light& light)
+{
+  constexpr double turned = 2;
+  const double atEntry = largestKickAtEntry(medium.largestNu, light);
+  const double cosine = light.smallestCosine();
+  const double bend = (1 + medium.largestNu) * length(scaled(medium.slope, light.indexScale));
+  // The path s after which the ray has advanced by the depth at the latest, for the ray that is inclined most:
+  // ((1 - nu) cosine - bend at entry) s - bend s^2 / 2. At entry, that across the light counts.
+  const double across =
+    light.faces.refract ? std::sqrt(std::max(0., 1 - cosine * cosine)) * atEntry : 0;
+  const double forward = (1 - medium.largestNu) * cosine - across;
+  const double discriminant = forward * forward - 2 * bend * light.depth;
+  return forward > 0 && discriminant > 0
+    ? atEntry + across + bend * 2 * light.depth / (forward + std::sqrt(discriminant))
+    : atEntry + turned;
+}
+
 } // namespace
 
 template <class Real>
@@ -69,17 +103,8 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   const double step = voxels / fastest;
   task.step = static_cast<Real>(step);
   task.stepAtEdge = static_cast<Real>(std::min(settings.stepVoxels, 1.) / fastest);
-  constexpr double stepsAhead = 4;
-  const auto ahead = [&](double along, double scale)
-  { return std::llround(stepsAhead * step * along * scale); };
-  task.medium.ahead = ahead(light.w.z, light.indexScale.z) * task.medium.planeStride +
-    ahead(light.w.y, light.indexScale.y) * task.medium.rowStride +
-    ahead(light.w.x, light.indexScale.x);
-  const double bend = boundBySteepest(medium, light).bend;
-  const double largestQ =
-    largestKickAtEntry(medium.largestNu, light) + (std::isfinite(bend) ? bend : 2);
   constexpr double margin = 1.01; // for the integrator's error
-  task.largestQ = static_cast<Real>(margin * largestQ);
+  task.largestQ = static_cast<Real>(margin * largestQOf(medium, light));
   const double straightSteps =
     std::ceil(light.depth / light.smallestCosine() / task.stepAtEdge * finest) + 1;
   constexpr double largestLimit = std::numeric_limits<std::int32_t>::max();

@@ -57,7 +57,6 @@ struct March
   using Scheme = typename Kernel::Scheme;
   static constexpr int lanes = lanesOf<Real>;
   static constexpr bool isAdaptive = std::is_same_v<Integrator, Adaptive>;
-  static constexpr bool isExact = Integrator::order > 2; ///< about where it leaves, too
   using Batch = RayBatch<Number, lanes>;
 
   const RayTask<Number>& task;
@@ -244,9 +243,7 @@ struct March
     const Vec3<Real> lows = { fromArray<Real>(low[0]), fromArray<Real>(low[1]),
       fromArray<Real>(low[2]) };
     const Real far = wayOut(x, along, lows, lows + Vec3<Real>{ edges, edges, edges });
-    // Not quite there: on the side itself a method that looks there would see the next cube.
-    const Real within = Integrator::samplesBeyond ? far - Number(1e-3) * cruise : far;
-    step = isIn ? maximum(step, within) : step;
+    step = isIn ? maximum(step, far) : step;
     return true;
   }
 
@@ -453,26 +450,17 @@ struct March
     return trial.ray;
   }
 
-  /// The step that ends where the rays leave the grid, of those that do: Newton's method on all of it,
+  /// Adaptive: the step that ends where the rays leave the grid, of those that do: Newton's method on all of it,
   /// because a straight line to the grid's side would leave an error of second order. `longest`: of a ray that turns
   /// back into the grid.
   template <class Mask>
-  SCHLIEREN_HD Real endingOutside(Real step, const Real& longest, const Mask& leaving,
-    const Vec3<Real>& x, const Vec3<Real>& along) const
+  SCHLIEREN_HD Real endingOutside(Real step, const Real& longest, const Mask& leaving) const
   {
     constexpr int iterations = 3;
     for (int iteration = 0; iteration < iterations; ++iteration)
     {
-      Ray<Real> there = ray;
-      if constexpr (isAdaptive)
-      {
-        Real error{};
-        there = attempt(step, error);
-      }
-      else
-      {
-        advance(there, step, x + (Number(0.5) * step) * along);
-      }
+      Real error{};
+      const Ray<Real> there = attempt(step, error);
       const Real rest =
         wayOut(Path::position(there, light), Path::along(there, light), domainLow, domainHigh);
       // A parabola that meets the side does so behind half of the way to where its tangent does. Less is rounding, of
@@ -515,7 +503,7 @@ struct March
   SCHLIEREN_HD Mask areOutside(const Mask& leaving) const
   {
     // Of a step: nearer to the grid's side than this is there.
-    constexpr double near = isExact && std::is_same_v<Number, double> ? 1e-9 : 1e-3;
+    constexpr double near = isAdaptive && std::is_same_v<Number, double> ? 1e-9 : 1e-3;
     // Rounding of places counts, too: by that alone, a ray along the side may be far from where it leaves.
     const auto within = [](const Real& low, const Real& high, const Number& ofLeaf)
     { return roundingOf<Number> * minimum(high - low, Real{} + ofLeaf); };
@@ -636,9 +624,9 @@ struct March
       const Real longest = 2 * step;
       const Real out = minimum(step, wayOut(x, along, domainLow, domainHigh));
       step = next.leaving ? (out > 0 ? out : Real{}) : step;
-      if constexpr (isExact)
+      if constexpr (isAdaptive)
       {
-        step = endingOutside(step, longest, next.leaving, x, along);
+        step = endingOutside(step, longest, next.leaving);
       }
     }
     next.middle = x + (Number(0.5) * step) * along;

@@ -18,7 +18,7 @@ namespace schlieren
 /// Which kernel.
 struct KernelChoice
 {
-  PathModel path; ///< not Auto
+  PathModel path;
   Integrator integrator;
   Interpolation interpolation;
 };

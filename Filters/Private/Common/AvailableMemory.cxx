@@ -13,20 +13,12 @@
 #include <sstream>
 #include <stdexcept>
 
-#ifdef __linux__
-#include <sys/resource.h>
-#include <unistd.h>
-#endif
-
 namespace filters
 {
 
 namespace
 {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-#ifdef __linux__
 /// Reads a number from a file of lines like "name: number"; 0 if missing.
 double numberIn(const char* file, const std::string& name)
 {
@@ -43,34 +35,6 @@ double numberIn(const char* file, const std::string& name)
   }
   return 0;
 }
-
-/// Returns the machine's free memory and swap.
-double ofMachine()
-{
-  constexpr double kibibyte = 1024;
-  const double available = numberIn("/proc/meminfo", "MemAvailable:");
-  return available > 0 ? kibibyte * (available + numberIn("/proc/meminfo", "SwapFree:"))
-                       : unlimited;
-}
-
-/// Returns what a container's limit leaves; cached files count as free.
-double ofControlGroup(const char* limitFile, const char* statisticsFile, const char* inUse)
-{
-  double limit = 0;
-  return std::ifstream(limitFile) >> limit ? std::max(0., limit - numberIn(statisticsFile, inUse))
-                                           : unlimited;
-}
-
-/// Returns what a limit of the process's address space leaves.
-double ofProcess(int resource, double inUse)
-{
-  rlimit limit{};
-  return getrlimit(static_cast<__rlimit_resource>(resource), &limit) == 0 &&
-      limit.rlim_cur != RLIM_INFINITY
-    ? std::max(0., static_cast<double>(limit.rlim_cur) - inUse)
-    : unlimited;
-}
-#endif
 
 bool canAllocate(double bytes)
 {
@@ -99,19 +63,17 @@ std::string inWords(double bytes)
 //------------------------------------------------------------------------------
 double availableMemory()
 {
-#ifdef __linux__
-  double pages = 0, data = 0, skipped = 0;
-  std::ifstream statistics("/proc/self/statm"); // all, resident, shared, text, libraries, data
-  statistics >> pages >> skipped >> skipped >> skipped >> skipped >> data;
-  const auto page = static_cast<double>(sysconf(_SC_PAGESIZE));
-  return std::min({ ofMachine(),
-    ofControlGroup("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.stat", "anon"),
-    ofControlGroup("/sys/fs/cgroup/memory/memory.limit_in_bytes",
-      "/sys/fs/cgroup/memory/memory.stat", "total_rss"),
-    ofProcess(RLIMIT_AS, page * pages), ofProcess(RLIMIT_DATA, page * data) });
-#else
-  return unlimited;
-#endif
+  constexpr double kibibyte = 1024;
+  const double free = numberIn("/proc/meminfo", "MemAvailable:");
+  double available = free > 0 ? kibibyte * (free + numberIn("/proc/meminfo", "SwapFree:"))
+                              : std::numeric_limits<double>::infinity();
+  double limit = 0; // of a container; cached files count as free
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit)
+  {
+    const double inUse = numberIn("/sys/fs/cgroup/memory.stat", "anon");
+    available = std::min(available, std::max(0., limit - inUse));
+  }
+  return available;
 }
 
 //------------------------------------------------------------------------------

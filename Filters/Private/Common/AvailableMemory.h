@@ -11,11 +11,11 @@ class vtkAbstractArray;
 namespace filters
 {
 
-/// Returns the bytes that this process can still allocate, limited by the machine, the process and
-/// its control group; infinite where the system does not report them.
+/// Returns the bytes that the machine and the process's control group leave; infinite where the
+/// system does not report them.
 double availableMemory();
 
-/// Throws std::runtime_error if so many bytes are not available. Call it before allocating arrays,
+/// Throws std::runtime_error if so many bytes are not available, or not granted to the process. Call it before allocating arrays,
 /// because VTK may be built to abort when an allocation fails, as Debian's is. `what` begins the
 /// message, `remedy` ends it.
 void requireMemory(double bytes, const std::string& what, const std::string& remedy);

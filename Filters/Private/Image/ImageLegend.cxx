@@ -97,14 +97,11 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
 
 //------------------------------------------------------------------------------
 void addLegend(vtkImageData* output, const SchlierenSettings& settings,
-  const schlieren::Scene& scene, const schlieren::Image& image, bool isKept, bool isDifference,
-  ColorScale colors)
+  const schlieren::Scene& scene, const schlieren::Image& image, bool isKept, ColorScale colors)
 {
-  const schlieren::Legend legend =
-    isDifference ? schlieren::Legend{} : schlieren::legendOf(scene, image.kScale);
+  const schlieren::Legend legend = schlieren::legendOf(scene, image.kScale);
   std::string unit;
-  const std::string label =
-    isDifference ? "refracted less straight rays" : labelOf(legend, scene, unit);
+  const std::string label = labelOf(legend, scene, unit);
   const bool areWavelengths = legend.quantity == Quantity::Path && unit.empty();
   const double scale = areWavelengths ? 1 / scene.wavelength : 1;
 

@@ -17,9 +17,8 @@ namespace filters
 {
 
 /// Adds to the image's field data what a legend shows, see vtkSchlierenFilter. `isKept`: k is that of an earlier image;
-/// `isDifference`: see PathDifference; `colors`: how the image's light becomes bytes.
+/// `colors`: how the image's light becomes bytes.
 void addLegend(vtkImageData* output, const SchlierenSettings& settings,
-  const schlieren::Scene& scene, const schlieren::Image& image, bool isKept, bool isDifference,
-  ColorScale colors);
+  const schlieren::Scene& scene, const schlieren::Image& image, bool isKept, ColorScale colors);
 
 } // namespace filters

@@ -140,10 +140,6 @@ double largestLength(const schlieren::PixelArray<float>& pairs)
 void dropIdleBounds(schlieren::Image& image)
 {
   constexpr double unknown = std::numeric_limits<double>::infinity();
-  if (image.displacementBound >= 0.5 * image.frame.pixelSize * std::min(image.width, image.height))
-  {
-    image.displacementBound = unknown;
-  }
   if (image.skippingBound > 0 && image.skippingBound >= largestLength(image.deflection))
   {
     image.skippingBound = unknown;
@@ -151,7 +147,7 @@ void dropIdleBounds(schlieren::Image& image)
 }
 
 //------------------------------------------------------------------------------
-void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
+void setOutput(vtkImageData* output, schlieren::Image& image)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
   place(output, image.frame.origin[0], image.frame.origin[1], image.frame.pixelSize);
@@ -182,9 +178,7 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
   addFieldValue<vtkStringArray>(
     output, "Device", image.device == schlieren::Device::Cuda ? "CUDA" : "CPU");
   addFieldValue<vtkStringArray>(output, "PathModel",
-    isDifference                                          ? "Difference"
-      : image.pathModel == schlieren::PathModel::Straight ? "Straight"
-                                                          : "Refracted");
+    image.pathModel == schlieren::PathModel::Straight ? "Straight" : "Refracted");
   addFieldValue<vtkDoubleArray>(output, "KScale", image.kScale);
   addFieldValue<vtkDoubleArray>(output, "UndisturbedLevel", image.undisturbedLevel);
   addFieldValue<vtkDoubleArray>(output, "SaturatedShare", image.saturatedFraction);
@@ -197,10 +191,6 @@ void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference)
   addFieldValue<vtkTypeInt64Array>(output, "RaysLost", image.raysLost);
   addFieldValue<vtkTypeInt64Array>(output, "StepsTaken", image.stepsTaken);
   addWithUnit(output, "TraceSeconds", image.traceSeconds, "s");
-  if (std::isfinite(image.displacementBound))
-  {
-    addWithUnit(output, "DisplacementBound", image.displacementBound, dataUnits);
-  }
   if (std::isfinite(image.skippingBound))
   {
     addWithUnit(output, "SkippingBound", image.skippingBound, "rad");

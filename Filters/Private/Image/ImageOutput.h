@@ -20,8 +20,7 @@ void dropIdleBounds(schlieren::Image& image);
 
 /// Makes `output` the image with the arrays and field data that vtkSchlierenFilter promises, except
 /// Color, Grid, MediumDimensions and infinite bounds. Moves all of the image's arrays but `color`.
-/// `isDifference`: see PathDifference.
-void setOutput(vtkImageData* output, schlieren::Image& image, bool isDifference);
+void setOutput(vtkImageData* output, schlieren::Image& image);
 
 /// The mapping of light to the bytes of Color.
 enum class ColorScale

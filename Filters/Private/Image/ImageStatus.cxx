@@ -60,22 +60,17 @@ std::string deviceInWords(const schlieren::Image& image)
   return "CPU (" + threads + ranks + ")";
 }
 
-/// Describes the path model and, for straight rays, the bound on their displacement, if useful.
+/// Describes the path model.
 /// Omits MomentumDrift, which does not bound errors of direction.
 std::string accuracyInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
-  if (image.pathModel == schlieren::PathModel::Refracted)
+  if (image.pathModel == schlieren::PathModel::Straight)
   {
-    return image.integrator == scene.integrator
-      ? "refracted rays"
-      : "refracted rays, with short steps where the index jumps";
+    return "straight rays, bending left out";
   }
-  constexpr double least = 0.01; // pixels
-  constexpr double most = 10;
-  const double pixels = image.displacementBound / image.frame.pixelSize;
-  return pixels < least ? "straight rays, displaced by less than " + textOf(least, 2) + " pixels"
-    : !(pixels <= most) ? "straight rays, bending left out"
-                        : "straight rays, displaced by up to " + textOf(pixels, 2) + " pixels";
+  return image.integrator == scene.integrator
+    ? "refracted rays"
+    : "refracted rays, with short steps where the index jumps";
 }
 
 } // namespace

@@ -70,25 +70,13 @@ schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbI
 schlieren::LightModel lightModelFrom(const SchlierenSettings& settings)
 {
   const auto model = static_cast<schlieren::LightModel>(settings.LightModel);
-  const bool isOfRays =
-    model == schlieren::LightModel::Rays || settings.PathModel == AccuracySettings::differencePath;
-  if (isOfRays && settings.Cutoff == static_cast<int>(schlieren::Cutoff::PhaseContrast))
+  if (model == schlieren::LightModel::Rays &&
+    settings.Cutoff == static_cast<int>(schlieren::Cutoff::PhaseContrast))
   {
     throw std::runtime_error("Cutoff is Phase Contrast, which shows the phases of waves, but rays "
-                             "have none. Set LightModel to Waves and PathModel to Auto or "
-                             "Refracted, or Cutoff to another technique.");
+                             "have none. Set LightModel to Waves, or Cutoff to another technique.");
   }
-  if (settings.PathModel != AccuracySettings::differencePath)
-  {
-    return model;
-  }
-  if (model == schlieren::LightModel::Waves)
-  {
-    throw std::runtime_error("LightModel is Waves, but PathModel is Difference, which compares "
-                             "rays. Set PathModel to Auto or "
-                             "Refracted, or LightModel to Rays.");
-  }
-  return schlieren::LightModel::Rays;
+  return model;
 }
 
 /// Returns the view of the full image.
@@ -222,20 +210,24 @@ schlieren::Scene sceneFrom(
   scene.memoryBudget = static_cast<std::size_t>(settings.MemoryBudget) << 20;
   scene.samplesPerPixel = settings.SamplesPerPixel;
   scene.seed = static_cast<std::uint32_t>(settings.Seed);
-  scene.pathModel = settings.PathModel == AccuracySettings::differencePath
-    ? schlieren::PathModel::Refracted
-    : static_cast<schlieren::PathModel>(settings.PathModel);
-  scene.integrator = static_cast<schlieren::Integrator>(settings.Integrator);
+  scene.pathModel = static_cast<schlieren::PathModel>(settings.PathModel);
   scene.stepSize = settings.StepSize;
   scene.homogeneityTolerance = settings.HomogeneityTolerance;
-  scene.interpolation = static_cast<schlieren::Interpolation>(settings.Interpolation);
   scene.precision = static_cast<schlieren::Precision>(settings.Precision);
-  scene.adaptiveTolerance = settings.AdaptiveTolerance;
-  scene.pathTolerance = settings.PathTolerance;
   scene.mediumTolerance = settings.MediumTolerance;
   scene.targetError = settings.AutoTargetError
     ? schlieren::unseenError(schlieren::techniqueOf(scene.cutoff))
     : settings.TargetError;
+  // Longer steps hide what cubic splines gain.
+  constexpr double longestOfCubic = 1;
+  const bool hasTarget = scene.targetError > 0;
+  scene.interpolation = hasTarget || scene.stepSize <= longestOfCubic
+    ? schlieren::Interpolation::Cubic
+    : schlieren::Interpolation::Quadratic;
+  // A target error chooses steps itself.
+  scene.integrator = !hasTarget && scene.precision == schlieren::Precision::Double
+    ? schlieren::Integrator::Adaptive
+    : schlieren::Integrator::Leapfrog;
   scene.errorNorm = static_cast<schlieren::ErrorNorm>(settings.TargetNorm);
   scene.estimatesErrors = settings.ErrorEstimate;
   scene.estimatesDataError = settings.DataError;

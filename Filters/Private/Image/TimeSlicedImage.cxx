@@ -39,69 +39,30 @@ schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
   return with;
 }
 
-void add(schlieren::Work& sum, const schlieren::Work& work)
-{
-  sum.mediumBuilds += work.mediumBuilds;
-  sum.raySets += work.raySets;
-  sum.raysTraced += work.raysTraced;
-}
-
-PathDifference::MonitorOf limitedBy(const schlieren::Monitor& monitor, double seconds)
-{
-  return [monitor, seconds](double fraction) { return limited(monitor, fraction * seconds); };
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
-TimeSlicedImage::TimeSlicedImage()
-{
-  this->Bench.setMedia(mediaOfProcess());
-  this->StraightBench.setMedia(mediaOfProcess());
-}
+TimeSlicedImage::TimeSlicedImage() { this->Bench.setMedia(mediaOfProcess()); }
 
 //------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,
-  const schlieren::Scene& scene, Paths paths, double seconds, const schlieren::Monitor& monitor)
+  const schlieren::Scene& scene, double seconds, const schlieren::Monitor& monitor)
 {
   this->Scene = scene;
-  this->Difference.Cancel();
-  const bool wasDifference = this->IsDifference;
-  this->IsDifference = paths == Paths::Difference;
-  if (wasDifference && !this->IsDifference) // frees a cache without use
-  {
-    add(this->WorkBefore, this->StraightBench.work());
-    this->StraightBench = {};
-    this->StraightBench.setMedia(mediaOfProcess());
-  }
   this->RaysBefore = this->GetWork().raysTraced;
-  return this->Noted(this->IsDifference
-      ? this->Difference.Begin(field, scene, limitedBy(monitor, seconds))
-      : this->Bench.render(field, scene, limited(monitor, seconds)));
+  return this->Noted(this->Bench.render(field, scene, limited(monitor, seconds)));
 }
 
 //------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Resume(double seconds, const schlieren::Monitor& monitor)
 {
-  return this->Noted(this->Difference.IsUnfinished()
-      ? this->Difference.Resume(limitedBy(monitor, seconds))
-      : this->Bench.resume(limited(monitor, seconds)));
+  return this->Noted(this->Bench.resume(limited(monitor, seconds)));
 }
 
 //------------------------------------------------------------------------------
 void TimeSlicedImage::SetProcesses(schlieren::Processes* processes)
 {
   this->Bench.setProcesses(processes);
-  this->StraightBench.setProcesses(processes);
-}
-
-//------------------------------------------------------------------------------
-schlieren::Work TimeSlicedImage::GetWork() const
-{
-  schlieren::Work work = this->WorkBefore;
-  add(work, this->Bench.work());
-  add(work, this->StraightBench.work());
-  return work;
 }
 
 //------------------------------------------------------------------------------
@@ -118,8 +79,7 @@ schlieren::Image TimeSlicedImage::Noted(schlieren::Image image)
 //------------------------------------------------------------------------------
 std::string TimeSlicedImage::GetStatus(const schlieren::Image& image) const
 {
-  return statusInWords(image, this->Scene, this->RaysPerSecond) +
-    (this->IsDifference ? " less straight ones" : "");
+  return statusInWords(image, this->Scene, this->RaysPerSecond);
 }
 
 namespace
@@ -141,8 +101,7 @@ std::string driftInWords(const schlieren::Image& image)
     textOf(image.steepestChange, 3) + " over one voxel, near (" + textOf(at[0], 3) + ", " +
     textOf(at[1], 3) + ", " + textOf(at[2], 3) +
     "), as at a face of glass. Remove what is no fluid with Threshold (and set Outside to Passes), "
-    "set Integrator to Adaptive and Interpolation to Quadratic, or make the jump several voxels "
-    "wide.";
+    "set StepSize to less, or make the jump several voxels wide.";
 }
 
 /// Warns if the places of fringes are rounded visibly.

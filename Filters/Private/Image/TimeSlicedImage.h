@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Image/PathDifference.h"
-
 #include "Schlieren.h"
 
 #include <array>
@@ -19,27 +17,17 @@ class TimeSlicedImage
 {
 public:
   TimeSlicedImage();
-  TimeSlicedImage(const TimeSlicedImage&) = delete; // Difference refers to the benches
-  TimeSlicedImage& operator=(const TimeSlicedImage&) = delete;
-
-  enum class Paths
-  {
-    OfScene,
-    Difference ///< see PathDifference
-  };
 
   /// `seconds`: approximate limit for rays and light, see schlieren::Image::finished; 0: none.
-  schlieren::Image Begin(const schlieren::Field& field, const schlieren::Scene& scene, Paths paths,
+  schlieren::Image Begin(const schlieren::Field& field, const schlieren::Scene& scene,
     double seconds, const schlieren::Monitor& monitor);
   schlieren::Image Resume(double seconds, const schlieren::Monitor& monitor);
-
-  void Cancel() { this->Difference.Cancel(); }
 
   /// Sets the other processes that trace rays: see schlieren::Bench.
   void SetProcesses(schlieren::Processes* processes);
 
-  schlieren::Work GetWork() const;                                 ///< sum over all images
-  const schlieren::Scene& GetScene() const { return this->Scene; } ///< the last one
+  const schlieren::Work& GetWork() const { return this->Bench.work(); } ///< sum over all images
+  const schlieren::Scene& GetScene() const { return this->Scene; }      ///< the last one
 
   /// Returns a status in one line; see statusInWords().
   std::string GetStatus(const schlieren::Image& image) const;
@@ -51,10 +39,6 @@ private:
   schlieren::Image Noted(schlieren::Image image);
 
   schlieren::Bench Bench;
-  schlieren::Bench StraightBench; // for differences
-  PathDifference Difference{ this->Bench, this->StraightBench };
-  bool IsDifference = false;
-  schlieren::Work WorkBefore; // of replaced benches
   schlieren::Scene Scene;
   std::int64_t RaysBefore = 0;            // at the start of this image
   double RaysPerSecond = 0;               // at the last tracing

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <utility>
+#include <vector>
 
 namespace filters
 {
@@ -29,19 +29,6 @@ double relativeRounding(const std::vector<Point>& points)
   return 5e-7;
 }
 
-std::vector<double> mergingTolerances(
-  const std::vector<Point>& points, const std::vector<double>& sizes, double rounding)
-{
-  constexpr double part = 1e-3;
-  std::vector<double> tolerances(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const double rounded = rounding * norm(points[i]);
-    tolerances[i] = std::isfinite(sizes[i]) ? std::max(part * sizes[i], rounded) : rounded;
-  }
-  return tolerances;
-}
-
 namespace
 {
 
@@ -51,74 +38,95 @@ struct Placed
   double along, across;
   std::int32_t number;
 
-  bool operator<(const Placed& other) const { return this->along < other.along; }
+  bool operator<(const Placed& other) const
+  {
+    return this->along < other.along || (this->along == other.along && this->number < other.number);
+  }
 };
 
-/// Points, sorted, whose tolerances differ by less than a factor of 2.
+/// Points, sorted, whose tolerances differ by less than a factor of 2. Points with large ones would
+/// be compared with all points of fine regions.
 struct Class
 {
   double most = 0; // largest tolerance
   std::vector<Placed> points;
 };
 
-/// Separates points with large tolerances, which would be compared with all points of fine regions.
-std::vector<Class> classesOf(
-  const std::vector<Point>& points, const std::vector<double>& tolerances)
+/// Returns the distances within which points coincide.
+std::vector<double> tolerancesOf(const std::vector<Point>& points, const std::vector<double>& sizes)
 {
-  // Takes directions in which points of plausible meshes do not share coordinates.
-  const Point along = unit({ 1, 0.6180339887, 0.2360679775 });
-  const Point across = unit({ -0.4142135624, 1, 0.7320508076 });
-  std::map<int, Class> classes;
+  constexpr double part = 1e-3;
+  const double rounding = relativeRounding(points);
+  std::vector<double> tolerances(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const double tolerance = tolerances[i];
-    Class& of = classes[tolerance > 0 ? std::ilogb(tolerance) : std::numeric_limits<int>::min()];
-    of.most = std::max(of.most, tolerance);
-    of.points.push_back(
-      { dot(along, points[i]), dot(across, points[i]), static_cast<std::int32_t>(i) });
+    const double size = std::isfinite(sizes[i]) ? sizes[i] : 0;
+    tolerances[i] = std::max(part * size, rounding * norm(points[i]));
   }
-  std::vector<Class> result;
-  for (auto& one : classes)
+  return tolerances;
+}
+
+/// Sorts the points along a direction in which those of plausible meshes share no coordinates.
+std::vector<Placed> sorted(const std::vector<Point>& points)
+{
+  const Point along = unit({ 1, 0.6180339887, 0.2360679775 });
+  const Point across = unit({ -0.4142135624, 1, 0.7320508076 });
+  std::vector<Placed> placed(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    sortInParallel(one.second.points);
-    result.push_back(std::move(one.second));
+    placed[i] = { dot(along, points[i]), dot(across, points[i]), static_cast<std::int32_t>(i) };
   }
-  return result;
+  sortInParallel(placed);
+  return placed;
 }
 
 } // namespace
 
 std::vector<std::int32_t> coincidentPoints(
-  const std::vector<Point>& points, const std::vector<double>& tolerances)
+  const std::vector<Point>& points, const std::vector<double>& sizes)
 {
-  const std::vector<Class> classes = classesOf(points, tolerances);
+  const auto at = [](std::int32_t number) { return static_cast<std::size_t>(number); };
+  std::vector<double> tolerances = tolerancesOf(points, sizes);
   Classes ofPoints(points.size());
-  const auto compare = [&](const Placed& one, const Placed& other)
+  // Only one of equal points, the first, is compared with others.
+  std::map<int, Class> classes;
+  std::vector<Placed> all = sorted(points);
+  for (std::size_t next = 0; next < all.size();)
   {
-    const auto i = static_cast<std::size_t>(one.number), j = static_cast<std::size_t>(other.number);
-    if (norm(points[i] - points[j]) <= std::min(tolerances[i], tolerances[j]))
+    const Placed first = all[next];
+    double& tolerance = tolerances[at(first.number)];
+    for (++next; next < all.size() && points[at(all[next].number)] == points[at(first.number)];
+         ++next)
     {
-      ofPoints.join(i, j);
+      ofPoints.join(at(first.number), at(all[next].number));
+      tolerance = std::min(tolerance, tolerances[at(all[next].number)]);
     }
-  };
+    Class& of = classes[tolerance > 0 ? std::ilogb(tolerance) : std::numeric_limits<int>::min()];
+    of.most = std::max(of.most, tolerance);
+    of.points.push_back(first);
+  }
+  all = {};
   for (auto fine = classes.begin(); fine != classes.end(); ++fine)
   {
+    const double reach = fine->second.most;
     for (auto coarse = fine; coarse != classes.end(); ++coarse)
     {
-      auto first = coarse->points.begin();
-      const auto end = coarse->points.end();
-      for (auto one = fine->points.begin(); one != fine->points.end(); ++one)
+      auto first = coarse->second.points.begin();
+      const auto end = coarse->second.points.end();
+      for (auto one = fine->second.points.begin(); one != fine->second.points.end(); ++one)
       {
-        while (first != end && first->along < one->along - fine->most)
+        while (first != end && first->along < one->along - reach)
         {
           ++first;
         }
         for (auto other = fine == coarse ? one + 1 : first;
-             other != end && other->along <= one->along + fine->most; ++other)
+             other != end && other->along <= one->along + reach; ++other)
         {
-          if (std::abs(other->across - one->across) <= fine->most)
+          const std::size_t i = at(one->number), j = at(other->number);
+          if (std::abs(other->across - one->across) <= reach &&
+            norm(points[i] - points[j]) <= std::min(tolerances[i], tolerances[j]))
           {
-            compare(*one, *other);
+            ofPoints.join(i, j);
           }
         }
       }

@@ -41,14 +41,12 @@ private:
   std::vector<std::size_t> Roots;
 };
 
-/// Returns the distance within which a point coincides with others: 1e-3 of the smallest edge or
-/// cell beside it (infinite: none), but at least the rounding of coordinates.
-std::vector<double> mergingTolerances(
-  const std::vector<Point>& points, const std::vector<double>& sizes, double rounding);
-
-/// Maps each point to the one that represents all that coincide with it.
+/// Maps each point to the first one that represents all that coincide with it: equal ones, and
+/// those within 1e-3 of the smaller of their `sizes` (of the smallest edge or cell beside a point;
+/// infinite: none), or within the rounding of coordinates. No distance holds for all points, since
+/// layers at walls may be thinner than that.
 std::vector<std::int32_t> coincidentPoints(
-  const std::vector<Point>& points, const std::vector<double>& tolerances);
+  const std::vector<Point>& points, const std::vector<double>& sizes);
 
 /// Returns the relative rounding of coordinates: that of single precision where all fit into it.
 double relativeRounding(const std::vector<Point>& points);

@@ -4,24 +4,18 @@
 
 #include "Common/AvailableMemory.h"
 #include "Common/CellTypes.h"
-#include "Input/InputDescription.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCell.h"
-#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkIdList.h"
 #include "vtkImageData.h"
-#include "vtkLinearExtrusionFilter.h"
 #include "vtkMatrix3x3.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -29,7 +23,6 @@
 #include <atomic>
 #include <cmath>
 #include <iomanip>
-#include <limits>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -39,9 +32,6 @@ namespace filters
 
 namespace
 {
-
-/// Relative thickness of a plane that rounding in single precision explains.
-constexpr double planeTolerance = 1e-6;
 
 /// Returns the axis without extent, -1 if there is none. Throws if there are several.
 int onlyFlatAxis(const bool isFlat[3], const Source& source)
@@ -54,16 +44,10 @@ int onlyFlatAxis(const bool isFlat[3], const Source& source)
   return isFlat[0] ? 0 : (isFlat[1] ? 1 : (isFlat[2] ? 2 : -1));
 }
 
-/// Transforms a point to the axes of directionAcross().
-std::array<double, 3> turned(const double x[3], int flat)
+/// Returns the shorter of the sides of a plane across an axis.
+double shorterSide(const double lengths[3], int flat)
 {
-  const std::array<double, 9> d = directionAcross(flat);
-  std::array<double, 3> own{};
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    own[i] = d[i] * x[0] + d[3 + i] * x[1] + d[6 + i] * x[2];
-  }
-  return own;
+  return std::min(lengths[flat == 0 ? 1 : 0], lengths[flat == 2 ? 1 : 2]);
 }
 
 /// A plane across an axis, into which points that miss it by rounding are moved.
@@ -82,29 +66,33 @@ struct Plane
   }
 };
 
+/// Lists the points of one layer as those of two, which are `stride` apart.
+void addTwice(vtkIdType points, vtkIdType stride, vtkIdList* ids)
+{
+  for (vtkIdType point = 0; point < 2 * points; ++point)
+  {
+    ids->InsertNextId(point / (2 * stride) * stride + point % stride);
+  }
+}
+
 /// Keeps structured data structured, whose faces are found without a search.
 void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, const Plane& plane, Remade& to)
 {
   const auto across =
     static_cast<std::size_t>(std::find(points.begin(), points.end(), 1) - points.begin());
-  const std::array<int, 3> before = points;
+  vtkIdType stride = 1;
+  for (std::size_t axis = 0; axis < across; ++axis)
+  {
+    stride *= points[axis];
+  }
   points[across] = 2;
   vtkNew<vtkPoints> places;
   places->SetDataTypeToDouble();
-  for (int k = 0; k < points[2]; ++k)
+  addTwice(data->GetNumberOfPoints(), stride, to.points);
+  for (vtkIdType point = 0; point < to.points->GetNumberOfIds(); ++point)
   {
-    for (int j = 0; j < points[1]; ++j)
-    {
-      for (int i = 0; i < points[0]; ++i)
-      {
-        std::array<int, 3> at{ i, j, k };
-        const double offset = plane.depth * (at[across] - 0.5);
-        at[across] = 0;
-        const vtkIdType point = (vtkIdType{ at[2] } * before[1] + at[1]) * before[0] + at[0];
-        plane.add(data, point, offset, places);
-        to.points->InsertNextId(point);
-      }
-    }
+    const double side = point / stride % 2 == 0 ? -0.5 : 0.5;
+    plane.add(data, to.points->GetId(point), plane.depth * side, places);
   }
   auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
   grid->SetDimensions(points.data());
@@ -173,50 +161,6 @@ void extrudeCells(vtkDataSet* data, const Plane& plane, Remade& to)
   to.data = mesh;
 }
 
-/// Copies the values of the points or cells that others were made of.
-vtkSmartPointer<vtkDataArray> chosenValues(vtkDataArray* from, vtkIdList* ids)
-{
-  auto to = vtkSmartPointer<vtkDataArray>::Take(from->NewInstance());
-  to->SetName(from->GetName());
-  to->SetNumberOfComponents(from->GetNumberOfComponents());
-  setTuples(to, ids->GetNumberOfIds());
-  from->GetTuples(ids, to);
-  return to;
-}
-
-/// Turns a surface to the axes of directionAcross(), and extrudes one that lies in the plane.
-vtkSmartPointer<vtkPolyData> turnedSurface(vtkPolyData* surface, int flat, double depth)
-{
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  result->ShallowCopy(surface);
-  vtkNew<vtkPoints> places;
-  places->SetDataTypeToDouble();
-  double bounds[6];
-  surface->GetBounds(bounds);
-  vtkBoundingBox box(bounds);
-  const bool isPlane =
-    box.GetLength(flat) <= planeTolerance * box.GetMaxLength() && surface->GetNumberOfPolys() > 0;
-  for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
-  {
-    double x[3];
-    surface->GetPoint(point, x);
-    const std::array<double, 3> own = turned(x, flat);
-    places->InsertNextPoint(own[0], own[1], own[2] - (isPlane ? depth : 0));
-  }
-  result->SetPoints(places);
-  if (!isPlane)
-  {
-    return result;
-  }
-  vtkNew<vtkLinearExtrusionFilter> prism;
-  prism->SetInputData(result);
-  prism->SetExtrusionTypeToVectorExtrusion();
-  prism->SetVector(0, 0, 2 * depth);
-  prism->CappingOn();
-  prism->Update();
-  return prism->GetOutput();
-}
-
 } // namespace
 
 std::array<double, 9> directionAcross(int flat)
@@ -232,29 +176,15 @@ std::array<double, 9> directionAcross(int flat)
   }
 }
 
-Leaf Remade::leafOf(const Leaf& from) const
+std::array<double, 3> turned(const double x[3], int flat)
 {
-  Leaf one{ this->data, {}, from.ofCells, from.input };
-  for (vtkDataArray* array : from.arrays)
+  const std::array<double, 9> d = directionAcross(flat);
+  std::array<double, 3> own{};
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    const auto values = chosenValues(array, from.ofCells ? this->cells : this->points);
-    one.data->GetAttributes(from.ofCells ? vtkDataObject::CELL : vtkDataObject::POINT)
-      ->AddArray(values);
-    one.arrays.push_back(values);
+    own[i] = d[i] * x[0] + d[3 + i] * x[1] + d[6 + i] * x[2];
   }
-  if (vtkUnsignedCharArray* ghosts = from.data->GetCellGhostArray())
-  {
-    one.data->GetCellData()->AddArray(chosenValues(ghosts, this->cells));
-  }
-  for (const char* name : { vtkDataSetAttributes::GhostArrayName(), maskName, transparentName })
-  {
-    vtkDataArray* flags = from.data->GetPointData()->GetArray(name);
-    if (flags && !one.data->GetPointData()->HasArray(name))
-    {
-      one.data->GetPointData()->AddArray(chosenValues(flags, this->points));
-    }
-  }
-  return one;
+  return own;
 }
 
 Source extruded(const Source& source, int flat, double depth)
@@ -262,16 +192,8 @@ Source extruded(const Source& source, int flat, double depth)
   Source result = source;
   result.image = nullptr;
   result.leaves.clear();
-  vtkBoundingBox box;
-  for (const Leaf& leaf : source.leaves)
-  {
-    if (dimensionOf(leaf.data) == 2)
-    {
-      box.AddBounds(leaf.data->GetBounds());
-    }
-  }
   double middle[3];
-  box.GetCenter(middle);
+  boundsOfPlanes(source).GetCenter(middle);
   const Plane plane{ flat, turned(middle, flat)[2], depth };
   for (const Leaf& leaf : source.leaves)
   {
@@ -289,30 +211,6 @@ Source extruded(const Source& source, int flat, double depth)
     result.made.emplace_back(made.data);
   }
   return result;
-}
-
-vtkSmartPointer<vtkDataObject> changedBodies(
-  vtkDataObject* bodies, const std::function<vtkSmartPointer<vtkPolyData>(vtkPolyData*)>& change)
-{
-  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (vtkDataObject* leaf : leavesOf(bodies))
-  {
-    auto* surface = vtkPolyData::SafeDownCast(leaf);
-    if (!surface)
-    {
-      return bodies; // their reader reports the error
-    }
-    blocks->SetBlock(blocks->GetNumberOfBlocks(), change(surface));
-  }
-  return blocks;
-}
-
-vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat, double depth)
-{
-  return bodies && flat >= 0
-    ? changedBodies(
-        bodies, [flat, depth](vtkPolyData* surface) { return turnedSurface(surface, flat, depth); })
-    : vtkSmartPointer<vtkDataObject>(bodies);
 }
 
 int dimensionOfCell(vtkDataSet* data, vtkIdType cell)
@@ -336,6 +234,19 @@ int dimensionOf(vtkDataSet* data)
   return dimension;
 }
 
+vtkBoundingBox boundsOfPlanes(const Source& source)
+{
+  vtkBoundingBox box;
+  for (const Leaf& leaf : source.leaves)
+  {
+    if (dimensionOf(leaf.data) == 2)
+    {
+      box.AddBounds(leaf.data->GetBounds());
+    }
+  }
+  return box;
+}
+
 int flatAxisOf(const Source& source)
 {
   if (source.image)
@@ -345,19 +256,13 @@ int flatAxisOf(const Source& source)
     return onlyFlatAxis(isFlat, source);
   }
   int dimension = 0;
-  vtkBoundingBox box;
   for (const Leaf& leaf : source.leaves)
   {
-    const int ofLeaf = dimensionOf(leaf.data);
-    if (ofLeaf == 3)
+    dimension = std::max(dimension, dimensionOf(leaf.data));
+    if (dimension == 3)
     {
       return -1;
     }
-    if (ofLeaf == 2)
-    {
-      box.AddBounds(leaf.data->GetBounds());
-    }
-    dimension = std::max(dimension, ofLeaf);
   }
   const std::string problem = "The input has no 3-D cells with the " + source.label +
     ", so there is no volume for light to cross";
@@ -371,20 +276,18 @@ int flatAxisOf(const Source& source)
   {
     throw std::runtime_error(problem + ". Use 3-D data, or 2-D data in one plane.");
   }
-  double lengths[3];
-  box.GetLengths(lengths);
+  const vtkBoundingBox box = boundsOfPlanes(source);
   bool isFlat[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    isFlat[axis] = lengths[axis] <= planeTolerance * box.GetMaxLength();
+    isFlat[axis] = box.GetLength(axis) <= planeTolerance * box.GetMaxLength();
   }
   const int flat = onlyFlatAxis(isFlat, source);
   if (flat < 0)
   {
     throw std::runtime_error(problem +
       ", and its surfaces do not lie in one plane across the x, y or z axis. Use volume data, or "
-      "turn "
-      "a plane (Transform) until it does: then it is extruded.");
+      "turn a plane (Transform) until it does: then it is extruded.");
   }
   return flat;
 }
@@ -395,20 +298,12 @@ double depthOfImage(vtkImageData* image, int flat, double given)
   {
     return given;
   }
-  int extent[6];
-  image->GetExtent(extent);
-  double spacing[3];
-  image->GetSpacing(spacing);
-  double shorter = std::numeric_limits<double>::infinity();
+  double lengths[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (axis != flat)
-    {
-      shorter =
-        std::min(shorter, std::abs(spacing[axis]) * (extent[2 * axis + 1] - extent[2 * axis]));
-    }
+    lengths[axis] = std::abs(image->GetSpacing()[axis]) * (image->GetDimensions()[axis] - 1);
   }
-  return shorter;
+  return shorterSide(lengths, flat);
 }
 
 double depthOf(const Source& source, int flat)
@@ -421,20 +316,9 @@ double depthOf(const Source& source, int flat)
   {
     return source.depth;
   }
-  vtkBoundingBox box;
-  for (const Leaf& leaf : source.leaves)
-  {
-    if (dimensionOf(leaf.data) == 2)
-    {
-      box.AddBounds(leaf.data->GetBounds());
-    }
-  }
-  double shorter = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    shorter = axis == flat ? shorter : std::min(shorter, box.GetLength(axis));
-  }
-  return shorter;
+  double lengths[3];
+  boundsOfPlanes(source).GetLengths(lengths);
+  return shorterSide(lengths, flat);
 }
 
 std::string warningOfExtrusion(const Source& source, int flat)
@@ -477,19 +361,13 @@ void extrudeArrays(vtkImageData* image, int flat)
   image->GetDimensions(points);
   const vtkIdType stride =
     flat == 0 ? 1 : static_cast<vtkIdType>(points[0]) * (flat == 1 ? 1 : points[1]);
-  const vtkIdType layers = image->GetNumberOfPoints() / stride / 2; // rows of one layer
+  vtkNew<vtkIdList> ids;
+  addTwice(image->GetNumberOfPoints() / 2, stride, ids);
   vtkPointData* arrays = image->GetPointData();
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = arrays->GetArray(i);
-    auto single = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
-    single->DeepCopy(array);
-    setTuples(array, image->GetNumberOfPoints());
-    for (vtkIdType run = 0; run < layers; ++run)
-    {
-      array->InsertTuples(2 * run * stride, stride, run * stride, single);
-      array->InsertTuples((2 * run + 1) * stride, stride, run * stride, single);
-    }
+    array->ShallowCopy(chosenValues(array, ids));
   }
 }
 

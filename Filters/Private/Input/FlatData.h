@@ -4,19 +4,19 @@
 
 #include "Common/CellTypes.h"
 #include "Input/RefractivitySource.h"
+#include "Input/Remade.h"
 
-#include "vtkIdList.h"
-#include "vtkNew.h"
+#include "vtkBoundingBox.h"
 #include "vtkType.h"
 
 #include <array>
-#include <functional>
-
-class vtkPolyData;
 
 /// Extrudes two-dimensional data across their plane, half of the depth to each side.
 namespace filters
 {
+
+/// Relative thickness of a plane that rounding in single precision explains.
+constexpr double planeTolerance = 1e-6;
 
 /// Returns 0 to 3. vtkCellTypeUtilities::GetDimension makes a cell for each call, which would take
 /// longer than to resample the mesh.
@@ -24,6 +24,9 @@ int dimensionOfCell(vtkDataSet* data, vtkIdType cell);
 
 /// Returns the largest dimension of the cells.
 int dimensionOf(vtkDataSet* data);
+
+/// Returns the bounds of all datasets of 2-D cells.
+vtkBoundingBox boundsOfPlanes(const Source& source);
 
 /// Returns the axis (of an image: its own) across the plane of all cells, or -1 if there are 3-D
 /// cells. Throws for lines, points, and tilted or curved surfaces.
@@ -42,25 +45,11 @@ std::string warningOfExtrusion(const Source& source, int flat);
 /// the other axes; -1: the identity.
 std::array<double, 9> directionAcross(int flat);
 
-/// A modified dataset, and the points and cells of the original that it was made of.
-struct Remade
-{
-  vtkSmartPointer<vtkDataSet> data;
-  vtkNew<vtkIdList> points, cells;
-
-  /// Returns a leaf with the original's values and masks.
-  Leaf leafOf(const Leaf& from) const;
-};
+/// Transforms a point to these axes.
+std::array<double, 3> turned(const double x[3], int flat);
 
 /// Replaces flat cells by 3-D ones, in the axes of directionAcross().
 Source extruded(const Source& source, int flat, double depth);
-
-/// Applies `change` to each surface among bodies.
-vtkSmartPointer<vtkDataObject> changedBodies(
-  vtkDataObject* bodies, const std::function<vtkSmartPointer<vtkPolyData>(vtkPolyData*)>& change);
-
-/// Turns bodies to these axes and extrudes those that lie in the plane. Null if there are none.
-vtkSmartPointer<vtkDataObject> turnedBodies(vtkDataObject* bodies, int flat, double depth);
 
 /// Adds a second layer to a grid of one layer.
 void extrudeGrid(vtkImageData* grid, int flat, double depth);

@@ -30,8 +30,9 @@ bool areOneLayer(const std::vector<LayerBounds>& pieces);
 /// A layer between two planes that meet in an axis.
 struct Wedge
 {
-  int axis, across; // along the wedge, and nearest to the normal of its middle plane
-  double degrees;
+  int axis, across;             // along the wedge, and nearest to the normal of its middle plane
+  std::array<double, 2> angles; // of the planes, around the axis
+  double degrees;               // between them
 };
 
 /// Returns nothing if the 3-D cells are no wedge.

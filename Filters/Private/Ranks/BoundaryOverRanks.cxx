@@ -84,8 +84,7 @@ BoundaryOverRanks boundaryOfImage(
     ImagePiece::ambientOf(std::move(all.outer)) };
 }
 
-/// Uses what is kept if the meshes are equal, and so are the sheets, which are found by values.
-/// Returns false if not.
+/// Uses what is kept if the meshes are equal. Returns false if not.
 bool reuse(const Ranks& ranks, const MeshPiece& piece, const std::vector<std::uint64_t>& keys,
   KeptMesh& kept, std::vector<double>& values)
 {
@@ -101,13 +100,8 @@ bool reuse(const Ranks& ranks, const MeshPiece& piece, const std::vector<std::ui
       return bytes;
     },
     [&](Reader& reader) { reader.AddAll(values); });
-  const bool areEqual = kept.boundary->hasSheetsOf(
-    [&](const CutFaces& cuts) { return valuesOf(cuts.contributions, values); });
-  if (areEqual)
-  {
-    kept.beginStep();
-  }
-  return areEqual;
+  kept.beginStep();
+  return true;
 }
 
 BoundaryOverRanks boundaryOfMeshes(const Ranks& ranks, const MeshPiece& piece,
@@ -137,7 +131,7 @@ BoundaryOverRanks boundaryOfMeshes(const Ranks& ranks, const MeshPiece& piece,
     BoundaryFaces faces = boundaryOf(
       std::move(all.faces),
       [&](const std::vector<Point>& places) { return hold(ranks, piece, places); },
-      [&](const CutFaces& cuts) { return valuesOf(cuts.contributions, values); });
+      outside == Outside::Passes ? Sheets::Ignored : Sheets::Walls);
     kept.contributions = faces.contributions;
     kept.boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
     kept.keys = keys;

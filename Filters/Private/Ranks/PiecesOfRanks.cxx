@@ -4,9 +4,9 @@
 
 #include "Cells/MeshKey.h"
 #include "Common/AvailableMemory.h"
+#include "Input/CoincidentPoints.h"
 #include "Input/FlatData.h"
 #include "Input/GatheredData.h"
-#include "Input/GridSeams.h"
 #include "Input/OneLayer.h"
 #include "Sources/ImagePiece.h"
 
@@ -17,10 +17,12 @@
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkStructuredData.h"
 #include "vtkUniformGridAMR.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -41,6 +43,31 @@ constexpr int layersForCells = 4;
 bool hasCellValues(vtkDataSet* mesh)
 {
   return mesh->GetCellData()->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);
+}
+
+/// Writes the points of a grid's piece on the sides of the whole, with their numbers in it.
+void putSides(vtkDataSet* piece, const std::array<int, 6>& whole, Ranks::Bytes& bytes)
+{
+  const std::array<int, 6> own = extentOf(piece, false);
+  vtkIdType id = 0;
+  for (int k = own[4]; k <= own[5]; ++k)
+  {
+    for (int j = own[2]; j <= own[3]; ++j)
+    {
+      for (int i = own[0]; i <= own[1]; ++i, ++id)
+      {
+        if (i == whole[0] || i == whole[1] || j == whole[2] || j == whole[3] || k == whole[4] ||
+          k == whole[5])
+        {
+          int at[3] = { i, j, k };
+          Point x;
+          piece->GetPoint(id, x.data());
+          put(vtkStructuredData::ComputePointIdForExtent(whole.data(), at), bytes);
+          put(x, bytes);
+        }
+      }
+    }
+  }
 }
 
 /// Hashes the positions of a dataset, and of some of its points and cells.
@@ -275,31 +302,26 @@ bool PiecesOfRanks::meetsOthers(const Dataset& dataset) const
       });
 }
 
-/// Returns whether a grid has a seam, or a pole at which pieces end that are no neighbours: VTK takes
-/// them for that, and reads beyond their arrays. All ranks call it.
+/// Returns whether points on the sides of a grid coincide, as at the seam of an O-grid, the wake cut
+/// of a C-grid, and a pole around which the grid is divided: VTK makes no ghost cells there, or wrong
+/// ones. All ranks call it.
 bool PiecesOfRanks::meetsItself(const Dataset& dataset) const
 {
   if (dataset.type != VTK_STRUCTURED_GRID || dataset.dimension < 3 || dataset.ranks.size() < 2)
   {
     return false;
   }
-  OuterPoints points;
+  std::map<vtkIdType, Point> points; // by their numbers in the whole grid, which pieces share
   this->All.allGather(
     [&]
     {
-      OuterPoints own;
+      Ranks::Bytes bytes;
       for (const DatasetPiece& piece : this->Own)
       {
         if (piece.slot == dataset.slot)
         {
-          addOuterPoints(piece.data, dataset.whole, own);
+          putSides(piece.data, dataset.whole, bytes);
         }
-      }
-      Ranks::Bytes bytes;
-      for (const auto& point : own)
-      {
-        put(point.first, bytes);
-        put(point.second, bytes);
       }
       return bytes;
     },
@@ -311,15 +333,42 @@ bool PiecesOfRanks::meetsItself(const Dataset& dataset) const
         points[number] = reader.Get<Point>();
       }
     });
-  std::array<bool, 3> areDivided{};
-  for (const PointExtent& extent : dataset.extents)
+  std::vector<Point> places;
+  std::vector<vtkIdType> numbers;
+  for (const auto& [number, place] : points)
   {
+    numbers.push_back(number);
+    places.push_back(place);
+  }
+  const std::vector<std::int32_t> firsts = coincidentPoints(
+    places, std::vector<double>(places.size(), std::numeric_limits<double>::infinity()));
+  std::map<vtkIdType, vtkIdType> firstOf;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    firstOf[numbers[i]] = numbers[static_cast<std::size_t>(firsts[i])];
+  }
+  // An edge that collapses stays within pieces if they are not divided along it.
+  const auto collapses = [&](vtkIdType number, vtkIdType first)
+  {
+    vtkIdType stride = 1;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      areDivided[axis] = areDivided[axis] || extent[2 * axis] != dataset.extents[0][2 * axis];
+      const int n = dataset.whole[2 * axis + 1] - dataset.whole[2 * axis] + 1;
+      const bool isDivided = std::any_of(dataset.extents.begin(), dataset.extents.end(),
+        [&](const PointExtent& extent) { return extent[2 * axis] != dataset.whole[2 * axis]; });
+      const auto before = firstOf.find(number - stride);
+      if (!isDivided && number / stride % n > 0 && before != firstOf.end() &&
+        before->second == first)
+      {
+        return true;
+      }
+      stride *= n;
     }
-  }
-  return hasSeam(points, dataset.whole, areDivided);
+    return false;
+  };
+  return std::any_of(firstOf.begin(), firstOf.end(),
+    [&](const auto& point)
+    { return point.first != point.second && !collapses(point.first, point.second); });
 }
 
 double PiecesOfRanks::cells() const
@@ -423,9 +472,8 @@ std::vector<PiecesOfRanks::Piece> PiecesOfRanks::withGhostCells()
 {
   const bool isImage = this->kind() == Kind::Image;
   std::vector<Piece> result;
-  for (std::size_t n = 0; n < this->Datasets.size(); ++n)
+  for (const Dataset& dataset : this->Datasets)
   {
-    const Dataset& dataset = this->Datasets[n];
     vtkSmartPointer<vtkDataSet> own = this->ownOf(dataset);
     PointExtent extent = own && isGrid(own) ? extentOf(own, false) : noPoints;
     if (dataset.ranks.size() > 1)
@@ -442,7 +490,7 @@ std::vector<PiecesOfRanks::Piece> PiecesOfRanks::withGhostCells()
     }
     if (own)
     {
-      result.push_back({ own, static_cast<std::uint32_t>(n), extent, dataset.whole });
+      result.push_back({ own, extent, dataset.whole });
     }
   }
   return result;

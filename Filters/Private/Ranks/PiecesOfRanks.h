@@ -9,7 +9,6 @@
 #include "vtkSmartPointer.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -49,7 +48,6 @@ public:
   struct Piece
   {
     vtkSmartPointer<vtkDataSet> data;
-    std::uint32_t dataset;  ///< equal on all ranks
     PointExtent own, whole; ///< points of an image or grid, without copies, and on all ranks
   };
   /// Adds ghost cells. Different datasets are not neighbours.

@@ -42,23 +42,8 @@ void reach(const Ranks& ranks, const MediumMaker& maker, double done)
     });
 }
 
-/// Returns the number of each leaf's dataset; 0: of several. Keeps joined datasets together, whose
-/// number may differ between ranks.
-std::vector<std::uint32_t> datasetsOf(
-  const MeshLeaves& leaves, const Source& source, const Pieces& pieces)
-{
-  std::vector<std::uint32_t> datasets(leaves.size(), 0);
-  for (std::size_t leaf = 0; leaf < leaves.size() && leaves.size() == source.leaves.size(); ++leaf)
-  {
-    const auto piece = std::find_if(pieces.begin(), pieces.end(),
-      [&](const PiecesOfRanks::Piece& of) { return of.data == source.leaves[leaf].input; });
-    datasets[leaf] = piece != pieces.end() ? piece->dataset : 0;
-  }
-  return datasets;
-}
-
 std::unique_ptr<MeshPiece> makePieceOfMeshes(
-  MediumMaker& maker, ChoiceOverRanks& choice, const Pieces& pieces, KeptMesh& kept, Tally& tally)
+  MediumMaker& maker, ChoiceOverRanks& choice, KeptMesh& kept, Tally& tally)
 {
   std::vector<Leaf>& leaves = choice.source.leaves;
   leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
@@ -77,7 +62,6 @@ std::unique_ptr<MeshPiece> makePieceOfMeshes(
   }
   kept.piece = PieceMesh::of(prepared.refractivity, reconstruction, kept.piece);
   auto piece = std::make_unique<MeshPiece>(prepared, kept.piece, Copies::Neighbours);
-  piece->setDatasets(datasetsOf(prepared.refractivity, choice.source, pieces));
   return piece;
 }
 
@@ -179,7 +163,7 @@ MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
       }
       else
       {
-        piece = makePieceOfMeshes(maker, choice, pieces, kept, tally);
+        piece = makePieceOfMeshes(maker, choice, kept, tally);
       }
     });
   Sum sum = sumUp(ranks, *piece, tally, choice.ofFields.size());

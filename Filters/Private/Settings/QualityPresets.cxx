@@ -21,12 +21,7 @@ constexpr double numberOf(Value value)
   return static_cast<double>(value);
 }
 
-constexpr double autoPath = numberOf(schlieren::PathModel::Auto);
 constexpr double refracted = numberOf(schlieren::PathModel::Refracted);
-constexpr double leapfrog = numberOf(schlieren::Integrator::Leapfrog);
-constexpr double adaptive = numberOf(schlieren::Integrator::Adaptive);
-constexpr double quadratic = numberOf(schlieren::Interpolation::Quadratic);
-constexpr double cubic = numberOf(schlieren::Interpolation::Cubic);
 constexpr double sheet = numberOf(schlieren::FilmEstimator::Sheet);
 constexpr double single = numberOf(schlieren::Precision::Single);
 constexpr double twofold = numberOf(schlieren::Precision::Double);
@@ -45,18 +40,14 @@ constexpr double twofold = numberOf(schlieren::Precision::Double);
   }
 
 // clang-format off
-const std::array<QualitySetting, 13> qualitySettings{
+const std::array<QualitySetting, 9> qualitySettings{
   //                            Interactive  Fine       Publication  Reference  Automatic
-  SETTING(PathModel,            autoPath,    autoPath,  autoPath,    refracted, autoPath),
-  SETTING(Integrator,           leapfrog,    leapfrog,  leapfrog,    adaptive,  leapfrog),
+  SETTING(PathModel,            refracted,   refracted, refracted,   refracted, refracted),
   SETTING(StepSize,             2,           1,         1,           1,         2),
   SETTING(HomogeneityTolerance, 1e-3,        0,         0,           0,         0),
-  SETTING(Interpolation,        quadratic,   cubic,     cubic,       cubic,     cubic),
   SETTING(SamplesPerPixel,      1,           4,         16,          64,        1),
   SETTING(FilmEstimator,        sheet,       sheet,     sheet,       sheet,     sheet),
   SETTING(Precision,            single,      single,    single,      twofold,   single),
-  SETTING(AdaptiveTolerance,    1e-5,        1e-5,      1e-5,        1e-5,      1e-5),
-  SETTING(PathTolerance,        0.01,        0.01,      0.01,        0.01,      0.01),
   SETTING(MediumTolerance,      0.003,       0.003,     0.001,       0.001,     0.003),
   SETTING(TargetError,          0,           0,         0,           0,         0),
   SETTING(AutoTargetError,      0,           0,         0,           0,         1),

@@ -6,7 +6,7 @@
 #include "Common/FieldFromImage.h"
 #include "Common/Message.h"
 #include "Common/WeightedMedian.h"
-#include "Input/FlatData.h"
+#include "Input/FlatBodies.h"
 #include "Schlieren.h"
 #include "Walls/BodySurfaces.h"
 

@@ -41,9 +41,7 @@ std::shared_ptr<const PieceSource> sourceOfMeshes(const PreparedLeaves& prepared
   const std::vector<vtkDataSet*> leaves = pointersTo(prepared.refractivity);
   const auto mesh = PieceMesh::of(prepared.refractivity, choices.reconstruction, kept->piece);
   const std::vector<std::uint64_t> keys{ mesh->key, keyOfWalls(choices.outside, bodies) };
-  const auto valuesOf = [&](const CutFaces& cuts)
-  { return valuesAt(cuts.firstContributions, cuts.contributions, leaves); };
-  if (kept->keys != keys || !kept->boundary->hasSheetsOf(valuesOf))
+  if (kept->keys != keys)
   {
     leave(kept);
   }
@@ -55,10 +53,10 @@ std::shared_ptr<const PieceSource> sourceOfMeshes(const PreparedLeaves& prepared
     prepared, mesh, Copies::Used, isNew ? progress.part(0.2, 0.8) : progress, choices.flatAxis);
   if (isNew)
   {
-    kept->boundary = std::make_shared<const GasBoundary>(
-      std::move(faces), leaves, bodies, choices.outside,
-      [&](const Point& place) { return piece->holds(place); }, progress.part(0.8, 1),
-      choices.flatAxis < 0 ? Extent::Volume : Extent::Layer);
+    const CellsTest areInCells = testInParallel(
+      [&](const Point& place) { return piece->holds(place); }, progress.part(0.84, 0.91));
+    kept->boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, choices.outside,
+      areInCells, progress.part(0.8, 1), choices.flatAxis < 0 ? Extent::Volume : Extent::Layer);
     kept->piece = mesh;
     kept->keys = keys;
   }

@@ -182,20 +182,17 @@ void MeshPiece::putBoundary(std::int64_t cellsOfAll, std::vector<char>& message)
   const Faces faces = this->findFaces();
   putAll(this->Cells.measuredCells(cellsOfAll), message);
   putAll(faces.points, message);
-  std::vector<std::uint32_t> datasets;
+  std::vector<std::uint32_t> leaves;
   for (std::size_t n = 0; n < faces.points.size(); ++n)
   {
-    const std::size_t first = faces.firstContributions[n];
-    datasets.push_back(faces.firstContributions[n + 1] != first + 1
-        ? Contribution::ofSeveral
-        : this->Datasets.at(faces.contributions[first].leaf));
+    leaves.push_back(faces.contributions[faces.firstContributions[n]].leaf);
   }
-  putAll(datasets, message);
+  putAll(leaves, message);
+  putAll(faces.areDoubles, message);
   putAll(faces.corners, message);
   putAll(faces.starts, message);
   putAll(faces.owners, message);
   putAll(faces.states, message);
-  putAll(faces.areParts, message);
 }
 
 void MeshPiece::putBoundaryValues(std::vector<char>& message) const
@@ -216,11 +213,15 @@ void BoundaryOfMeshes::add(Reader& reader)
   const std::size_t firstCorner = all.corners.size();
   reader.AddAll(this->cells);
   const auto points = reader.GetAll<std::vector<Point>>();
-  const auto datasets = reader.GetAll<std::vector<std::uint32_t>>();
+  const auto leavesOfRank = reader.GetAll<std::vector<std::uint32_t>>();
+  const auto areDoubles = reader.GetAll<std::vector<unsigned char>>();
+  const std::uint32_t firstLeaf = this->leaves;
   for (std::size_t n = 0; n < points.size(); ++n)
   {
-    all.contributions.push_back({ datasets.at(n), static_cast<vtkIdType>(all.points.size()), 1 });
-    all.addPoint(points[n]);
+    const std::uint32_t leaf = firstLeaf + leavesOfRank.at(n);
+    this->leaves = std::max(this->leaves, leaf + 1);
+    all.contributions.push_back({ leaf, static_cast<vtkIdType>(all.points.size()), 1 });
+    all.addPoint(points[n], areDoubles.at(n) != 0);
   }
   for (const std::int32_t corner : reader.GetAll<std::vector<std::int32_t>>())
   {
@@ -233,7 +234,6 @@ void BoundaryOfMeshes::add(Reader& reader)
   }
   reader.AddAll(all.owners);
   reader.AddAll(all.states);
-  reader.AddAll(all.areParts);
 }
 
 } // namespace filters

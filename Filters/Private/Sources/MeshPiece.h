@@ -51,9 +51,6 @@ public:
   MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
     const WorkProgress& progress = WorkProgress(), int flatAxis = -1);
 
-  /// Sets a number for each leaf, equal on all ranks that have pieces of it.
-  void setDatasets(std::vector<std::uint32_t> numbers) { this->Datasets = std::move(numbers); }
-
   Facts facts() const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
@@ -86,7 +83,6 @@ private:
   };
 
   MeshLeaves Leaves;
-  std::vector<std::uint32_t> Datasets;
   std::shared_ptr<PieceMesh> Mesh;
   CellTree Cells;
   CellSampler Values;
@@ -98,8 +94,8 @@ private:
 struct BoundaryOfMeshes
 {
   std::vector<CellTree::MeasuredCell> cells;
-  Faces
-    faces; ///< each contribution is the value that is sent with the point; `leaf`: the dataset's number on all ranks
+  Faces faces;              ///< each contribution is the value that is sent with the point
+  std::uint32_t leaves = 0; ///< of all ranks; those of a rank are others than another's
 
   /// Another rank's.
   void add(Reader& reader);

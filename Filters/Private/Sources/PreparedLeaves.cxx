@@ -122,7 +122,7 @@ MeshLeaves leavesOf(const Source& source, const std::vector<Source>& others,
   }
   if (!shared)
   {
-    shared = std::make_shared<SharedPoints>(leaves, dimension, kinds);
+    shared = std::make_shared<SharedPoints>(leaves, kinds);
   }
   leaves = shared->joined(leaves);
   for (vtkSmartPointer<vtkDataSet>& leaf : leaves)

@@ -21,6 +21,7 @@ struct Revolution
   std::array<double, 3> origin; // a point of the axis
   double low, high;             // of the data, along the axis
   double radius;                // maximum of the data
+  double tolerance;             // distance of points from the axis that count as on it
   bool isMirrored;              // whether the data are on one side of the axis
   std::string note;             // for the user
 
@@ -35,8 +36,5 @@ Revolution revolutionOf(const Source& source);
 void boxOf(const Revolution& revolution, vtkImageData* structure);
 void gridOf(const Revolution& revolution, const Source& source, const int samplingDimensions[3],
   const SamplingBox& box, vtkImageData* structure);
-
-/// Adds the other side of the axis to data on one side.
-Source mirrored(const Source& source, const Revolution& revolution);
 
 } // namespace filters

@@ -2,25 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sources/SharedPoints.h"
 
-#include "Cells/CellMeans.h"
-#include "Cells/CellShape.h"
 #include "Cells/MeshArrays.h"
-#include "Cells/PointTrends.h"
 #include "Common/CellTypes.h"
 #include "Common/WorkProgress.h"
 #include "Input/CoincidentPoints.h"
 #include "Input/DatasetPieces.h"
-#include "Input/FlatData.h"
-#include "Input/GridSeams.h"
-#include "Walls/BoundaryFaces.h"
-#include "Walls/SheetFaces.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
-#include "vtkDoubleArray.h"
-#include "vtkPointData.h"
 #include "vtkStructuredGrid.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +19,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace filters
@@ -39,27 +29,19 @@ namespace
 
 using Leaves = std::vector<vtkSmartPointer<vtkDataSet>>;
 
-/// Minimum number of connected cells for sheets between them and others, which elements of
-/// discontinuous methods do not reach.
-constexpr std::size_t fewCells = 1000;
-constexpr double fewOfAll = 0.25;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the smallest distance of corners, approximately for cells of unknown shape.
+/// Returns the smallest distance of a cell's points, of the first ones in large cells.
 double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
 {
   constexpr double roundedAway = 1e-14;
-  constexpr std::size_t most = 64; // limit for points without a known order
-  const CellShape shape = shapeOf(mesh.type(cell));
-  const bool isKnown = shape != CellShape::Other;
-  const std::size_t corners = isKnown ? static_cast<std::size_t>(cornersOf(shape)) : most;
+  constexpr std::size_t most = 64;
   std::array<Point, most> x;
   std::size_t count = 0;
   mesh.forPoints(cell,
     [&](vtkIdType point)
     {
-      if (count < corners)
+      if (count < most)
       {
         mesh.coordinates(point, x[count++].data());
       }
@@ -110,424 +92,207 @@ std::vector<double> smallestEdges(const MeshArrays& mesh)
   return { sizes.begin(), sizes.end() };
 }
 
-/// Points that may coincide with those of other leaves.
+/// Points that may coincide with others, leaf by leaf in their order.
 struct Candidates
 {
   std::vector<std::uint32_t> leaves;
   std::vector<vtkIdType> points;
   std::vector<Point> places;
   std::vector<double> sizes;
+  std::vector<double> values; // of points; NaN: values belong to cells
 
   std::size_t size() const { return this->points.size(); }
-  void reserve(std::size_t count)
-  {
-    this->leaves.reserve(count);
-    this->points.reserve(count);
-    this->places.reserve(count);
-    this->sizes.reserve(count);
-  }
 };
 
-/// Returns whether other boxes intersect this leaf's, or a ghost array hides cells: then points
-/// within grids may coincide with others.
+/// Returns whether the boxes of other leaves intersect this one's.
 bool mayOverlap(const Leaves& leaves, std::size_t number)
 {
-  const double* a = leaves[number]->GetBounds();
-  for (std::size_t other = 0; other < leaves.size(); ++other)
-  {
-    const double* b = leaves[other]->GetBounds();
-    bool isApart = other == number;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double low = std::max(a[2 * axis], b[2 * axis]);
-      const double high = std::min(a[2 * axis + 1], b[2 * axis + 1]);
-      isApart = isApart || !(high - low > 1e-6 * (a[2 * axis + 1] - a[2 * axis]));
-    }
-    if (!isApart)
-    {
-      return true;
-    }
-  }
-  return false;
+  vtkBoundingBox own(leaves[number]->GetBounds());
+  own.ScaleAboutCenter(1 - 1e-6); // where boxes touch there is rounding
+  return std::any_of(leaves.begin(), leaves.end(),
+    [&](vtkDataSet* other)
+    { return other != leaves[number] && own.Intersects(vtkBoundingBox(other->GetBounds())) != 0; });
 }
 
-bool hasHiddenCells(const MeshArrays& mesh)
-{
-  for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
-  {
-    if (!mesh.isVisible(cell))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
+/// Adds the points of visible cells; of grids that overlap no others, those of their sides.
 void addCandidates(
   const Leaves& leaves, std::size_t number, const MeshArrays& mesh, Candidates& all)
 {
-  const auto add = [&](vtkIdType point, double size)
+  const bool onSidesOnly = mesh.isStructured() && !mayOverlap(leaves, number);
+  const std::array<int, 3> n = structureOf(leaves[number]);
+  const std::vector<double> sizes = smallestEdges(mesh);
+  const bool areOfCells = leaves[number]->GetCellData()->GetScalars() != nullptr;
+  for (vtkIdType point = 0; point < mesh.points(); ++point)
   {
+    if (onSidesOnly)
+    {
+      const vtkIdType i = point % n[0], j = point / n[0] % n[1], k = point / n[0] / n[1];
+      if (i > 0 && j > 0 && k > 0 && i < n[0] - 1 && j < n[1] - 1 && k < n[2] - 1)
+      {
+        continue;
+      }
+    }
     Point x;
     mesh.coordinates(point, x.data());
-    if (std::isfinite(x[0] + x[1] + x[2]))
+    const double size = sizes[static_cast<std::size_t>(point)];
+    if (size >= 0 && std::isfinite(x[0] + x[1] + x[2]))
     {
       all.leaves.push_back(static_cast<std::uint32_t>(number));
       all.points.push_back(point);
       all.places.push_back(x);
       all.sizes.push_back(size);
-    }
-  };
-  if (mesh.isStructured() && !hasHiddenCells(mesh) && !mayOverlap(leaves, number))
-  {
-    const std::array<int, 3> n = structureOf(leaves[number]);
-    for (vtkIdType k = 0, point = 0; k < n[2]; ++k)
-    {
-      for (vtkIdType j = 0; j < n[1]; ++j)
-      {
-        const bool isOuterRow = k == 0 || k == n[2] - 1 || j == 0 || j == n[1] - 1;
-        for (vtkIdType i = 0; i < n[0]; i += isOuterRow ? 1 : n[0] - 1)
-        {
-          double size = infinity;
-          mesh.forCellsAround(
-            point + i, [&](vtkIdType cell) { size = std::min(size, smallestEdge(mesh, cell)); });
-          add(point + i, size);
-        }
-        point += n[0];
-      }
-    }
-    return;
-  }
-  all.reserve(all.size() + static_cast<std::size_t>(mesh.points()));
-  const std::vector<double> sizes = smallestEdges(mesh);
-  for (vtkIdType point = 0; point < mesh.points(); ++point)
-  {
-    if (sizes[static_cast<std::size_t>(point)] >= 0)
-    {
-      add(point, sizes[static_cast<std::size_t>(point)]);
+      all.values.push_back(areOfCells ? std::nan("") : mesh.values()[point]);
     }
   }
 }
 
-/// Of the points of a mesh: whether they belong to so many cells that hang together that walls may be between them.
-std::vector<unsigned char> maySheetsMeet(const MeshArrays& mesh)
+/// Returns the difference of values, of each leaf, beyond which its points at the same place are the
+/// sides of a wall; infinite without such walls. Across the seam of an O-grid, the wake cut of a
+/// C-grid and between appended pieces, values are the same but for rounding, or differ a little;
+/// across walls they differ much at half of the points where they differ at all. In discontinuous
+/// elements, all of whose points are double, values jump wherever the field is steep.
+std::vector<double> jumpsAtWalls(
+  const Leaves& leaves, const Candidates& all, const std::vector<std::int32_t>& firsts)
 {
-  const auto points = static_cast<std::size_t>(mesh.points());
-  if (mesh.isStructured() && !hasHiddenCells(mesh)) // all of them hang together
+  constexpr double smallestJump = 1e-3, usualJump = 0.02; // relative to the range of values
+  constexpr double smallestRange = 1e-6;                  // relative to values: rounding
+  constexpr double mostDoubles = 0.25;                    // of a mesh of continuous elements
+  std::vector<std::size_t> last(all.size(), all.size());  // at each place
+  std::vector<double> result(leaves.size(), infinity);
+  for (std::size_t i = 0; i < all.size();)
   {
-    return std::vector<unsigned char>(points, 1);
-  }
-  Classes parts(points);
-  std::vector<std::size_t> cells(points, 0);
-  std::size_t all = 0;
-  const auto forCells = [&](const auto& visit)
-  {
-    for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
+    const std::size_t leaf = all.leaves[i], begin = i;
+    std::vector<double> jumps;
+    double lowest = infinity, highest = -infinity;
+    for (; i < all.size() && all.leaves[i] == leaf; ++i)
     {
-      if (mesh.isVisible(cell))
+      std::size_t& before = last[static_cast<std::size_t>(firsts[i])];
+      if (before >= begin && before < i)
       {
-        vtkIdType first = -1;
-        mesh.forPoints(cell,
-          [&](vtkIdType point)
-          {
-            first = first < 0 ? point : first;
-            visit(static_cast<std::size_t>(first), static_cast<std::size_t>(point));
-          });
-      }
-    }
-  };
-  forCells([&](std::size_t first, std::size_t point) { parts.join(first, point); });
-  forCells(
-    [&](std::size_t first, std::size_t point)
-    {
-      if (first == point)
-      {
-        ++cells[parts.rootOf(first)];
-        ++all;
-      }
-    });
-  std::vector<unsigned char> may(points);
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    const std::size_t count = cells[parts.rootOf(i)];
-    may[i] = count >= fewCells || static_cast<double>(count) >= fewOfAll * static_cast<double>(all);
-  }
-  return may;
-}
-
-/// Returns whether a grid has a seam; images and rectilinear grids have none.
-bool hasSeam(vtkDataSet* grid)
-{
-  if (!vtkStructuredGrid::SafeDownCast(grid))
-  {
-    return false;
-  }
-  const std::array<int, 6> whole = extentOf(grid, false);
-  OuterPoints points;
-  addOuterPoints(grid, whole, points);
-  return filters::hasSeam(points, whole);
-}
-
-/// Sets point values from cells as seen from one side, exact for smooth fields.
-void setValuesForSheets(vtkDataSet* leaf)
-{
-  if (!leaf->GetCellData()->GetScalars())
-  {
-    return;
-  }
-  bringToPoints(leaf, true);
-  const MeshArrays mesh(leaf);
-  std::vector<unsigned char> isUsed(static_cast<std::size_t>(mesh.cells()));
-  for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
-  {
-    isUsed[static_cast<std::size_t>(cell)] = mesh.isVisible(cell) ? 1 : 0;
-  }
-  const std::vector<double> values = PointNeighbours(mesh, isUsed).valuesFromCells(mesh);
-  std::copy(values.begin(), values.end(),
-    vtkDoubleArray::SafeDownCast(leaf->GetPointData()->GetScalars())->GetPointer(0));
-  leaf->GetPointData()->RemoveArray(cellsAroundName);
-}
-
-/// Merges candidates that coincide, where that is allowed.
-class Joiner
-{
-public:
-  Joiner(const Leaves& leaves, const std::vector<MeshArrays>& meshes, int dimension,
-    const Candidates& candidates, const std::vector<std::vector<bool>>& kinds)
-    : All(candidates)
-    , Numbers(candidates.size())
-  {
-    const std::vector<std::int32_t> coincident = coincidentPoints(candidates.places,
-      mergingTolerances(candidates.places, candidates.sizes, relativeRounding(candidates.places)));
-    this->Coincident.assign(coincident.begin(), coincident.end());
-    this->divideBy(kinds);
-    this->findPointsApart(leaves, meshes, dimension);
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-    {
-      if (!this->hasPointApart(i))
-      {
-        this->Numbers.join(this->Coincident[i], i);
-      }
-    }
-  }
-
-  Classes& numbers() { return this->Numbers; }
-
-private:
-  /// Separates coincident points by kind.
-  void divideBy(const std::vector<std::vector<bool>>& kinds)
-  {
-    if (kinds.empty())
-    {
-      return;
-    }
-    std::map<std::pair<std::size_t, std::vector<bool>>, std::size_t> firsts;
-    for (std::size_t i = 0; i < this->Coincident.size(); ++i)
-    {
-      this->Coincident[i] =
-        firsts.try_emplace({ this->Coincident[i], kinds[this->All.leaves[i]] }, i).first->second;
-    }
-  }
-
-  bool hasPointApart(std::size_t i) const
-  {
-    return !this->IsApart.empty() && this->IsApart[this->Coincident[i]] != 0;
-  }
-
-  /// Returns the index of a candidate; those of a leaf are contiguous, in the points' order.
-  std::size_t candidateOf(std::size_t leaf, vtkIdType point) const
-  {
-    const auto first = std::lower_bound(this->All.leaves.begin(), this->All.leaves.end(), leaf);
-    const auto last = std::upper_bound(first, this->All.leaves.end(), leaf);
-    const auto begin = this->All.points.begin();
-    return static_cast<std::size_t>(std::lower_bound(begin + (first - this->All.leaves.begin()),
-                                      begin + (last - this->All.leaves.begin()), point) -
-      begin);
-  }
-
-  void findPointsApart(const Leaves& leaves, const std::vector<MeshArrays>& meshes, int dimension)
-  {
-    // Marks points of leaves that have two of them at one position, between cells with possible
-    // sheets.
-    std::vector<std::vector<unsigned char>> may(leaves.size());
-    std::vector<unsigned char> isDouble(this->All.size(), 0);
-    std::vector<std::size_t> last(this->All.size(), this->All.size()); // of each position
-    std::vector<std::size_t> doubles;
-    for (std::size_t i = 0; i < this->All.size(); ++i)
-    {
-      std::size_t& before = last[this->Coincident[i]];
-      if (before < i && this->All.leaves[before] == this->All.leaves[i])
-      {
-        const std::size_t leaf = this->All.leaves[i];
-        if (may[leaf].empty())
-        {
-          may[leaf] = maySheetsMeet(meshes[leaf]);
-        }
-        if (may[leaf][static_cast<std::size_t>(this->All.points[i])] &&
-          may[leaf][static_cast<std::size_t>(this->All.points[before])])
-        {
-          doubles.push_back(i);
-        }
+        jumps.push_back(std::abs(all.values[i] - all.values[before]));
       }
       before = i;
+      lowest = std::min(lowest, all.values[i]);
+      highest = std::max(highest, all.values[i]);
     }
-    if (doubles.empty())
+    const double range = highest - lowest;
+    const auto doubles = static_cast<double>(jumps.size()), points = static_cast<double>(i - begin);
+    if ((doubles > mostDoubles * points && !isGrid(leaves[leaf])) ||
+      !(range > smallestRange * std::max(std::abs(lowest), std::abs(highest))))
     {
-      return;
+      continue;
     }
-    this->IsApart.assign(this->All.size(), 0);
-    // Skips leaves of flat cells, whose sheets are unknown.
-    bool areFacesKnown = false;
-    for (const std::size_t i : doubles)
+    jumps.erase(std::remove_if(jumps.begin(), jumps.end(),
+                  [&](double jump) { return !(jump > smallestJump * range); }),
+      jumps.end());
+    const auto middle = jumps.begin() + static_cast<std::ptrdiff_t>(jumps.size() / 2);
+    std::nth_element(jumps.begin(), middle, jumps.end());
+    if (!jumps.empty() && *middle > usualJump * range)
     {
-      const bool isKnown = dimension == 3;
-      areFacesKnown = areFacesKnown || isKnown;
-      this->IsApart[this->Coincident[i]] = isKnown ? 0 : 1;
+      result[leaf] = smallestJump * range;
     }
-    if (areFacesKnown)
-    {
-      this->findSheetPoints(leaves, may);
-    }
-  }
-
-  void findSheetPoints(const Leaves& leaves, const std::vector<std::vector<unsigned char>>& may)
-  {
-    std::vector<vtkDataSet*> pointers(leaves.begin(), leaves.end());
-    for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
-    {
-      if (!may[leaf].empty())
-      {
-        setValuesForSheets(leaves[leaf]);
-      }
-    }
-    const CutFaces cuts = cutFacesOf(pointers, WorkProgress());
-    std::vector<double> values = valuesAt(cuts.firstContributions, cuts.contributions, pointers);
-    const auto mayBeSheet = [&](std::size_t corner)
-    {
-      const Contribution *of = &cuts.contributions[2 * corner], *other = of + 1;
-      const std::vector<unsigned char>& mayMeet = may[of->leaf];
-      return of->leaf == other->leaf && !mayMeet.empty() &&
-        mayMeet[static_cast<std::size_t>(of->point)] &&
-        mayMeet[static_cast<std::size_t>(other->point)];
-    };
-    for (std::size_t corner = 0; 2 * corner < values.size(); ++corner)
-    {
-      if (!mayBeSheet(corner))
-      {
-        values[2 * corner + 1] = values[2 * corner];
-      }
-    }
-    const std::vector<unsigned char> areSheets = findSheets(cuts, values);
-    const auto sideOf = [&](std::size_t corner, std::size_t side)
-    {
-      const Contribution& of = cuts.contributions[2 * corner + side];
-      return this->candidateOf(of.leaf, of.point);
-    };
-    for (std::size_t face = 0; face < cuts.size(); ++face)
-    {
-      for (std::size_t i = cuts.starts[face]; i < cuts.starts[face + 1]; ++i)
-      {
-        if (areSheets[face])
-        {
-          this->IsApart[this->Coincident[sideOf(i, 0)]] = 1;
-          this->IsApart[this->Coincident[sideOf(i, 1)]] = 1;
-        }
-        else if (this->Coincident[sideOf(i, 0)] == this->Coincident[sideOf(i, 1)])
-        {
-          this->Numbers.join(sideOf(i, 0), sideOf(i, 1));
-        }
-      }
-    }
-  }
-
-  const Candidates& All;
-  std::vector<std::size_t> Coincident; // first candidate at the same position
-  std::vector<unsigned char> IsApart;  // of the candidates; empty: none
-  Classes Numbers;
-};
-
-/// Returns the leaves that share points, directly or by others, in groups.
-std::vector<std::vector<std::size_t>> groupsOf(
-  std::size_t leaves, const Candidates& candidates, Classes& numbers)
-{
-  Classes groups(leaves);
-  std::vector<unsigned char> hasAny(leaves, 0);
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-  {
-    const std::size_t root = numbers.rootOf(i);
-    if (root != i)
-    {
-      groups.join(candidates.leaves[root], candidates.leaves[i]);
-      hasAny[candidates.leaves[root]] = hasAny[candidates.leaves[i]] = 1;
-    }
-  }
-  std::map<std::size_t, std::vector<std::size_t>> members;
-  for (std::size_t leaf = 0; leaf < leaves; ++leaf)
-  {
-    if (hasAny[leaf])
-    {
-      members[groups.rootOf(leaf)].push_back(leaf);
-    }
-  }
-  std::vector<std::vector<std::size_t>> result;
-  for (auto& group : members)
-  {
-    result.push_back(std::move(group.second));
   }
   return result;
 }
 
+/// Maps each candidate to the first one that it becomes one point with.
+std::vector<std::int32_t> joinedCandidates(
+  const Leaves& leaves, const Candidates& all, const std::vector<std::vector<bool>>& kinds)
+{
+  std::vector<std::int32_t> firsts = coincidentPoints(all.places, all.sizes);
+  const std::vector<double> jumps = jumpsAtWalls(leaves, all, firsts);
+  const auto areOne = [&](std::size_t a, std::size_t b)
+  {
+    const std::size_t i = all.leaves[a], j = all.leaves[b];
+    return (kinds.empty() || kinds[i] == kinds[j]) &&
+      !(std::abs(all.values[a] - all.values[b]) > std::min(jumps[i], jumps[j]));
+  };
+  std::vector<std::int32_t> next(all.size(), -1); // other one at the same place
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    std::int32_t at = firsts[i];
+    while (!areOne(static_cast<std::size_t>(at), i) && static_cast<std::size_t>(at) != i)
+    {
+      std::int32_t& other = next[static_cast<std::size_t>(at)];
+      other = other < 0 ? static_cast<std::int32_t>(i) : other;
+      at = other;
+    }
+    firsts[i] = at;
+  }
+  return firsts;
+}
+
 } // namespace
 
-SharedPoints::SharedPoints(
-  const Leaves& leaves, int dimension, const std::vector<std::vector<bool>>& kinds)
+SharedPoints::SharedPoints(const Leaves& leaves, const std::vector<std::vector<bool>>& kinds)
 {
-  if (leaves.empty() || (leaves.size() == 1 && isGrid(leaves[0]) && !hasSeam(leaves[0])))
+  if (leaves.empty() ||
+    (leaves.size() == 1 && isGrid(leaves[0]) && !vtkStructuredGrid::SafeDownCast(leaves[0])))
   {
     return;
   }
-  std::vector<MeshArrays> meshes;
-  meshes.reserve(leaves.size());
-  Candidates candidates;
+  Candidates all;
+  std::vector<std::size_t> starts{ 0 }; // of the leaves' candidates
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
   {
-    meshes.emplace_back(leaves[leaf]);
-    addCandidates(leaves, leaf, meshes[leaf], candidates);
+    addCandidates(leaves, leaf, MeshArrays(leaves[leaf]), all);
+    starts.push_back(all.size());
   }
-  if (candidates.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+  if (all.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
   {
     return; // too many to be numbered
   }
-  Joiner joiner(leaves, meshes, dimension, candidates, kinds);
-  std::vector<std::int32_t> known(candidates.size(), -1); // of roots
-  for (std::vector<std::size_t>& some : groupsOf(leaves.size(), candidates, joiner.numbers()))
+  const std::vector<std::int32_t> firsts = joinedCandidates(leaves, all, kinds);
+  std::vector<unsigned char> hasAny(leaves.size(), 0);
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    const auto first = static_cast<std::size_t>(firsts[i]);
+    if (first != i)
+    {
+      hasAny[all.leaves[first]] = hasAny[all.leaves[i]] = 1;
+    }
+  }
+  std::map<std::vector<bool>, std::vector<std::size_t>> leavesOfKinds;
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
+  {
+    if (hasAny[leaf])
+    {
+      leavesOfKinds[kinds.empty() ? std::vector<bool>() : kinds[leaf]].push_back(leaf);
+    }
+  }
+  std::vector<std::int32_t> known(all.size(), -1); // of firsts
+  std::vector<std::size_t> lastLeaf(all.size(), leaves.size());
+  for (const auto& ofKind : leavesOfKinds)
   {
     Group group;
-    group.leaves = std::move(some);
+    group.leaves = ofKind.second;
+    std::int32_t points = 0;
     for (const std::size_t leaf : group.leaves)
     {
       std::vector<std::int32_t>& numbers =
-        group.numbers.emplace_back(static_cast<std::size_t>(meshes[leaf].points()), -1);
-      const auto first = std::lower_bound(candidates.leaves.begin(), candidates.leaves.end(), leaf);
-      auto candidate = static_cast<std::size_t>(first - candidates.leaves.begin());
-      for (; candidate < candidates.size() && candidates.leaves[candidate] == leaf; ++candidate)
+        group.points.emplace_back(static_cast<std::size_t>(leaves[leaf]->GetNumberOfPoints()), -1);
+      for (std::size_t i = starts[leaf]; i < starts[leaf + 1]; ++i)
       {
-        std::int32_t& ofRoot = known[joiner.numbers().rootOf(candidate)];
-        if (ofRoot < 0)
+        const auto first = static_cast<std::size_t>(firsts[i]);
+        std::int32_t& ofFirst = known[first];
+        if (ofFirst < 0)
         {
-          ofRoot = static_cast<std::int32_t>(group.points++);
+          ofFirst = points++;
         }
-        numbers[static_cast<std::size_t>(candidates.points[candidate])] = ofRoot;
+        else if (lastLeaf[first] == leaf)
+        {
+          group.doubles.push_back(ofFirst);
+        }
+        lastLeaf[first] = leaf;
+        numbers[static_cast<std::size_t>(all.points[i])] = ofFirst;
       }
       for (std::int32_t& number : numbers)
       {
-        if (number < 0)
-        {
-          number = static_cast<std::int32_t>(group.points++);
-        }
+        number = number < 0 ? points++ : number;
       }
     }
-    this->addGroup(leaves, std::move(group));
+    makeMesh(leaves, static_cast<std::size_t>(points), group);
+    this->Groups.push_back(std::move(group));
   }
 }
 

@@ -15,29 +15,24 @@ class vtkUnstructuredGrid;
 namespace filters
 {
 
-class MeshArrays;
-
 /**
  * Merges points of datasets of an input that coincide (see CoincidentPoints.h): those of blocks, of
- * appended meshes, and of the cells of discontinuous finite elements, so that cells become
- * neighbours.
+ * appended meshes, of grids that meet themselves, and of the cells of discontinuous finite elements,
+ * so that cells become neighbours.
  *
- * Walls without thickness within a dataset stay: points on both sides of sheets (see SheetFaces.h)
- * are kept apart. Sheets are searched for between large sets of cells that are connected by points,
- * because in discontinuous elements values jump between cells wherever the field is steep.
+ * Walls without thickness within a dataset stay: the points of their two sides have different
+ * values, and are kept apart.
  */
 class SharedPoints
 {
 public:
   /// Takes datasets with values in the cells' scalars or else in the points', with cells without
-  /// gas hidden. `dimension`: of the cells in use. `kinds`: of the datasets; different kinds share
-  /// no points; empty: all may.
-  SharedPoints(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, int dimension,
+  /// gas hidden. `kinds`: of the datasets; different kinds share no points; empty: all may.
+  explicit SharedPoints(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
     const std::vector<std::vector<bool>>& kinds = {});
 
-  /// Returns unchanged those datasets that share no points, and a mesh for each connected group of
-  /// others. Merged points have the mean of their values, or the cells' means if each cell has its
-  /// own points and values jump. `leaves`: as in the constructor, perhaps with other values.
+  /// Returns unchanged those datasets that share no points, and a mesh of all others of a kind. Merged points have the mean of their values. `leaves`: as in the constructor, perhaps
+  /// with other values.
   std::vector<vtkSmartPointer<vtkDataSet>> joined(
     const std::vector<vtkSmartPointer<vtkDataSet>>& leaves) const;
 
@@ -46,20 +41,18 @@ private:
   struct Group
   {
     std::vector<std::size_t> leaves;
-    std::vector<std::vector<std::int32_t>> numbers;    // of each leaf's points, in the mesh
-    std::vector<std::vector<unsigned char>> isLeftOut; // of each leaf's cells; empty: none
-    vtkIdType points = 0, cells = 0;
-    bool areAllApart = false;                  // whether each cell has its own points
+    // Of each leaf's points and cells, numbers in the mesh; -1: a cell that is left out.
+    std::vector<std::vector<std::int32_t>> points, cells;
+    std::vector<std::int32_t> doubles;         // of the mesh's points: several of one leaf
     vtkSmartPointer<vtkUnstructuredGrid> mesh; // without values
   };
 
-  static std::vector<unsigned char> leaveOutDuplicates(
-    const std::vector<MeshArrays>& meshes, Group& group);
-  void addGroup(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, Group group);
+  static void makeMesh(
+    const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, std::size_t points, Group& group);
   static vtkSmartPointer<vtkDataSet> joinedOf(
     const Group& group, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
 
-  std::vector<Group> Groups; // by their first leaves
+  std::vector<Group> Groups;
 };
 
 } // namespace filters

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <unordered_map>
 
 namespace filters
 {
@@ -28,27 +27,19 @@ Triangles surfaceOf(vtkDataObject* bodies)
 {
   Triangles surface;
   const vtkSmartPointer<vtkPolyData> data = trianglesOfBodies(bodies);
-  std::unordered_map<vtkIdType, std::int32_t> numbers;
+  surface.points.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+  {
+    data->GetPoint(static_cast<vtkIdType>(i), surface.points[i].data());
+  }
   auto iterator = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
   for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
   {
     vtkIdType count;
     const vtkIdType* ids;
     iterator->GetCurrentCell(count, ids);
-    Triangles::Corners corners;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const auto number = static_cast<std::int32_t>(surface.points.size());
-      const auto [known, isNew] = numbers.emplace(ids[i], number);
-      if (isNew)
-      {
-        Point x;
-        data->GetPoint(ids[i], x.data());
-        surface.points.push_back(x);
-      }
-      corners[i] = known->second;
-    }
-    surface.corners.push_back(corners);
+    surface.corners.push_back({ static_cast<std::int32_t>(ids[0]),
+      static_cast<std::int32_t>(ids[1]), static_cast<std::int32_t>(ids[2]) });
   }
 
   const double rounding = relativeRounding(surface.points);
@@ -68,8 +59,7 @@ Triangles surfaceOf(vtkDataObject* bodies)
       }
     }
   }
-  const std::vector<std::int32_t> merged =
-    coincidentPoints(surface.points, mergingTolerances(surface.points, edges, rounding));
+  const std::vector<std::int32_t> merged = coincidentPoints(surface.points, edges);
   std::vector<std::pair<Triangles::Corners, Triangles::Corners>> sorted; // to find duplicates
   for (Triangles::Corners corners : surface.corners)
   {
@@ -141,35 +131,24 @@ void turnOutward(Triangles& surface, std::vector<std::int32_t>& parts, std::int3
 {
   constexpr double rounding = 1e-12;
   std::vector<double> volumes(static_cast<std::size_t>(numberOfParts), 0), largest(volumes);
-  std::vector<Point> origins(volumes.size());
-  std::vector<unsigned char> hasOrigin(volumes.size(), 0);
   for (std::size_t t = 0; t < surface.size(); ++t)
   {
     if (parts[t] >= 0)
     {
       const auto part = static_cast<std::size_t>(parts[t]);
-      if (!hasOrigin[part])
-      {
-        hasOrigin[part] = 1;
-        origins[part] = surface.corner(t, 0);
-      }
-      const Point normal = surface.normal(t), height = surface.corner(t, 0) - origins[part];
+      const Point normal = surface.normal(t), height = surface.corner(t, 0) - surface.points[0];
       volumes[part] += dot(normal, height);
       largest[part] += norm(normal) * norm(height);
     }
   }
   for (std::size_t t = 0; t < surface.size(); ++t)
   {
-    if (parts[t] < 0)
-    {
-      continue;
-    }
-    const auto part = static_cast<std::size_t>(parts[t]);
-    if (std::abs(volumes[part]) <= rounding * largest[part])
+    const auto part = static_cast<std::size_t>(std::max(parts[t], 0));
+    if (parts[t] >= 0 && std::abs(volumes[part]) <= rounding * largest[part])
     {
       parts[t] = -1;
     }
-    else if (volumes[part] < 0)
+    else if (parts[t] >= 0 && volumes[part] < 0)
     {
       std::swap(surface.corners[t][1], surface.corners[t][2]);
     }

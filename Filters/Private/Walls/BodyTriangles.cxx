@@ -7,6 +7,7 @@
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
+#include "vtkCleanPolyData.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -94,8 +95,14 @@ vtkSmartPointer<vtkPolyData> trianglesOfBodies(vtkDataObject* bodies)
       "The Bodies have no polygons, only points or lines, which stop no light. Give surfaces, for "
       "instance from the filter Extract Surface, or take the input away.");
   }
-  requireFinite(triangles->GetOutput());
-  return triangles->GetOutput();
+  vtkNew<vtkCleanPolyData> used; // takes away points that no triangle has
+  used->SetInputConnection(triangles->GetOutputPort());
+  used->PointMergingOff();
+  used->ConvertPolysToLinesOff();
+  used->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  used->Update();
+  requireFinite(used->GetOutput());
+  return used->GetOutput();
 }
 
 } // namespace filters

@@ -3,7 +3,6 @@
 #include "Walls/BoundaryFaces.h"
 
 #include "Input/CoincidentPoints.h"
-#include "Walls/NarrowGaps.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -31,14 +30,31 @@ namespace
 {
 
 constexpr double lookingPart = 0.05;   // depth of tests behind a face, in cell heights or edges
-constexpr double gapPart = 0.3;        // the same beside narrow gaps, in cell heights
 constexpr double cellTolerance = 4e-3; // maximum distance of points in a cell, in cell heights
+
+/// A face seen from its cell.
+struct Sides
+{
+  Point middle;
+  Point outward; // unit length, or 0
+  double height; // approximate height of the cell above the face
+  double width;  // smallest edge
+};
+
+/// A face with visible cells on one side only.
+struct OpenFace
+{
+  std::vector<std::int32_t> corners; // seen from the gas, counter-clockwise
+  Sides sides;
+  bool hidesBehind;
+};
 
 /// Removes the sides of a layer across z, whose corners all have the same z.
 Faces withoutSidesAcrossZ(const Faces& all)
 {
   Faces faces;
   faces.points = all.points;
+  faces.areDoubles = all.areDoubles;
   faces.firstContributions = all.firstContributions;
   faces.contributions = all.contributions;
   for (std::size_t face = 0; face < all.size(); ++face)
@@ -50,7 +66,7 @@ Faces withoutSidesAcrossZ(const Faces& all)
     if (std::any_of(begin, end, [&](std::int32_t corner) { return zOf(corner) != zOf(*begin); }))
     {
       faces.corners.insert(faces.corners.end(), begin, end);
-      faces.finish(all.owners[face], all.states[face], all.areParts[face] != 0);
+      faces.finish(all.owners[face], all.states[face]);
     }
   }
   return faces;
@@ -103,8 +119,7 @@ std::vector<std::int32_t> mergePoints(Faces& faces, double rounding)
       smallest = std::min(smallest, size);
     }
   }
-  const std::vector<std::int32_t> numbers =
-    coincidentPoints(faces.points, mergingTolerances(faces.points, sizes, rounding));
+  const std::vector<std::int32_t> numbers = coincidentPoints(faces.points, sizes);
   const std::vector<std::int32_t> before = faces.corners;
   for (std::int32_t& corner : faces.corners)
   {
@@ -146,14 +161,41 @@ OpenFace openFaceOf(const Faces& faces, std::size_t face, double rounding, bool 
   {
     std::reverse(corners.begin(), corners.end());
   }
-  return { std::move(corners), sides, hidesBehind, faces.areParts[face] != 0 };
+  return { std::move(corners), sides, hidesBehind };
 }
 
-/// A face of two visible cells, one on each side.
-using Pair = std::array<std::size_t, 2>;
+/// Returns whether cells of one dataset have two faces at the same place with different points. A
+/// wall ends at points that the dataset has once, but not beyond its trailing edge, where points
+/// have been merged.
+bool isSheet(
+  const Faces& faces, const std::vector<std::int32_t>& before, std::size_t one, std::size_t other)
+{
+  bool areOthers = false;
+  for (std::size_t i = faces.starts[one]; i < faces.starts[one + 1]; ++i)
+  {
+    std::size_t k = faces.starts[other];
+    while (k < faces.starts[other + 1] && faces.corners[k] != faces.corners[i])
+    {
+      ++k;
+    }
+    const auto contributionOf = [&](std::size_t corner) {
+      return faces
+        .contributions[faces.firstContributions[static_cast<std::size_t>(before[corner])]];
+    };
+    const bool isMerged = faces.areDoubles[static_cast<std::size_t>(before[i])] != 0;
+    if (k == faces.starts[other + 1] || contributionOf(i).leaf != contributionOf(k).leaf ||
+      isMerged)
+    {
+      return false;
+    }
+    areOthers = areOthers || before[i] != before[k];
+  }
+  return areOthers;
+}
 
-/// Removes faces between two visible cells.
-std::vector<OpenFace> withoutPairs(const Faces& faces, double rounding, std::vector<Pair>& pairs)
+/// Removes faces between two visible cells. `before`: corners before they were merged.
+std::vector<OpenFace> withoutPairs(const Faces& faces, const std::vector<std::int32_t>& before,
+  double rounding, std::vector<OpenFace>& sheets)
 {
   struct Key
   {
@@ -205,112 +247,13 @@ std::vector<OpenFace> withoutPairs(const Faces& faces, double rounding, std::vec
       const int side = isVisible[0] ? 0 : 1;
       kept.push_back(openFaceOf(faces, owner[side], rounding, isHidden[1 - side]));
     }
-    else if (isVisible[0])
+    else if (isVisible[0] && isSheet(faces, before, owner[0], owner[1]))
     {
-      pairs.push_back({ owner[0], owner[1] });
+      sheets.push_back(openFaceOf(faces, owner[0], rounding, false));
+      sheets.push_back(openFaceOf(faces, owner[1], rounding, false));
     }
   }
   return kept;
-}
-
-enum class Cuts
-{
-  WithinDatasets,
-  BetweenThemToo
-};
-
-/// Selects pairs of faces at the same position whose points differ.
-CutFaces cutsOf(
-  const Faces& faces, const std::vector<std::int32_t>& before, std::vector<Pair>& pairs, Cuts which)
-{
-  CutFaces cuts;
-  const auto isCut = [&](const Pair& pair)
-  {
-    CutFaces cut;
-    bool areOthers = false;
-    for (std::size_t i = faces.starts[pair[0]]; i < faces.starts[pair[0] + 1]; ++i)
-    {
-      const auto begin = faces.corners.begin();
-      const auto first = begin + static_cast<std::ptrdiff_t>(faces.starts[pair[1]]);
-      const auto end = begin + static_cast<std::ptrdiff_t>(faces.starts[pair[1] + 1]);
-      const auto found = std::find(first, end, faces.corners[i]);
-      if (found == end)
-      {
-        return false;
-      }
-      const std::int32_t points[2] = { before[i], before[static_cast<std::size_t>(found - begin)] };
-      areOthers = areOthers || points[0] != points[1];
-      const Contribution* of[2];
-      for (int side = 0; side < 2; ++side)
-      {
-        const auto point = static_cast<std::size_t>(points[side]);
-        of[side] = &faces.contributions[faces.firstContributions[point]];
-        if (faces.firstContributions[point + 1] != faces.firstContributions[point] + 1 ||
-          of[side]->leaf == Contribution::ofSeveral)
-        {
-          return false; // on a curved cell
-        }
-        cut.contributions.push_back(*of[side]);
-      }
-      if (which == Cuts::WithinDatasets && of[0]->leaf != of[1]->leaf)
-      {
-        return false;
-      }
-      cut.places.push_back(faces.corners[i]);
-    }
-    if (areOthers)
-    {
-      cuts.contributions.insert(
-        cuts.contributions.end(), cut.contributions.begin(), cut.contributions.end());
-      cuts.places.insert(cuts.places.end(), cut.places.begin(), cut.places.end());
-      cuts.starts.push_back(cuts.places.size());
-    }
-    return areOthers;
-  };
-  pairs.erase(
-    std::remove_if(pairs.begin(), pairs.end(), [&](const Pair& pair) { return !isCut(pair); }),
-    pairs.end());
-  cuts.firstContributions.resize(cuts.contributions.size() + 1);
-  std::iota(cuts.firstContributions.begin(), cuts.firstContributions.end(), std::size_t{ 0 });
-  for (const Pair& pair : pairs)
-  {
-    Point area{ 0, 0, 0 };
-    const std::size_t begin = faces.starts[pair[0]], count = faces.starts[pair[0] + 1] - begin;
-    const auto at = [&](std::size_t i) -> const Point&
-    { return faces.points[static_cast<std::size_t>(faces.corners[begin + i % count])]; };
-    for (std::size_t i = 1; i + 1 < count; ++i)
-    {
-      area = area + 0.5 * cross(at(i) - at(0), at(i + 1) - at(0));
-    }
-    cuts.areas.push_back(norm(area));
-  }
-  return cuts;
-}
-
-/// Removes faces beside narrow gaps between cells.
-void removeAtGaps(const Faces& faces, const CellsTest& areInCells, std::vector<OpenFace>& kept)
-{
-  const std::vector<unsigned char> areBeside = areBesideNarrowGaps(faces.points, kept);
-  std::vector<Point> places;
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    if (areBeside[i])
-    {
-      const Sides& sides = kept[i].sides;
-      places.push_back(sides.middle + (gapPart * sides.height) * sides.outward);
-    }
-  }
-  const std::vector<unsigned char> areCovered = areInCells(places);
-  auto next = areCovered.begin();
-  std::size_t left = 0;
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    if (!areBeside[i] || *next++ == 0)
-    {
-      std::swap(kept[left++], kept[i]);
-    }
-  }
-  kept.resize(left);
 }
 
 /// Removes faces with cells on both sides.
@@ -328,7 +271,7 @@ void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<
   std::vector<Point> corners;
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
-    for (std::size_t n = 0; haveMiddle[i] && !kept[i].isPart && n < kept[i].corners.size(); ++n)
+    for (std::size_t n = 0; haveMiddle[i] && n < kept[i].corners.size(); ++n)
     {
       const Point& corner = faces.points[static_cast<std::size_t>(kept[i].corners[n])];
       corners.push_back(middles[i] + 0.8 * (corner - kept[i].sides.middle));
@@ -340,7 +283,7 @@ void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
     bool isCovered = haveMiddle[i] != 0;
-    if (isCovered && !kept[i].isPart)
+    if (isCovered)
     {
       const auto end = next + static_cast<std::ptrdiff_t>(kept[i].corners.size());
       isCovered = std::all_of(next, end, [](unsigned char is) { return is != 0; });
@@ -352,25 +295,6 @@ void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<
     }
   }
   kept.resize(left);
-}
-
-/// Treats positions that are not finite as outside of cells.
-CellsTest testInParallel(const CellTest& isInCell, const WorkProgress& progress)
-{
-  return [isInCell, progress](const std::vector<Point>& places)
-  {
-    std::vector<unsigned char> areInCells(places.size(), 0);
-    forChunks(static_cast<vtkIdType>(places.size()), progress,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-        {
-          const double sum = places[i][0] + places[i][1] + places[i][2];
-          areInCells[i] = std::isfinite(sum) && isInCell(places[i]) ? 1 : 0;
-        }
-      });
-    return areInCells;
-  };
 }
 
 BoundaryFaces triangulate(const Faces& faces, const std::vector<OpenFace>& kept)
@@ -428,7 +352,25 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<OpenFace>& kept)
 
 } // namespace
 
-BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesOfCuts& valuesOf,
+CellsTest testInParallel(const CellTest& isInCell, const WorkProgress& progress)
+{
+  return [isInCell, progress](const std::vector<Point>& places)
+  {
+    std::vector<unsigned char> areInCells(places.size(), 0);
+    forChunks(static_cast<vtkIdType>(places.size()), progress,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+        {
+          const double sum = places[i][0] + places[i][1] + places[i][2];
+          areInCells[i] = std::isfinite(sum) && isInCell(places[i]) ? 1 : 0;
+        }
+      });
+    return areInCells;
+  };
+}
+
+BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, Sheets sheets,
   const WorkProgress& progress, Extent extent)
 {
   if (extent == Extent::Layer)
@@ -438,58 +380,20 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesO
   progress.reach(0.1);
   const double rounding = relativeRounding(faces.points);
   const std::vector<std::int32_t> before = mergePoints(faces, rounding);
-  std::vector<Pair> pairs;
-  std::vector<OpenFace> kept = withoutPairs(faces, rounding, pairs);
+  std::vector<OpenFace> walls, kept = withoutPairs(faces, before, rounding, walls);
   progress.reach(0.3);
   if (areInCells)
   {
-    removeAtGaps(faces, areInCells, kept);
     removeCovered(faces, areInCells, kept);
   }
   progress.reach(0.7);
-  CutFaces cuts;
-  std::vector<unsigned char> areSheets;
-  if (valuesOf)
+  if (sheets == Sheets::Walls)
   {
-    cuts = cutsOf(faces, before, pairs, Cuts::WithinDatasets);
-    areSheets = findSheets(cuts, valuesOf(cuts));
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-    {
-      for (std::size_t side = 0; side < 2 && areSheets[i]; ++side)
-      {
-        kept.push_back(openFaceOf(faces, pairs[i][side], rounding, false));
-      }
-    }
+    kept.insert(kept.end(), walls.begin(), walls.end());
   }
   BoundaryFaces result = triangulate(faces, kept);
   result.extent = extent;
-  result.cuts = std::move(cuts);
-  result.areSheets = std::move(areSheets);
   return result;
-}
-
-CutFaces cutFacesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress)
-{
-  Faces faces = facesOf(leaves, progress);
-  const double rounding = relativeRounding(faces.points);
-  const std::vector<std::int32_t> before = mergePoints(faces, rounding);
-  std::vector<Pair> pairs;
-  withoutPairs(faces, rounding, pairs);
-  return cutsOf(faces, before, pairs, Cuts::BetweenThemToo);
-}
-
-BoundaryFaces boundaryOf(Faces faces, const std::vector<vtkDataSet*>& leaves,
-  const CellTest& isInCell, const WorkProgress& progress, Extent extent, Sheets sheets)
-{
-  ValuesOfCuts valuesOf;
-  if (sheets == Sheets::Found)
-  {
-    valuesOf = [&](const CutFaces& cuts)
-    { return valuesAt(cuts.firstContributions, cuts.contributions, leaves); };
-  }
-  return boundaryOf(std::move(faces),
-    isInCell ? testInParallel(isInCell, progress.part(0.3, 0.7)) : nullptr, valuesOf, progress,
-    extent);
 }
 
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves)

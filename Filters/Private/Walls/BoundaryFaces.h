@@ -5,7 +5,6 @@
 #include "Common/Triangles.h"
 #include "Common/WorkProgress.h"
 #include "Walls/MeshFaces.h"
-#include "Walls/SheetFaces.h"
 
 #include "vtkType.h"
 
@@ -32,10 +31,11 @@ enum class Extent
   Layer
 };
 
-/// Treatment of walls without thickness within a dataset.
+/// Treatment of walls without thickness: faces at the same place of cells of one dataset that have
+/// points of their own there, because SharedPoints has left them apart.
 enum class Sheets
 {
-  Found,
+  Walls,
   Ignored
 };
 
@@ -47,40 +47,25 @@ struct BoundaryFaces
   std::vector<Contribution> contributions; ///< to the value at the point
   std::vector<unsigned char> hidesBehind;  ///< of each triangle: whether a hidden cell is behind it
   Extent extent = Extent::Volume;
-  CutFaces cuts;                        ///< within datasets, including sheets in `surface`
-  std::vector<unsigned char> areSheets; ///< of `cuts`
 };
 
 /// Finds the boundary of all leaves together: datasets with a double scalar at each point, NaN
 /// without gas. Cells are visible if they are 3-D and not hidden by a ghost array (hiddenCellBits).
 /// Cells with a point without gas are hidden; cells with a point that is not finite are omitted.
 ///
-/// Merges faces with the same points, also where points are duplicated (blocks; the seam of an
-/// O-grid; the wake cut of a C-grid): points coincide within 1e-3 of the smallest edge or cell
-/// beside them, or within rounding. Omits faces without area, at a pole or an axis, and, with
-/// `isInCell`, faces with cells on both sides whose points differ: overlapping blocks, hanging
-/// nodes, curved sides of blocks with a gap of up to 0.05 of the cell's height or the face's
-/// smallest edge, or of 0.3 of the height where it closes at once (areBesideNarrowGaps()).
+/// Merges faces with the same points, also where points of several datasets coincide (see
+/// coincidentPoints()). Omits faces without area, at a pole or an axis, and, with `areInCells`,
+/// faces with cells on both sides whose points differ: overlapping blocks, hanging nodes, curved
+/// sides of blocks with a gap of up to 0.05 of the cell's height or the face's smallest edge.
+/// Includes sheets once from each side; others, whose cells share points, are not recognized.
 ///
-/// Sheets without thickness within a dataset, whose cells meet with points of their own on both
-/// sides, are found by their values (see findSheets()), and are included once from each side.
-/// Others are not recognized: give them as Bodies.
-///
-/// `faces`: facesOf(leaves), which takes more memory than all else and should come first.
-BoundaryFaces boundaryOf(Faces faces, const std::vector<vtkDataSet*>& leaves,
-  const CellTest& isInCell, const WorkProgress& progress = WorkProgress(),
-  Extent extent = Extent::Volume, Sheets sheets = Sheets::Found);
-
-/// Finds faces with visible cells on both sides, each with points of its own: of one leaf, or of
-/// two, according to `leaf` of the contributions.
-CutFaces cutFacesOf(const std::vector<vtkDataSet*>& leaves, const WorkProgress& progress);
-
-/// Returns the values of CutFaces::contributions.
-using ValuesOfCuts = std::function<std::vector<double>(const CutFaces& cuts)>;
-
-/// Finds the boundary of given faces. `valuesOf`: may be empty, for no sheets.
-BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, const ValuesOfCuts& valuesOf,
+/// `faces`: facesOf() the datasets, which takes more memory than all else and should come first.
+/// `areInCells`: may be empty.
+BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, Sheets sheets,
   const WorkProgress& progress = WorkProgress(), Extent extent = Extent::Volume);
+
+/// Tests places in several threads; those that are not finite are in no cell.
+CellsTest testInParallel(const CellTest& isInCell, const WorkProgress& progress);
 
 /// Returns the scalars at the surface's points, of these leaves or others on the same mesh.
 std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves);

@@ -15,11 +15,11 @@
 namespace filters
 {
 
-GasBoundary::GasBoundary(filters::Faces faces, const std::vector<vtkDataSet*>& leaves,
-  vtkDataObject* bodies, Outside outside, const CellTest& isInCell, const WorkProgress& progress,
-  Extent extent)
-  : GasBoundary(boundaryOf(std::move(faces), leaves, isInCell, progress.part(0, 0.8), extent,
-                  outside == Outside::Passes ? Sheets::Ignored : Sheets::Found),
+GasBoundary::GasBoundary(filters::Faces faces, vtkDataObject* bodies, Outside outside,
+  const CellsTest& areInCells, const WorkProgress& progress, Extent extent)
+  : GasBoundary(boundaryOf(std::move(faces), areInCells,
+                  outside == Outside::Passes ? Sheets::Ignored : Sheets::Walls,
+                  progress.part(0, 0.8), extent),
       bodies, outside, progress.part(0.8, 1))
 {
 }

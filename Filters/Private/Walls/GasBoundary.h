@@ -34,22 +34,16 @@ class GasBoundary
 public:
   using Place = schlieren::Place;
 
-  /// `faces`, `leaves`, `isInCell` (may be empty): see boundaryOf(). `bodies`: may be null; see
+  /// `faces`, `areInCells` (may be empty): see boundaryOf(). `bodies`: may be null; see
   /// BodySurfaces. Keeps copies of all data.
-  GasBoundary(filters::Faces faces, const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
-    Outside outside, const CellTest& isInCell, const WorkProgress& progress = WorkProgress(),
+  GasBoundary(filters::Faces faces, vtkDataObject* bodies, Outside outside,
+    const CellsTest& areInCells, const WorkProgress& progress = WorkProgress(),
     Extent extent = Extent::Volume);
   /// Makes the boundary of given faces.
   GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,
     const WorkProgress& progress = WorkProgress());
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
-
-  /// Returns whether sheets are equal for other values on the same mesh.
-  bool hasSheetsOf(const ValuesOfCuts& valuesOf) const
-  {
-    return findSheets(this->Faces.cuts, valuesOf(this->Faces.cuts)) == this->Faces.areSheets;
-  }
 
   /// Returns the ambient N: the median over the area of the outer boundary, or of all of the
   /// boundary without one. NaN: no boundary. `leaves`: these or others on the same mesh.

@@ -5,6 +5,10 @@
 #include "Cells/CellShape.h"
 #include "Walls/UnsharedFaces.h"
 
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkPointData.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -118,6 +122,7 @@ void addCells(const MeshArrays& mesh, std::uint32_t leaf, const std::vector<Stat
     return;
   }
   const std::vector<OwnedFace> found = unsharedFaces(mesh, chosen);
+  vtkDataArray* doubles = mesh.data()->GetPointData()->GetArray(doublesName);
   std::vector<std::int32_t> numbers(static_cast<std::size_t>(mesh.points()), -1);
   for (const std::size_t n : orderOf(found))
   {
@@ -134,7 +139,7 @@ void addCells(const MeshArrays& mesh, std::uint32_t leaf, const std::vector<Stat
         Point x;
         mesh.coordinates(point, x.data());
         faces.contributions.push_back({ leaf, point, 1 });
-        number = faces.addPoint(x);
+        number = faces.addPoint(x, doubles && doubles->GetComponent(point, 0) != 0);
       }
       faces.corners.push_back(number);
     }

@@ -21,7 +21,6 @@ namespace filters
 /// but several for points on faces of curved cells that are not the leaf's own.
 struct Contribution
 {
-  static constexpr std::uint32_t ofSeveral = 0xffffffff; // see BoundaryOfMeshes
   std::uint32_t leaf;
   vtkIdType point;
   double weight;
@@ -35,33 +34,36 @@ enum class State : unsigned char
   Visible
 };
 
+/// Name of an array of points: whether one was made of several of a dataset (see SharedPoints).
+constexpr const char* doublesName = "Doubles";
+
 /// Polygons that bound visible or hidden cells.
 struct Faces
 {
   std::vector<Point> points;
+  std::vector<unsigned char> areDoubles;            // of the points, see doublesName
   std::vector<std::size_t> firstContributions{ 0 }; // of each point's value, and the end
   std::vector<Contribution> contributions;
   std::vector<std::int32_t> corners;    // of all faces
   std::vector<std::size_t> starts{ 0 }; // of each face, and the end
   std::vector<Point> owners;            // middle of the cell
   std::vector<State> states;            // of the cell
-  std::vector<unsigned char> areParts;  // whether it belongs to the face of a curved cell
 
   std::size_t size() const { return this->owners.size(); }
   /// Adds a point, after its contributions.
-  std::int32_t addPoint(const Point& x)
+  std::int32_t addPoint(const Point& x, bool isDouble = false)
   {
     this->points.push_back(x);
+    this->areDoubles.push_back(isDouble ? 1 : 0);
     this->firstContributions.push_back(this->contributions.size());
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
   /// Adds a face, after its corners.
-  void finish(const Point& owner, State state, bool isPart = false)
+  void finish(const Point& owner, State state)
   {
     this->starts.push_back(this->corners.size());
     this->owners.push_back(owner);
     this->states.push_back(state);
-    this->areParts.push_back(isPart ? 1 : 0);
   }
 };
 

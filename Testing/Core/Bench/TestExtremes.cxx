@@ -225,13 +225,12 @@ TEST_P(Extremes, StrongNoiseEndsAndStaysFinite)
   std::uniform_real_distribution<double> anyIndex(-0.9, 3);
   const SampledField<float> medium(
     cube(24, 1), [&](double, double, double) { return anyIndex(random); });
-  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+  for (const Interpolation interpolation : allInterpolations)
   {
     Scene scene = smallScene(GetParam());
     scene.interpolation = interpolation;
     const Image image = Bench().render(medium.field, scene);
     EXPECT_GT(image.raysLost, 0);
-    EXPECT_TRUE(std::isinf(image.displacementBound));
     for (const PixelArray<float>* values :
       { &image.intensity, &image.deflection, &image.displacement })
     {
@@ -240,14 +239,6 @@ TEST_P(Extremes, StrongNoiseEndsAndStaysFinite)
     }
     EXPECT_LE(largest(image.deflection), 1);
   }
-}
-
-TEST_P(Extremes, DisplacementStaysWithinItsBound)
-{
-  const Image image = renderBlob(0.003, 0, smallScene(GetParam()));
-  EXPECT_GT(largest(image.displacement), 0);
-  EXPECT_LE(largest(image.displacement), image.displacementBound);
-  EXPECT_LT(image.displacementBound, 100 * largest(image.displacement));
 }
 
 INSTANTIATE_TEST_SUITE_P(, Extremes, bothDevices(), deviceName);

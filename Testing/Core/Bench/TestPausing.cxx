@@ -17,11 +17,7 @@ using Flow = BlobWithHole;
 
 Scene smallScene()
 {
-  Scene scene;
-  scene.device = Device::Cpu;
-  scene.view.width = 40;
-  scene.view.height = 30;
-  scene.view.viewDirection = { -0.2, 0.4, -1 };
+  Scene scene = sceneOnCpu(40, 30, { -0.2, 0.4, -1 });
   scene.histogramSize = 16;
   scene.samplesPerPixel = 3;
   return scene;
@@ -80,115 +76,23 @@ void expectSameInPieces(const Field& field, Scene scene)
   }
 }
 
-constexpr Cutoff allCutoffs[] = { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular,
-  Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram,
-  Cutoff::Background, Cutoff::NumericalSchlieren, Cutoff::PhaseContrast };
-
-TEST(Pausing, ChangesNoBitBehindAnyCutoff)
-{
-  const Flow flow;
-  for (const Cutoff cutoff : allCutoffs)
-  {
-    for (const FilmEstimator estimator : { FilmEstimator::Sheet, FilmEstimator::Photon })
-    {
-      SCOPED_TRACE(static_cast<int>(cutoff));
-      Scene scene = smallScene();
-      scene.cutoff = cutoff;
-      scene.filmEstimator = estimator;
-      expectSameInPieces(flow.field, scene);
-    }
-  }
-}
-
-TEST(Pausing, ChangesNoBitWithAnyNoiseFilter)
-{
-  const Flow flow;
-  for (const NoiseFilter filter : { NoiseFilter::Gaussian, NoiseFilter::Mean, NoiseFilter::Cone })
-  {
-    for (const Cutoff cutoff : { Cutoff::ColorFilter, Cutoff::Background })
-    {
-      SCOPED_TRACE(static_cast<int>(filter));
-      Scene scene = smallScene();
-      scene.noiseFilter = filter;
-      scene.cutoff = cutoff;
-      scene.filmEstimator = FilmEstimator::Photon;
-      expectSameInPieces(flow.field, scene);
-    }
-  }
-}
-
-TEST(Pausing, ChangesNoBitOfTintedAndWhiteLight)
-{
-  const Flow flow;
-  Scene scene = smallScene();
-  scene.fieldColors = { { 1, 0, 0 }, { 0, 0.5f, 1 } };
-  expectSameInPieces(flow.tinted(), scene);
-  scene = smallScene();
-  scene.cutoff = Cutoff::Interferogram;
-  scene.fringes.whiteLight = true;
-  expectSameInPieces(flow.field, scene);
-}
-
-TEST(Pausing, ChangesNoBitOfAnyRays)
-{
-  const Flow flow;
-  Scene scene = smallScene();
-  scene.precision = Precision::Double;
-  scene.integrator = Integrator::Adaptive;
-  scene.pathModel = PathModel::Refracted;
-  expectSameInPieces(flow.field, scene);
-  scene = smallScene();
-  scene.homogeneityTolerance = 1e-3;
-  scene.pathModel = PathModel::Straight;
-  expectSameInPieces(flow.field, scene);
-  scene = smallScene();
-  scene.source.distance = 20;
-  scene.source.shape = SourceShape::Slit;
-  scene.source.width = 0.01;
-  scene.source.length = 0.02;
-  expectSameInPieces(flow.field, scene);
-}
-
-TEST(Pausing, ChangesNoBitWhereRaysAreNotCached)
+// Of each stage that pauses: rays, one film or two, colours, and rays that are traced again for each image.
+TEST(Pausing, ChangesNoBitOfAnyStage)
 {
   const Flow flow;
   for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Background })
   {
+    SCOPED_TRACE(static_cast<int>(cutoff));
     Scene scene = smallScene();
     scene.cutoff = cutoff;
-    scene.memoryBudget = 0;
     expectSameInPieces(flow.field, scene);
     scene.memoryBudget = 46 * 36 * sizeof(double) * 6; // of one pass or two
-    scene.samplesPerPixel = 5;
     expectSameInPieces(flow.field, scene);
   }
-}
-
-TEST(Pausing, NoPauseFinishesWhatWasBegun)
-{
-  const Flow flow;
-  for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Background })
-  {
-    Scene scene = smallScene();
-    scene.cutoff = cutoff;
-    scene.samplesPerPixel = 4;
-    const Image whole = Bench().render(flow.field, scene);
-    for (int calls = 1; calls < 40; ++calls)
-    {
-      Bench bench;
-      Image image = bench.render(flow.field, scene, pausingAfter(0));
-      for (int call = 1; call < calls && !image.finished; ++call)
-      {
-        image = bench.resume(pausingAfter(0));
-      }
-      if (!image.finished)
-      {
-        image = bench.resume();
-      }
-      expectSameImage(image, whole);
-      EXPECT_FALSE(bench.isUnfinished());
-    }
-  }
+  Scene scene = smallScene();
+  scene.cutoff = Cutoff::ColorFilter;
+  scene.fieldColors = { { 1, 0, 0 }, { 0, 0.5f, 1 } };
+  expectSameInPieces(flow.tinted(), scene);
 }
 
 // Each shows all samples so far, as if no more had been requested.
@@ -250,89 +154,6 @@ TEST(Pausing, CachedRaysAreShownToo)
     EXPECT_EQ(image.traceSeconds, 0);
     expectSameImage(image, Bench().render(flow.field, scene));
   }
-}
-
-TEST(Pausing, AnotherCutoffInTheMidstKeepsTheRays)
-{
-  const Flow flow;
-  for (int calls = 1; calls < 30; calls += 3)
-  {
-    Bench bench;
-    Scene scene = smallScene();
-    scene.threads = 1;
-    bench.render(flow.field, scene, pausingAfter(0));
-    for (int call = 1; call < calls && bench.isUnfinished(); ++call)
-    {
-      bench.resume(pausingAfter(0));
-    }
-    scene.cutoff = Cutoff::Circular;
-    const Image image = finished(bench, bench.render(flow.field, scene, pausingAfter(0)), 0);
-    Bench fresh;
-    expectSameImage(image, fresh.render(flow.field, scene));
-    EXPECT_EQ(bench.work().raysTraced, fresh.work().raysTraced); // none was traced twice
-  }
-}
-
-TEST(Pausing, AnotherViewOrMediumInTheMidstGivesTheImageUp)
-{
-  Flow flow;
-  Bench bench;
-  Scene scene = smallScene();
-  bench.render(flow.field, scene, pausingAfter(5));
-  scene.view.viewDirection = { 1, 0, 0 };
-  expectSameImage(bench.render(flow.field, scene), Bench().render(flow.field, scene));
-  EXPECT_EQ(bench.work().mediumBuilds, 1);
-  EXPECT_EQ(bench.work().raySets, 2);
-
-  scene.view.width = 50;
-  bench.render(flow.field, scene, pausingAfter(5));
-  flow.samples[100] = 1e-4f;
-  ++flow.field.version;
-  expectSameImage(finished(bench, bench.render(flow.field, scene, pausingAfter(0)), 0),
-    Bench().render(flow.field, scene));
-
-  bench.render(flow.field, scene, pausingAfter(5));
-  scene.precision = Precision::Double;
-  expectSameImage(finished(bench, bench.render(flow.field, scene, pausingAfter(0)), 0),
-    Bench().render(flow.field, scene));
-
-  // A pass that is half traced without gathering what tints.
-  scene = smallScene();
-  bench.render(flow.field, scene, pausingAfter(2));
-  scene.fieldColors = { { 1, 0, 0 }, { 0, 0.5f, 1 } };
-  const Field tinted = flow.tinted();
-  expectSameImage(finished(bench, bench.render(tinted, scene, pausingAfter(0)), 0),
-    Bench().render(tinted, scene));
-}
-
-TEST(Pausing, AbortAndErrorsLeaveNothingUnfinished)
-{
-  const Flow flow;
-  Bench bench;
-  Scene scene = smallScene();
-  scene.threads = 1;
-  EXPECT_FALSE(bench.isUnfinished());
-  EXPECT_THROW(bench.resume(), Error);
-  for (const int questions : { 1, 8, 14 }) // while rays are traced, and exposed
-  {
-    ++scene.seed;
-    Image image = bench.render(flow.field, scene, pausingAfter(questions));
-    ASSERT_TRUE(bench.isUnfinished());
-    Monitor monitor = pausingAfter(1);
-    monitor.aborted = [] { return true; };
-    image = bench.resume(monitor);
-    EXPECT_TRUE(image.aborted);
-    EXPECT_TRUE(image.intensity.empty());
-    EXPECT_FALSE(bench.isUnfinished());
-    expectSameImage(bench.render(flow.field, scene), Bench().render(flow.field, scene));
-  }
-  Scene wrong = scene;
-  wrong.stepSize = -1;
-  Scene other = scene;
-  other.seed = 5;
-  EXPECT_FALSE(bench.render(flow.field, other, pausingAfter(1)).finished);
-  EXPECT_THROW(bench.render(flow.field, wrong), Error);
-  EXPECT_FALSE(bench.isUnfinished());
 }
 
 // Not one call is in vain.

@@ -21,11 +21,7 @@ namespace
 
 Scene oblique()
 {
-  Scene scene;
-  scene.device = Device::Cpu;
-  scene.view.width = 150; // no multiple of a tile's edge
-  scene.view.height = 90;
-  scene.view.viewDirection = { -0.2, 0.4, -1 };
+  Scene scene = sceneOnCpu(150, 90, { -0.2, 0.4, -1 }); // no multiples of a tile's edge
   scene.histogramSize = 16;
   scene.samplesPerPixel = 2;
   scene.fieldColors = { { 1, 0, 0 }, { 0, 0.5f, 1 } };
@@ -46,6 +42,10 @@ void expectSameOf(const Field& field, const Scene& scene)
     expectSameImage(together, alone);
     EXPECT_EQ(together.processes, count + 1);
     EXPECT_GT(others.traces, 0);
+    if (count != 2)
+    {
+      continue;
+    }
     // With pauses.
     Bench paused;
     paused.setProcesses(&others);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stages keep their results; images do not depend on how they came about.
 #include "Fields.h"
+#include "SameImage.h"
 
 #include <algorithm>
 #include <atomic>
@@ -12,33 +13,7 @@ namespace schlieren
 namespace
 {
 
-SampledField<float> blobField()
-{
-  return { cube(24, 1), [](double x, double y, double z) {
-            return 3e-4 * std::exp(-(x * x + 2 * y * y + z * z + x * y) / 0.1);
-          } };
-}
-
-Scene smallScene()
-{
-  Scene scene;
-  scene.device = Device::Cpu;
-  scene.view.width = 40;
-  scene.view.height = 30;
-  return scene;
-}
-
-void expectSameImage(const Image& a, const Image& b)
-{
-  EXPECT_EQ(a.intensity, b.intensity);
-  EXPECT_EQ(a.deflection, b.deflection);
-  EXPECT_EQ(a.opticalPathDifference, b.opticalPathDifference);
-  EXPECT_EQ(a.displacement, b.displacement);
-  EXPECT_EQ(a.blockedFraction, b.blockedFraction);
-  EXPECT_EQ(a.kScale, b.kScale);
-  EXPECT_EQ(a.raysTraced, b.raysTraced);
-  EXPECT_EQ(a.stepsTaken, b.stepsTaken);
-}
+Scene smallScene() { return sceneOnCpu(40, 30); }
 
 TEST(Stages, CutoffTracesNothing)
 {
@@ -118,7 +93,7 @@ TEST(Stages, EverythingThatMattersTracesAgain)
   expectFresh("zoom");
   scene.precision = Precision::Double;
   expectFresh("precision");
-  scene.interpolation = Interpolation::Linear;
+  scene.interpolation = Interpolation::Cubic;
   expectFresh("interpolation");
   blob.field.lengthScale = 0.001;
   expectFresh("length scale");

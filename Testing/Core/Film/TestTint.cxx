@@ -297,7 +297,7 @@ TEST(Tint, LeavesEverythingElseAsItIsWithAnyNumberOfThreads)
   Scene scene = sceneOf(fiveColors);
   scene.samplesPerPixel = 3;
   scene.kScale.reset();
-  for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+  for (const Interpolation interpolation : allInterpolations)
   {
     for (const Precision precision : { Precision::Single, Precision::Double })
     {

@@ -170,8 +170,7 @@ std::vector<KernelChoice> someKernelsOf(Interpolation interpolation)
   std::vector<KernelChoice> kernels{ { PathModel::Straight, Integrator::Leapfrog, interpolation } };
   if (interpolation == Interpolation::Quadratic)
   {
-    for (const Integrator integrator :
-      { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
+    for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Adaptive })
     {
       kernels.push_back({ PathModel::Refracted, integrator, interpolation });
     }

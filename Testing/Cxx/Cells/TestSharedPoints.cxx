@@ -184,8 +184,8 @@ TEST(SharedPoints, PointsAreOneHoweverLargeOthersToleranceIs)
 {
   const std::vector<filters::Point> points{ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 1e-5 }, { 0, 0, 0 },
     { 1, 0, 1e-8 }, { 1, 0, 2e-5 } };
-  const std::vector<double> tolerances{ 1, 1e-6, 1e-4, 1e-9, 1e-3, 1e-6 };
-  const std::vector<std::int32_t> numbers = filters::coincidentPoints(points, tolerances);
+  const std::vector<double> sizes{ 1e3, 1e-3, 0.1, 1e-6, 1, 1e-3 }; // 1000 times the tolerances
+  const std::vector<std::int32_t> numbers = filters::coincidentPoints(points, sizes);
   // 2 and 4 are one, and so are 1 and 4; 5 is too far away from them for its own tolerance.
   EXPECT_EQ(numbers, (std::vector<std::int32_t>{ 0, 1, 1, 0, 1, 5 }));
 }

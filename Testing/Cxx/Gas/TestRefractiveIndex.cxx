@@ -509,8 +509,7 @@ TEST(RefractiveIndex, MeshNeedNotHaveBeenUpdated)
 // them, and with several threads not always from the same one.
 TEST(RefractiveIndex, ThreadsChangeAMeshByNoMoreThanRounding)
 {
-  auto image = cube(20);
-  addPointArray(image, "N", GaussianColumn());
+  auto image = columnImage(20);
   vtkNew<vtkDataSetTriangleFilter> tetrahedra;
   tetrahedra->SetInputData(image);
   tetrahedra->Update();

@@ -7,13 +7,6 @@
 namespace
 {
 
-vtkSmartPointer<vtkImageData> columnImage(int points)
-{
-  auto image = cube(points);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
-}
-
 void look(vtkSchlierenFilter* filter, const Vec& direction, const Vec& up)
 {
   filter->SetViewDirection(direction.data());

@@ -16,13 +16,6 @@ using namespace filters;
 namespace
 {
 
-vtkSmartPointer<vtkImageData> columnImage()
-{
-  auto image = cube(48);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
-}
-
 /// Borders of the pixels, not their centres: left, right, low, high.
 std::array<double, 4> bordersOf(vtkImageData* image)
 {
@@ -66,7 +59,7 @@ TEST(Preview, IsTheWholeOneAveragedOverBoxes)
 {
   for (const int cutoff : { vtkSchlierenFilter::KNIFE_EDGE, vtkSchlierenFilter::SHADOWGRAPH })
   {
-    auto filter = bench(columnImage(), 160);
+    auto filter = bench(columnImage(48), 160);
     filter->SetViewDirection(0.3, 0.2, -1);
     filter->SetFocalPoint(0.2, -0.1, 0.3);
     filter->SetAutoKScale(false);
@@ -96,7 +89,7 @@ TEST(Preview, LiesWhereTheInformationSays)
   for (const auto& [width, height, reduction] : sizes)
   {
     SCOPED_TRACE(reduction);
-    auto filter = bench(columnImage());
+    auto filter = bench(columnImage(48));
     filter->SetImageSize(width, height);
     filter->Update();
     const auto whole = bordersOf(filter->GetOutput());
@@ -171,7 +164,7 @@ TEST(Preview, ShowsTheSameBackground)
 TEST(Preview, HidesNoMistake)
 {
   expectOneMessage(
-    bench(columnImage()).Get(),
+    bench(columnImage(48)).Get(),
     [](vtkSchlierenFilter* filter)
     {
       filter->SetPreviewReduction(4);

@@ -15,14 +15,10 @@ constexpr int presets[] = { Filter::INTERACTIVE, Filter::FINE, Filter::PUBLICATI
 /// What the filter's properties are, by the names that Quality knows them by.
 std::map<std::string, double> settingsOf(Filter* filter)
 {
-  return { { "PathModel", filter->GetPathModel() }, { "Integrator", filter->GetIntegrator() },
-    { "StepSize", filter->GetStepSize() },
+  return { { "PathModel", filter->GetPathModel() }, { "StepSize", filter->GetStepSize() },
     { "HomogeneityTolerance", filter->GetHomogeneityTolerance() },
-    { "Interpolation", filter->GetInterpolation() },
     { "SamplesPerPixel", filter->GetSamplesPerPixel() },
     { "FilmEstimator", filter->GetFilmEstimator() }, { "Precision", filter->GetPrecision() },
-    { "AdaptiveTolerance", filter->GetAdaptiveTolerance() },
-    { "PathTolerance", filter->GetPathTolerance() },
     { "MediumTolerance", filter->GetMediumTolerance() },
     { "TargetError", filter->GetTargetError() },
     { "AutoTargetError", filter->GetAutoTargetError() } };
@@ -36,13 +32,6 @@ std::map<std::string, double> settingsOf(int preset)
     settings[Filter::GetQualitySetting(i)] = Filter::GetQualityValue(preset, i);
   }
   return settings;
-}
-
-vtkSmartPointer<vtkImageData> columnImage(int points)
-{
-  auto image = cube(points);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
 }
 
 } // namespace
@@ -92,11 +81,9 @@ TEST(Quality, ChoicesAreClampedToWhatThereIs)
 {
   vtkNew<Filter> filter;
   filter->SetPathModel(99);
-  EXPECT_EQ(filter->GetPathModel(), Filter::DIFFERENCE);
-  filter->SetIntegrator(-1);
-  EXPECT_EQ(filter->GetIntegrator(), Filter::LEAPFROG);
-  filter->SetInterpolation(99);
-  EXPECT_EQ(filter->GetInterpolation(), Filter::CUBIC);
+  EXPECT_EQ(filter->GetPathModel(), Filter::REFRACTED);
+  filter->SetPathModel(-1);
+  EXPECT_EQ(filter->GetPathModel(), Filter::STRAIGHT);
 }
 
 TEST(Quality, EveryPresetTracesItsRays)

@@ -54,30 +54,7 @@ bool isShown(vtkSchlierenFilter* filter, const char* name)
   return filter->GetOutput()->GetFieldData()->HasArray(name);
 }
 
-bool statusSays(vtkSchlierenFilter* filter, const std::string& words)
-{
-  return std::string(filter->GetStatus()).find(words) != std::string::npos;
-}
-
 } // namespace
-
-TEST(Bounds, OfTheDisplacementIsShownWhereLightStaysInTheImage)
-{
-  auto weak = farField(1e-6, 0);
-  EXPECT_GT(fieldValue(weak, "DisplacementBound"), 0);
-  EXPECT_LT(fieldValue(weak, "DisplacementBound"), 1);
-  EXPECT_TRUE(statusSays(weak, "straight rays, displaced by "));
-
-  // Finite, but more than is seen.
-  auto strong = farField(2e-3, 0);
-  EXPECT_GT(fieldValue(strong, "DisplacementBound"), 2);
-  strong->SetParallelScale(2);
-  strong->Update();
-  EXPECT_FALSE(isShown(strong, "DisplacementBound"));
-  EXPECT_TRUE(statusSays(strong, "straight rays, bending left out"));
-
-  EXPECT_FALSE(isShown(farField(0.1, 0), "DisplacementBound")); // infinite
-}
 
 TEST(Bounds, OfSkippingIsShownWhereItIsLessThanTheDeflection)
 {

@@ -17,13 +17,6 @@
 namespace
 {
 
-vtkSmartPointer<vtkImageData> columnImage(int points)
-{
-  auto image = cube(points);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
-}
-
 vtkSmartPointer<vtkUnstructuredGrid> voxels(vtkDataSet* data)
 {
   vtkNew<vtkAppendFilter> append;

@@ -15,13 +15,6 @@ namespace
 /// So short that each update does as little as it can.
 constexpr double shortest = 1e-9;
 
-vtkSmartPointer<vtkImageData> columnImage()
-{
-  auto image = cube(24);
-  addPointArray(image, "N", GaussianColumn());
-  return image;
-}
-
 vtkSmartPointer<vtkSchlierenFilter> smallBench(vtkDataObject* input)
 {
   auto filter = bench(input, 40);
@@ -130,8 +123,6 @@ TEST(TimeSlices, GiveTheBitsOfTheWhole)
       filter->AddField("f");
       filter->SetColorByField(true);
     });
-  expectSameInSlices(image,
-    [](vtkSchlierenFilter* filter) { filter->SetPathModel(vtkSchlierenFilter::DIFFERENCE); });
 }
 
 TEST(TimeSlices, AreNoneWhereTheLimitIsLong)

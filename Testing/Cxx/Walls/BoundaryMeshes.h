@@ -5,6 +5,7 @@
 #include "CutMesh.h"
 #include "Surfaces.h"
 
+#include "Sources/SharedPoints.h"
 #include "Walls/GasBoundary.h"
 
 #include "vtkDataSetAttributes.h"
@@ -197,10 +198,18 @@ inline Areas areasOf(const GasBoundary& boundary)
   return areas;
 }
 
+inline std::vector<Data> withSharedPoints(const std::vector<Data>& leaves)
+{
+  return filters::SharedPoints(leaves).joined(leaves);
+}
+
+/// As for an image: points that coincide are one before.
 inline GasBoundary boundaryOfLeaves(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
   Outside outside, const filters::CellTest& isInCell)
 {
-  return { filters::facesOf(leaves, filters::WorkProgress()), leaves, bodies, outside, isInCell };
+  const std::vector<Data> joined = withSharedPoints({ leaves.begin(), leaves.end() });
+  return { filters::facesOf(pointers(joined), filters::WorkProgress()), bodies, outside,
+    isInCell ? filters::testInParallel(isInCell, filters::WorkProgress()) : nullptr };
 }
 
 inline Areas areasOf(const std::vector<Data>& leaves, Outside outside = Outside::Auto)

@@ -346,9 +346,11 @@ TEST(GasBoundary, AmbientIsThatOfTheFarField)
   auto mesh = sphereMesh(20, 4);
   addPointArray(mesh, "N", [](const Vec& x) { return dot(x, x) < 15 ? 7 : (x[0] > 2 ? 3 : 2); });
   mesh->GetPointData()->SetActiveScalars("N");
+  const std::vector<Data> joined = withSharedPoints({ mesh });
   for (const Outside outside : { Outside::Auto, Outside::Blocks, Outside::Passes })
   {
-    EXPECT_EQ(boundaryOfLeaves({ mesh }, nullptr, outside, {}).ambient({ mesh }), 2);
+    EXPECT_EQ(
+      boundaryOfLeaves(pointers(joined), nullptr, outside, {}).ambient(pointers(joined)), 2);
   }
 }
 

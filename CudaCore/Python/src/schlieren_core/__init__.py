@@ -27,7 +27,7 @@ def _numbers(name, values, kind=float, meaning=("x", "y", "z")):
 
 def trace(refractivity, spacing, *, origin=(0, 0, 0), ambient=None, length_scale=1.0, view_direction=(0, 0, -1),
           view_up=(0, 1, 0), focal_point=None, parallel_scale=0.0, size=(512, 512), cutoff="knife edge",
-          knife_edge_angle=0.0, k=None, screen_distance=None, wavelength=632.8e-9, path="auto", interpolation="cubic",
+          knife_edge_angle=0.0, k=None, screen_distance=None, wavelength=632.8e-9, path="refracted", interpolation="cubic",
           precision="single", step_size=1.0, samples_per_pixel=4, threads=0):
     """Traces parallel light through n - 1 and returns the image of a bench.
 
@@ -46,8 +46,8 @@ def trace(refractivity, spacing, *, origin=(0, 0, 0), ambient=None, length_scale
     k: sensitivity, 1/rad; None: from the deflections.
     screen_distance: of a shadowgraph, behind the grid, data units; None: one depth of the grid.
     wavelength: of an interferogram, metres.
-    path: "straight" or "refracted" rays; "auto": straight ones where they are proven to suffice.
-    interpolation: "linear", "quadratic" or "cubic" between the points. precision: "single" or "double".
+    path: "refracted" rays, or "straight" ones: lines of sight.
+    interpolation: "quadratic" or "cubic" between the points. precision: "single" or "double".
     step_size: points of the grid. samples_per_pixel: rays. threads: 0: all cores that this process may use.
 
     Returns a dict. Arrays have the lowest row first:
@@ -58,7 +58,6 @@ def trace(refractivity, spacing, *, origin=(0, 0, 0), ambient=None, length_scale
         displacement (rows, columns, 2): behind the grid, data units
         blocked_fraction (rows, columns): of the rays, by solids
     and numbers: origin (place of pixel 0, 0 in the image's plane) and pixel_size, data units; k and ambient as used;
-    displacement_bound, data units: no ray is displaced by more.
 
     Raises Error, a ValueError, where a value cannot be used.
     """

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Input/RefractivitySource.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkDataSet.h"
+
+#include <array>
+#include <functional>
+
+/// Cells between two planes, replaced by flat ones halfway between them.
+namespace filters
+{
+
+using Place = std::array<double, 3>;
+
+inline Place placeOf(vtkDataSet* data, vtkIdType point)
+{
+  Place place;
+  data->GetPoint(point, place.data());
+  return place;
+}
+
+enum Side : signed char
+{
+  Front = -1,
+  Both = 0, // on the axis where two planes meet
+  Back = 1,
+  Neither = 2
+};
+
+/// Two planes: the side of a point, and its projection to the plane halfway between them.
+struct Planes
+{
+  std::function<Side(const Place&)> sideAt;
+  std::function<Place(const Place&)> onPlane;
+  double tolerance; // of distances
+};
+
+/// Returns whether data have 3-D cells: others beside a layer are its faces.
+bool isLayerLeaf(const Leaf& leaf);
+vtkBoundingBox boundsOfLayers(const Source& source);
+
+/// Replaces the source by flat data with the front's values if its 3-D cells are one layer between
+/// the planes; else returns false. `areValuesFree`: values may differ between the planes. vtkCutter
+/// takes as long as the whole image, and vtkPlaneCutter makes triangles of quadrilaterals.
+bool flatten(Source& source, const Planes& planes, bool areValuesFree);
+
+} // namespace filters
