@@ -127,47 +127,14 @@ void addCells(vtkDataSet* leaf, const MeshArrays& from, const std::vector<std::i
   }
 }
 
-/// Joins an array that some of the leaves have, for curved cells; others get 1. Null without any.
-vtkSmartPointer<vtkDataArray> joinedArray(
-  const std::vector<vtkDataArray*>& ofLeaves, const Numbers& numbers, vtkIdType count)
-{
-  vtkSmartPointer<vtkDataArray> all;
-  for (std::size_t i = 0; i < ofLeaves.size(); ++i)
-  {
-    if (!ofLeaves[i])
-    {
-      continue;
-    }
-    if (!all)
-    {
-      all.TakeReference(ofLeaves[i]->NewInstance());
-      all->SetName(ofLeaves[i]->GetName());
-      all->SetNumberOfComponents(ofLeaves[i]->GetNumberOfComponents());
-      all->SetNumberOfTuples(count);
-      all->Fill(1);
-    }
-    for (std::size_t n = 0; n < numbers[i].size(); ++n)
-    {
-      if (numbers[i][n] >= 0)
-      {
-        all->SetTuple(numbers[i][n], static_cast<vtkIdType>(n), ofLeaves[i]);
-      }
-    }
-  }
-  return all;
-}
-
 } // namespace
 
 void SharedPoints::makeMesh(const Leaves& leaves, std::size_t points, Group& group)
 {
   std::vector<MeshArrays> meshes;
-  std::vector<vtkDataArray*> weights, degrees;
   for (const std::size_t leaf : group.leaves)
   {
     meshes.emplace_back(leaves[leaf]);
-    weights.push_back(leaves[leaf]->GetPointData()->GetRationalWeights());
-    degrees.push_back(leaves[leaf]->GetCellData()->GetHigherOrderDegrees());
   }
   const std::int32_t cells = numberCells(meshes, group.points, points, group.cells);
   group.mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -199,9 +166,6 @@ void SharedPoints::makeMesh(const Leaves& leaves, std::size_t points, Group& gro
     doubles->SetValue(point, 1);
   }
   group.mesh->GetPointData()->AddArray(doubles);
-  group.mesh->GetPointData()->SetRationalWeights(
-    joinedArray(weights, group.points, static_cast<vtkIdType>(points)));
-  group.mesh->GetCellData()->SetHigherOrderDegrees(joinedArray(degrees, group.cells, cells));
 }
 
 vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Leaves& leaves)
