@@ -3,8 +3,8 @@
 #include "Amr/AmrField.h"
 
 #include "Amr/AmrReconstruction.h"
-#include "Cells/LatticeDistances.h"
 #include "Common/WeightedMedian.h"
+#include "Walls/LatticeDistances.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Walls/BodySurfaces.h"
 
-#include "Cells/LatticeDistances.h"
 #include "Input/CoincidentPoints.h"
 #include "Walls/BodyTriangles.h"
+#include "Walls/LatticeDistances.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"

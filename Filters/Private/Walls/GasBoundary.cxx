@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Walls/GasBoundary.h"
 
-#include "Cells/LatticeSampling.h"
 #include "Common/WeightedMedian.h"
 #include "Input/CoincidentPoints.h"
+#include "Walls/LatticeSampling.h"
 #include "Walls/OuterFaces.h"
 
 #include <algorithm>

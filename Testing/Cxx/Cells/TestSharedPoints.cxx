@@ -4,9 +4,9 @@
 // Meshes that do not share points where they meet: blocks, appended meshes, discontinuous elements.
 #include "CellMeshes.h"
 
-#include "Cells/LatticeSampling.h"
 #include "CutMesh.h"
 #include "Input/CoincidentPoints.h"
+#include "Walls/LatticeSampling.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkDataSetTriangleFilter.h"

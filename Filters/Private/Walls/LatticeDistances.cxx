@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Cells/LatticeDistances.h"
+#include "Walls/LatticeDistances.h"
 
 #include <algorithm>
 

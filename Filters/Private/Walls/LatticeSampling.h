@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Cells/LatticeDistances.h"
 #include "Common/Triangles.h"
+#include "Walls/LatticeDistances.h"
 
 #include <algorithm>
 #include <array>

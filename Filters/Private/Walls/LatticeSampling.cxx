@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Cells/LatticeSampling.h"
+#include "Walls/LatticeSampling.h"
 
 #include <algorithm>
 #include <cmath>

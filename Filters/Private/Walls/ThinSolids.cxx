@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Thickens what is thinner than a voxel, so that no ray passes between two points of a lattice.
-#include "Cells/LatticeSampling.h"
+#include "Walls/LatticeSampling.h"
 
 #include <algorithm>
 #include <cmath>
