@@ -31,7 +31,7 @@ struct Medium
   double rangeOfNu = 0;          ///< highest less lowest nu of the gas's samples
   double largestNu = 0;          ///< no interpolated |nu| is larger (up to the spline's overshoot)
   Vec3<double> slope{ 0, 0, 0 }; ///< no interpolated |d nu / d index| is larger, axis by axis
-  SteepestPlace steepest;        ///< box by box of 8 voxels an edge; of a tree, brick by brick
+  SteepestPlace steepest{};      ///< box by box of 8 voxels an edge; of a tree, brick by brick
 
   MediumView<Real> view() const;
   FieldGradientsView gradientsOf(const Field& field) const; ///< that rays gather

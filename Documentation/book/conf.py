@@ -10,7 +10,7 @@ author = copyright = "Schlieren contributors"
 extensions = ["myst_parser"]
 root_doc = "README"
 include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "Documentation/*.md", "CudaCore/README.md",
-                    "Testing/Data/README.md", "Testing/Benchmarks/results.md",
+                    "Testing/Data/README.md", "Testing/Benchmarks/Results/README.md",
                     "Testing/Benchmarks/Window/README.md"]
 html_theme = "alabaster"
 html_theme_options = {"fixed_sidebar": True, "page_width": "1200px", "sidebar_width": "280px", "body_max_width": "none",
