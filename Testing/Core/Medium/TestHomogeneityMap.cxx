@@ -268,8 +268,8 @@ TEST(HomogeneityMap, WorstMediumMissesAsMuchAlongASegmentAsItsBoundsSay)
 
 /// Whether the points in a cube are gas, and the samples that have weight there differ by no more than
 /// the tolerance.
-bool isHomogeneous(const Medium<double>& medium, Interpolation interpolation, double tolerance,
-  const Dimensions& low, std::int64_t edge)
+bool isHomogeneous(
+  const Medium<double>& medium, double tolerance, const Dimensions& low, std::int64_t edge)
 {
   constexpr std::int64_t reach = 1;
   double lowest = anyTolerance, highest = -anyTolerance;
@@ -358,13 +358,13 @@ TEST(HomogeneityMap, GivesTheLargestHomogeneousCube)
             EXPECT_EQ(cube.low.x, static_cast<double>(low[0]));
             EXPECT_EQ(cube.low.y, static_cast<double>(low[1]));
             EXPECT_EQ(cube.low.z, static_cast<double>(low[2]));
-            EXPECT_TRUE(isHomogeneous(medium, interpolation, tolerance, low, edge));
+            EXPECT_TRUE(isHomogeneous(medium, tolerance, low, edge));
             forPositions(dimensions, low, edge,
               [&](const Vec3<double>& position)
               { EXPECT_FALSE(medium.solid.empty() || isSolid(medium.view(), position)); });
           }
           const std::int64_t next = edge > 0 ? 2 * edge : brickEdge;
-          EXPECT_FALSE(isHomogeneous(medium, interpolation, tolerance, cubeAround(next), next));
+          EXPECT_FALSE(isHomogeneous(medium, tolerance, cubeAround(next), next));
           largest = std::max(largest, edge);
         }
       }
