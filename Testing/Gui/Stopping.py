@@ -36,9 +36,9 @@ assert points(bench) == 512 * 512 and not line().startswith("No image")
 """)
 
 # The image.
-user.type("SamplesPerPixel/LineEdit0", "2000")
+user.type("SamplesPerPixel/LineEdit0", "200")
 user.python(STEPS + """
-apply_and_abort(bench, 0.5)
+apply_and_abort(bench, 0.05)
 assert points(bench) == 0 and line() == "No image: it was stopped", (points(bench), line())
 
 # Neither rendering nor an update requests more.
