@@ -65,7 +65,7 @@ user.python(CONFIRM + """
 QTimer.singleShot(0, action.trigger)
 """)
 user.idle()
-user.python(GONE + MESH)
+user.python(GONE + MESH.replace("[-8, 8]", "[-24, 24]"))
 user.press("OneImage")
 user.python(HELPERS + """
 until(lambda: information(bench, "PictureCount") > 0 and path() > 0)
