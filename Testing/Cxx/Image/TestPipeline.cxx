@@ -97,6 +97,24 @@ TEST(Pipeline, InformationHasTheGeometryBeforehand)
   EXPECT_EQ(vtkImageData::GetScalarType(info), VTK_FLOAT);
 }
 
+TEST(Pipeline, DataWithoutAnImageDoNotSpoilThatOfTheNext)
+{
+  auto boundless = columnImage(32);
+  boundless->SetSpacing(1e307, 1e307, 1e307);
+  auto filter = bench(boundless, 20);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(isEmpty(filter));
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_NE(complaints->Errors[0].find("has no extent"), std::string::npos);
+  filter->SetInputDataObject(columnImage(32));
+  filter->Update();
+  EXPECT_EQ(complaints->Errors.size(), 1u);
+  auto other = bench(columnImage(32), 20);
+  other->Update();
+  EXPECT_EQ(valuesOf(filter, "Intensity"), valuesOf(other, "Intensity"));
+}
+
 TEST(Pipeline, TheHistogramIsASecondOutput)
 {
   auto filter = bench(columnImage(32), 20);
