@@ -4,6 +4,7 @@
 #include "WatchedProgress.h"
 
 #include "vtkGasTable.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPassThrough.h"
@@ -11,6 +12,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
+#include "vtkTrivialProducer.h"
 
 namespace
 {
@@ -113,6 +115,21 @@ TEST(Pipeline, DataWithoutAnImageDoNotSpoilThatOfTheNext)
   auto other = bench(columnImage(32), 20);
   other->Update();
   EXPECT_EQ(valuesOf(filter, "Intensity"), valuesOf(other, "Intensity"));
+}
+
+TEST(Pipeline, RequestsFitHyperTrees)
+{
+  vtkNew<vtkHyperTreeGrid> trees;
+  trees->SetDimensions(3, 3, 3);
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(trees);
+  auto filter = bench(columnImage(8), 20);
+  filter->SetInputConnection(producer->GetOutputPort());
+  auto ofFilter = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  auto ofVtk = vtkSmartPointer<Complaints>::Take(new Complaints(producer));
+  filter->Update();
+  EXPECT_EQ(ofFilter->Errors.size(), 1u); // which names the filter to use before
+  EXPECT_TRUE(ofVtk->Errors.empty());
 }
 
 TEST(Pipeline, TheHistogramIsASecondOutput)
