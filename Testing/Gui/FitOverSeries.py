@@ -9,7 +9,7 @@ from views_testing import FOLDER, INSIDE, ViewsSession
 from series_testing import write_series
 from window_testing import BENCH
 
-SERIES, TRACE = os.path.join(FOLDER, "flow.pvd"), os.path.join(FOLDER, "trace.py")
+SERIES = os.path.join(FOLDER, "flow.pvd")
 TIMES = list(range(41))
 
 
@@ -61,15 +61,11 @@ check()
 user.python(HELPERS + KEPT + "SetActiveSource(FindSource('flow'))\n")
 user.choose_filter("Schlieren")
 user.apply()
-user.python(HELPERS + f"""
-from paraview import smtrace
+user.python(HELPERS + """
 bench = FindSource("Schlieren1")
 inside_window.BENCH, inside_window.PANEL, inside_window.SETTLE = bench, [], lambda: settle(bench)
 settle(bench)
-smtrace.start_trace()
 check()
-with open({TRACE!r}, "w") as file:
-    file.write(smtrace.stop_trace())
 """)
 user.python(HELPERS + KEPT)
 user.play(INSIDE + f"""
@@ -82,7 +78,3 @@ Show(flow, view)
 view.ResetCamera()
 SetActiveSource(flow)
 """)
-
-with open(TRACE, encoding="utf-8") as file:
-    trace = file.read()
-assert trace.count("schlieren1.InvokeCommand('FitKOverSeries')") == 2, trace
