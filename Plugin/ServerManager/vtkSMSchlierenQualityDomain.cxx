@@ -108,7 +108,9 @@ void vtkSMSchlierenQualityDomain::Follow(vtkSMProperty* modified)
     return;
   }
   vtkSMProperty* target = this->GetRequiredProperty("TargetError");
-  if (!isLoaded && modified != target && Helper(target).GetAsDouble() < 0)
+  const bool isChosenByTarget =
+    modified != target && modified != this->GetRequiredProperty("PathModel");
+  if (!isLoaded && isChosenByTarget && Helper(target).GetAsDouble() < 0)
   {
     // A setting that is changed is to have its effect.
     Helper(target).Set(0);

@@ -14,7 +14,7 @@ PRESETS = ("Interactive", "Fine", "Publication", "Reference", "Automatic")
 SETTINGS = []
 while vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)):
     SETTINGS.append(vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)))
-assert len(SETTINGS) == 13
+assert len(SETTINGS) == 7
 
 source = gaussian_column(16)
 
@@ -86,6 +86,13 @@ for name, value in (("StepSize", 0.3), ("SamplesPerPixel", 7), ("TargetError", 0
     check(bench, "Automatic")
     setattr(bench, name, value)
     check(bench, "Custom", preset="Automatic", **{"TargetError": 0, name: value})
+
+# The path model has its effect with a target, too.
+bench.Quality = "Automatic"
+bench.PathModel = "Straight"
+check(bench, "Custom", preset="Automatic", PathModel="Straight")
+bench.PathModel = "Refracted"
+check(bench, "Automatic")
 
 # They reach the tracer.
 bench = Schlieren(Input=source, Density=["POINTS", "rho"], ImageSize=[16, 16], Quality="Fine",
