@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqUnitDecorator.h"
 
-#include "WidgetRows.h"
 #include "pqPropertyWidget.h"
 
 #include "vtkPVXMLElement.h"
+#include "vtkSMProperty.h"
 
+#include <QBoxLayout>
 #include <QEvent>
+#include <QGridLayout>
 #include <QLabel>
 
 namespace
@@ -30,6 +32,19 @@ QLabel* labelOf(QWidget* property)
   grid->getItemPosition(index, &row, &column, &rows, &columns);
   QLayoutItem* item = grid->itemAtPosition(column > 0 ? row : row - 1, 0);
   return item ? qobject_cast<QLabel*>(item->widget()) : nullptr;
+}
+
+/// Writes a property's name above its widget, where ParaView 5.11 leaves it out: of lists of numbers.
+QLabel* addLabel(pqPropertyWidget* property)
+{
+  auto* label = new QLabel("<p>" + QString(property->property()->GetXMLLabel()) + "</p>", property);
+  if (auto* row = qobject_cast<QBoxLayout*>(property->layout()))
+  {
+    row->setDirection(QBoxLayout::TopToBottom);
+    row->insertWidget(0, label);
+  }
+  label->show();
+  return label;
 }
 
 } // namespace
@@ -62,13 +77,11 @@ void pqUnitDecorator::writeUnit()
   QLabel* label = labelOf(this->parentWidget());
   if (!label)
   {
-    label = new QLabel(this->parentWidget());
-    appendToRow(this->parentWidget(), label);
-    label->show();
+    label = addLabel(this->parentWidget());
   }
   label->setObjectName(this->parentWidget()->objectName() + "Label");
   QString text = label->text();
-  const QString unit = text.isEmpty() ? this->Unit : " (" + this->Unit + ")";
+  const QString unit = " (" + this->Unit + ")";
   const int end = text.lastIndexOf("</p>");
   label->setText(end < 0 ? text + unit : text.insert(end, unit));
 }

@@ -41,7 +41,10 @@ user.check("Sensitivity/Note", "text",
            "a fringe is 632.8 nm of optical path: Wavelength, in the group Medium")
 
 user.event(PANEL + "/SearchBox/AdvancedButton", "set_boolean", "true")
-check_label("FocalPoint", "Focal Point (data units)")
+user.python("""
+label = widget("propertiesPanel", "ProxyPanel").findChild(QtWidgets.QLabel, "FocalPointLabel")  # ParaView 5.11: within
+assert label.isVisible() and label.text() == "<p>Focal Point (data units)</p>", label.text()
+""")
 
 # What is kept over a series, but not its number.
 for name, isSeen in (("LockedAmbient", "false"), ("LockedK", "false")):
@@ -84,11 +87,12 @@ for palette in usual, dark:
     QApplication.setPalette(palette)
     for name, value in (("Cutoff", "Color Filter"), ("IndexModel", "Auto")):
         widget("propertiesPanel", name, "ComboBox").setCurrentText(value)
-    plane, gas = panel.findChild(QWidget, "Plane"), panel.findChild(QWidget, "Gas")
-    until(lambda: plane.isVisible() and plane.isEnabled() and plane.property("side") > 100 and gas.isVisible())
+    plane = panel.findChild(QWidget, "Plane")
+    until(lambda: plane.isVisible() and plane.isEnabled() and plane.property("side") > 100)
     pause(0.1)
     assert (luminance(panel.grab().toImage().pixelColor(0, 0)) < 0.1) == (palette is dark)
-    for name in ("Gas", "LengthScale", "Cutoff", "LockK", "Sensitivity", "ColorFilterImage", "SchlierenCutoff", "Status"):
+    check("FocalPoint", [panel.findChild(QtWidgets.QLabel, "FocalPointLabel")])
+    for name in ("Cutoff", "Sensitivity", "ColorFilterImage", "SchlierenCutoff", "Status"):
         check(name, texts(panel.findChild(QWidget, name)))
     assert contrast(plane, top=round(plane.property("side")) + 5) >= 4.5
     for model, name in (("Transfer Functions", "SchlierenFields"),):
