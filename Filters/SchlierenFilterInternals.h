@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Common/RequestGuard.h"
 #include "Image/LastImage.h"
 #include "Image/RgbImages.h"
 #include "Image/SceneFromSettings.h"
@@ -54,7 +53,6 @@ struct vtkSchlierenFilter::Internals
     Internals& Of;
   };
 
-  filters::RequestGuard Guard;
   filters::InputsOfRanks Ranks;
   filters::TimeSlicedImage Images;
   filters::LastImage Shown[2]; // at each output

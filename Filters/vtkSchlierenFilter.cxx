@@ -171,9 +171,19 @@ vtkMTimeType vtkSchlierenFilter::GetTimeOfImage()
 vtkTypeBool vtkSchlierenFilter::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const auto work = [&] { return this->Superclass::ProcessRequest(request, input, output); };
-  return this->Inside->Guard.Process(request, work, noMemory,
-    [&](const std::string& problem) { this->Fail(problem, this->GetTimeOfImage(), output); });
+  int result = 1;
+  const auto work = [&] { result = this->Superclass::ProcessRequest(request, input, output); };
+  const auto fail = [&](const std::string& problem)
+  {
+    // The requests before it state what is known as yet: it does not need them, and so a rank on
+    // which they have failed reaches its collectives.
+    if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+    {
+      this->Fail(problem, this->GetTimeOfImage(), output);
+    }
+  };
+  guarded(work, noMemory, fail);
+  return result;
 }
 
 //------------------------------------------------------------------------------
@@ -223,15 +233,19 @@ int vtkSchlierenFilter::RequestInformation(
   double origin[3] = { 0, 0, 0 };
   double spacing[3] = { 1, 1, 1 };
   // Where the image lies depends on the input's points: RequestData corrects what is stated here
-  // before the input has been produced.
-  const MadeRefractivity& last = *this->Inside->Refractivity;
-  if (last.IsThere())
+  // of the last ones. Whether these have an image is no matter of the next one.
+  const auto tellPlaceInLast = [&]
   {
-    const schlieren::Frame frame =
-      frameFrom(facing(*this, last.FlatAxis), Internals::fieldOf(last).grid);
-    std::copy(frame.origin.begin(), frame.origin.end(), origin);
-    std::fill_n(spacing, 3, frame.pixelSize);
-  }
+    const MadeRefractivity& last = *this->Inside->Refractivity;
+    if (last.IsThere())
+    {
+      const schlieren::Frame frame =
+        frameFrom(facing(*this, last.FlatAxis), Internals::fieldOf(last).grid);
+      std::copy(frame.origin.begin(), frame.origin.end(), origin);
+      std::fill_n(spacing, 3, frame.pixelSize);
+    }
+  };
+  guarded(tellPlaceInLast, noMemory, [](const std::string&) {});
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
@@ -358,7 +372,6 @@ void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* output
   Internals& inside = *this->Inside;
   vtkImageData* output = vtkImageData::GetData(outputs, IMAGE_PORT);
   vtkImageData* histogram = vtkImageData::GetData(outputs, HISTOGRAM_PORT);
-  inside.Guard.ThrowEarlier();
   inside.Ranks.shareArrays();
   const InputsOfRanks::Inputs inputs = inside.Ranks.gather(maxCells);
   vtkDataObject* input = inputs.data;

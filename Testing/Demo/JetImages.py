@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The demo as it comes: in all four images the jet's features are where physics puts them."""
 
+import math
 import os
 from types import SimpleNamespace
 
@@ -17,7 +18,8 @@ assert out.splitlines()[-1].endswith(f"The image: {path}"), "It does not say whe
 
 options = SimpleNamespace(view=VIEWS["z"], center=None, size=None, half_height=None,
                           largest=(880, 640))
-frame = Frame((0, 0.03, -0.008, 0.008, -0.008, 0.008), options)
+radius = 0.01 / math.cos(math.radians(2.5))  # of the corners of a wedge of 5 degrees
+frame = Frame((0, 0.03, -radius, radius, -radius, radius), options)
 volume, vertical, horizontal, shadow = tiles(path, frame)
 check_not_blank(volume, vertical, horizontal, shadow)
 

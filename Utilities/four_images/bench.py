@@ -39,7 +39,7 @@ def open_flow(options, scratch, messages):
     if array:
         return reader, array, array[1]
     proxy = new_medium(reader, None, options)
-    proxy.UpdatePipelineInformation()  # it looks at the arrays
+    proxy.UpdatePipeline()  # it chooses the arrays
     proxy.UpdatePropertyInformation()
     used = proxy.GetProperty("ArraysUsed").GetData()
     pv.Delete(proxy)

@@ -59,7 +59,7 @@ def refractivity(medium, clear, messages):
         bounds = np.array(medium.GetDataInformation().GetBounds())
         lengths = bounds[1::2] - bounds[0::2]
         medium = pv.ResampleToImage(Input=medium, SamplingDimensions=[
-            max(1, round(256 * length / lengths.max())) for length in lengths])
+            max(32, round(256 * length / lengths.max())) if length > 0 else 1 for length in lengths])
     fetched = output_of(medium, "computation of the refractive index", messages)
     image = vtkImageData()
     image.ShallowCopy(fetched)

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/Ranks.h"
 
-#include "Input/DatasetPieces.h"
 #include "Input/RefractivitySource.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkDataSet.h"
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
@@ -73,8 +72,8 @@ void setComplete(vtkInformationVector* outputs)
 
 void requestPiece(vtkInformation* inInfo)
 {
-  if (inInfo->Has(Pipeline::WHOLE_EXTENT()) &&
-    isGrid(vtkDataSet::SafeDownCast(vtkDataObject::GetData(inInfo))))
+  vtkDataObject* data = vtkDataObject::GetData(inInfo);
+  if (inInfo->Has(Pipeline::WHOLE_EXTENT()) && data && data->GetExtentType() == VTK_3D_EXTENT)
   {
     // Requests the whole extent, which VTK divides by pieces.
     inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);

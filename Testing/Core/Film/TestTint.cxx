@@ -67,9 +67,11 @@ std::array<double, 3> tintAt(const Image& image, int column, int row)
   return tint;
 }
 
-/// The largest difference of any pixel's tint from that of a place of the image.
-double largestDifference(
-  const Image& image, const std::function<std::array<double, 3>(double u, double v)>& truth)
+/// The largest difference of any pixel's tint from that of a place of the image. Between rays the film draws what is
+/// smooth: places beside kinks, as far as two pixels, can be left out.
+double largestDifference(const Image& image,
+  const std::function<std::array<double, 3>(double u, double v)>& truth,
+  const std::function<bool(double u, double v, double pixel)>& isCompared = {})
 {
   EXPECT_EQ(image.color.size(), 3 * image.intensity.size());
   double largest = 0;
@@ -78,6 +80,10 @@ double largestDifference(
     for (int column = 0; column < image.width; ++column)
     {
       const PixelCentre x = centreOf(image, column, row);
+      if (isCompared && !isCompared(x.u, x.v, centreOf(image, 1, 0).u - centreOf(image, 0, 0).u))
+      {
+        continue;
+      }
       const auto actual = tintAt(image, column, row);
       const auto expected = truth(x.u, x.v);
       for (std::size_t channel = 0; channel < 3; ++channel)
@@ -164,9 +170,12 @@ TEST_P(TintOnDevice, FieldsInTwoHalvesTintEachItsOwn)
   const TintedField tinted(cube(17, 1), vacuum,
     { [](double x, double, double) { return std::min(x, 0.); },
       [](double x, double, double) { return std::max(x, 0.); } });
-  const Image image = Bench().render(tinted.field, sceneOf({ red, blue }, GetParam()));
+  Scene scene = sceneOf({ red, blue }, GetParam());
+  scene.view.width = scene.view.height = 160; // so that there are pixels within the seam
+  const Image image = Bench().render(tinted.field, scene);
   constexpr double h = 1. / 8;
-  EXPECT_LT(largestDifference(image,
+  EXPECT_LT(largestDifference(
+              image,
               [&](double u, double v)
               {
                 if (isOutside(u, v))
@@ -176,7 +185,8 @@ TEST_P(TintOnDevice, FieldsInTwoHalvesTintEachItsOwn)
                 // At the seam both central differences are half, and linear on both sides.
                 const double right = std::clamp(0.5 + 0.5 * u / h, 0., 1.);
                 return mix({ red, blue }, { 1 - right, right });
-              }),
+              },
+              [](double u, double, double pixel) { return std::abs(std::abs(u) - h) > 3 * pixel; }),
     rounding);
 }
 
@@ -234,11 +244,20 @@ TEST_P(TintOnDevice, StrengthIsRelativeToThe99thPercentile)
   std::sort(gathered.begin(), gathered.end());
   const double reference =
     gathered[static_cast<std::size_t>(0.99 * static_cast<double>(gathered.size() - 1))];
-  EXPECT_LT(largestDifference(image,
+  EXPECT_LT(largestDifference(
+              image,
               [&](double u, double v)
               {
                 const double strength = isOutside(u, v) ? 0 : std::min(1., slope(u, v) / reference);
                 return std::array<double, 3>{ 1, 1 - strength, 1 - strength };
+              },
+              [&](double u, double v, double pixel)
+              {
+                const bool isAtAxis = std::min(std::abs(u), std::abs(v)) < 3 * pixel;
+                const double atLeast = slope(std::abs(u) - 3 * pixel, std::abs(v) - 3 * pixel);
+                const double atMost = slope(std::abs(u) + 3 * pixel, std::abs(v) + 3 * pixel);
+                const bool isAtFull = atLeast < reference && atMost > reference;
+                return !isAtAxis && !(isAtFull && !isOutside(u, v));
               }),
     0.01);
 }

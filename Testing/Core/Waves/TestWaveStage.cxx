@@ -460,7 +460,7 @@ TEST(WaveStage, WhatCannotBeMadeIsAnError)
         },
         "WhiteLight" },
       Case{ [](Scene& scene) { scene.view.viewAngle = 40; }, "ViewAngle to less" },
-      Case{ [](Scene& scene) { scene.source.distance = 1e-2; }, "Collimated" },
+      Case{ [](Scene& scene) { scene.source.distance = 1e-2; }, "collimated light" },
       Case{ [](Scene& scene)
         {
           scene.source.distance = 1;

@@ -189,8 +189,9 @@ TEST(ColorByField, AddsTheTintedImageAndChangesNoOther)
   plain->ColorByFieldOff();
   plain->Update();
   EXPECT_EQ(arrayOf(plain, "Color"), nullptr);
-  EXPECT_EQ(valuesOf(plain, "Intensity"), intensity);
-  EXPECT_EQ(valuesOf(plain, "Deflection"), deflection);
+  // Rays that gather are other kernels, whose bent rays may differ by rounding.
+  EXPECT_LT(relativeDifference(valuesOf(plain, "Intensity"), intensity), 1e-6);
+  EXPECT_LT(relativeDifference(valuesOf(plain, "Deflection"), deflection), 1e-6);
 }
 
 TEST(ColorByField, OfAShadowgraphLeavesRoomForBrightLight)

@@ -223,6 +223,7 @@ protected:
     this->filter->SetInputConnection(this->source->GetOutputPort());
     this->filter->SetAmbientRefractivity(-1);
     this->filter->SetCutoff(Filter::INTERFEROGRAM);
+    this->filter->SetHomogeneityTolerance(0); // fringes to 1e-8 m
   }
 
   double ambientAt(double time)

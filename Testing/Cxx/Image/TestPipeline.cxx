@@ -4,6 +4,7 @@
 #include "WatchedProgress.h"
 
 #include "vtkGasTable.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPassThrough.h"
@@ -11,6 +12,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
+#include "vtkTrivialProducer.h"
 
 namespace
 {
@@ -95,6 +97,39 @@ TEST(Pipeline, InformationHasTheGeometryBeforehand)
   EXPECT_TRUE(std::equal(image->GetExtent(), image->GetExtent() + 6,
     info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
   EXPECT_EQ(vtkImageData::GetScalarType(info), VTK_FLOAT);
+}
+
+TEST(Pipeline, DataWithoutAnImageDoNotSpoilThatOfTheNext)
+{
+  auto boundless = columnImage(32);
+  boundless->SetSpacing(1e307, 1e307, 1e307);
+  auto filter = bench(boundless, 20);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(isEmpty(filter));
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_NE(complaints->Errors[0].find("has no extent"), std::string::npos);
+  filter->SetInputDataObject(columnImage(32));
+  filter->Update();
+  EXPECT_EQ(complaints->Errors.size(), 1u);
+  auto other = bench(columnImage(32), 20);
+  other->Update();
+  EXPECT_EQ(valuesOf(filter, "Intensity"), valuesOf(other, "Intensity"));
+}
+
+TEST(Pipeline, RequestsFitHyperTrees)
+{
+  vtkNew<vtkHyperTreeGrid> trees;
+  trees->SetDimensions(3, 3, 3);
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(trees);
+  auto filter = bench(columnImage(8), 20);
+  filter->SetInputConnection(producer->GetOutputPort());
+  auto ofFilter = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  auto ofVtk = vtkSmartPointer<Complaints>::Take(new Complaints(producer));
+  filter->Update();
+  EXPECT_EQ(ofFilter->Errors.size(), 1u); // which names the filter to use before
+  EXPECT_TRUE(ofVtk->Errors.empty());
 }
 
 TEST(Pipeline, TheHistogramIsASecondOutput)

@@ -67,7 +67,7 @@ TEST(MediumSettings, DifferWhereOnePropertyDoes)
       EXPECT_NE(printed(defaults).find("  " + std::string(name) + ":"), std::string::npos) << name;
       ++properties;
     });
-  EXPECT_EQ(properties, 34);
+  EXPECT_EQ(properties, 32);
 }
 
 TEST(MediumSettings, AreThoseOfTheFilter)
