@@ -223,7 +223,6 @@ protected:
     this->filter->SetInputConnection(this->source->GetOutputPort());
     this->filter->SetAmbientRefractivity(-1);
     this->filter->SetCutoff(Filter::INTERFEROGRAM);
-    this->filter->SetHomogeneityTolerance(0); // fringes to 1e-8 m
   }
 
   double ambientAt(double time)
@@ -248,8 +247,10 @@ TEST_F(LockAmbient, KeepsTheSurroundingsOfTheFirstImage)
     EXPECT_EQ(this->ambientAt(time), first) << time;
   }
   EXPECT_EQ(this->filter->GetLockedAmbient(), first);
-  // A corner that the column does not reach: fringes count what the gas has become, over a depth of 2.
-  EXPECT_NEAR(valuesOf(this->filter, "OpticalPathDifference")[0], 2 * 1e-4, 1e-8);
+  // A corner that the column hardly reaches: fringes count what the gas has become, over a depth of 2.
+  const double b = vtkImageData::SafeDownCast(this->filter->GetOutputDataObject(0))->GetOrigin()[0];
+  EXPECT_NEAR(valuesOf(this->filter, "OpticalPathDifference")[0],
+    2 * 1e-4 + 3 * GaussianColumn().opticalPath(b), 1e-8);
   // Not what only changes the light.
   this->filter->SetCutoff(Filter::KNIFE_EDGE);
   this->filter->SetParallelScale(0.3);
