@@ -363,6 +363,7 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
   {
     constexpr double wasteful = 0.2;
     settings = *before;
+    settings.accuracy = {}; // of that image
     settings.step = std::min(settings.step, steps.longest);
     verify(settings, pilot, steps, known, monitor);
     const bool isCheapest =

@@ -92,7 +92,7 @@ for item in properties.values():
                 listed = set(CUTOFFS.values()) - listed
             assert shown_with.setdefault(item.name, listed) == listed, item.name
 for shown, names in (
-        (WITH_K, "AutoKScale LockK KScale KFromOptics FocalLength SourceWidth"),
+        (WITH_K, "AutoKScale LockK KScale KFromOptics FocalLength SourceWidth FitKAgain FitKOverSeries"),
         (WITH_K | WITH_FRINGES, "Sensitivity"),
         (WITH_EDGE, "KnifeEdgeAngle CutoffOffset CutoffPosition"),
         (WITH_EDGE | {vtkSchlierenFilter.PHASE_CONTRAST}, "InvertCutoff"),

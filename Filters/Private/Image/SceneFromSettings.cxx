@@ -232,10 +232,11 @@ schlieren::Scene sceneFrom(
   scene.interpolation = hasTarget || scene.stepSize <= longestOfCubic
     ? schlieren::Interpolation::Cubic
     : schlieren::Interpolation::Quadratic;
-  // A target error chooses steps itself.
-  scene.integrator = !hasTarget && scene.precision == schlieren::Precision::Double
-    ? schlieren::Integrator::Adaptive
-    : schlieren::Integrator::Leapfrog;
+  // A target error chooses steps itself; waves take so many rays that a longer time for each counts.
+  const bool areExact = scene.precision == schlieren::Precision::Double &&
+    settings.LightModel == OpticsSettings::lightOfRays;
+  scene.integrator =
+    !hasTarget && areExact ? schlieren::Integrator::Adaptive : schlieren::Integrator::Leapfrog;
   scene.estimatesErrors = settings.ErrorEstimate;
   scene.mediumMemory = static_cast<std::size_t>(settings.MediumMemory) << 20;
   scene.device = static_cast<schlieren::Device>(settings.Device);
