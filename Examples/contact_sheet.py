@@ -293,6 +293,8 @@ def take_tiles(take, frame, options, scratch):
                 ScreenDistance=beyond)
     shadow_tile("smoothed", "Smoothed", "the same, radius of 4 pixels", SamplesPerPixel=1, SmoothingRadius=4,
                 ScreenDistance=beyond)
+    shadow_tile("four", "4 rays per pixel", "what is finer than a pixel, too", SamplesPerPixel=4,
+                ScreenDistance=beyond)
     shadow_tile("many", "64 rays per pixel", "to compare with", SamplesPerPixel=64, ScreenDistance=beyond)
     return groups
 

@@ -18,7 +18,7 @@ path = os.path.abspath("sheet.png")
 groups, frame = contact_sheet.main(contact_sheet.options_of([
     os.path.join(DATA, "ladenburg_jet_3d.vti"), "--size", f"{WIDTH}x{HEIGHT}", "--output", path]))
 tiles = {tile.name: tile for _, row in groups for tile in row}
-assert len(tiles) == sum(len(row) for _, row in groups) == 28
+assert len(tiles) == sum(len(row) for _, row in groups) == 32
 assert all(len(row) == contact_sheet.COLUMNS for _, row in groups)
 
 # The file holds the tiles, pixel by pixel, and text above each.

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from paraview.simple import Sphere, TrivialProducer
 from plugin_testing import Schlieren, gaussian_column, image_array, is_empty, output
+from schlieren.vtkSchlierenFilters import vtkSchlierenFilter  # noqa: F401, members of client-side objects
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 

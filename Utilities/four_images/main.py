@@ -53,13 +53,14 @@ def bench_images(reader, array, frame, options, messages):
     return images
 
 
-def refractivity(medium, clear, messages):
+def refractivity(medium, clear, frame, messages):
     """n - 1 on a regular grid, of data in a plane in it; what is not gas gets the value that will be clear."""
     if not output_of(medium, "computation of the refractive index", messages).IsA("vtkImageData"):
         bounds = np.array(medium.GetDataInformation().GetBounds())
         lengths = bounds[1::2] - bounds[0::2]
+        most = min(256, max(frame.width, frame.height))  # more would not be seen
         medium = pv.ResampleToImage(Input=medium, SamplingDimensions=[
-            max(32, round(256 * length / lengths.max())) if length > 0 else 1 for length in lengths])
+            max(32, round(most * length / lengths.max())) if length > 0 else 1 for length in lengths])
     fetched = output_of(medium, "computation of the refractive index", messages)
     image = vtkImageData()
     image.ShallowCopy(fetched)
@@ -149,7 +150,7 @@ def main(options):
         images = bench_images(reader, array, frame, options, messages)
         begin = time.monotonic()
         clear = images[0][1]["AmbientRefractivity"][0]
-        grid = refractivity(medium, clear, messages)
+        grid = refractivity(medium, clear, frame, messages)
         volume = volume_rendering(grid, frame)
         say(f"Volume rendering: {time.monotonic() - begin:.1f} s")
         compose(volume, grid, images, frame, used, options).write(options.output)
