@@ -17,8 +17,7 @@ class vtkDataSet;
 namespace filters
 {
 
-/// A weighted value at a point of a leaf, of which a boundary value is made: one with the weight 1,
-/// but several for points on faces of curved cells that are not the leaf's own.
+/// A weighted value at a point of a leaf, of which a boundary value is made.
 struct Contribution
 {
   std::uint32_t leaf;
