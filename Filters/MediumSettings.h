@@ -76,37 +76,39 @@ struct MediumSettings
   static constexpr double defaultConstant = 2.26e-4;
 
   std::array<ArraySelection, 6> Arrays;
-  int IndexModel = Auto;
+  std::vector<TransferCurve> TransferFunctions;
+  double Depth = 0;
+  int Outside = 0;
+  bool DoublePrecision = false;
+  // members: rest
+  int IndexModel = -1;
   std::string Gas = "Custom";
-  double GladstoneDaleConstant = defaultConstant;
+  double GladstoneDaleConstant = 2.26e-4;
   double DensityScale = 0;
   std::vector<std::string> MixtureArrays;
   std::vector<std::string> MixtureGases;
   std::vector<double> MixtureConstants;
-  std::vector<double> MixtureMolarMasses;
   std::string BackgroundGas = "Custom";
-  double BackgroundConstant = defaultConstant;
+  double BackgroundConstant = 2.26e-4;
+  int FractionType = 0;
+  std::vector<double> MixtureMolarMasses;
   double BackgroundMolarMass = 0.0289647;
-  int FractionType = 0; ///< 0: mass, 1: volume
   double TemperatureScale = 0;
   double PressureScale = 0;
-  double UniformPressure = 0;       ///< 0: Pressure is an array
-  double StagnationTemperature = 0; ///< 0: Temperature is an array
+  double UniformPressure = 0;
+  double StagnationTemperature = 0;
   double StagnationPressure = 101325;
   double RelativeHumidity = 0;
   double Wavelength = 632.8;
   std::vector<std::string> Fields;
-  std::vector<TransferCurve> TransferFunctions;
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
+  int MaskedSide = -1;
   double MaskThreshold = 0.5;
-  int MaskedSide = -1; ///< -1: by the mask's name, 0: above the threshold, 1: below
-  double Depth = 0;
-  int Symmetry = 0;     ///< 0: none, 1: axisymmetric
-  int SymmetryAxis = 0; ///< 0: chosen; 1 to 3: x, y, z
+  int Symmetry = 0;
+  int SymmetryAxis = 0;
   double SymmetryOrigin[3] = { 0, 0, 0 };
-  int Outside = 0;
-  bool DoublePrecision = false;
+  // end
 
   /// Returns whether the model needs a pressure that no array has.
   bool hasUniformPressure() const
@@ -131,6 +133,11 @@ struct MediumSettings
   {
     using S = MediumSettings;
     use("Arrays", &S::Arrays);
+    use("TransferFunctions", &S::TransferFunctions);
+    use("Depth", &S::Depth);
+    use("Outside", &S::Outside);
+    use("DoublePrecision", &S::DoublePrecision);
+    // visits: rest
     use("IndexModel", &S::IndexModel);
     use("Gas", &S::Gas);
     use("GladstoneDaleConstant", &S::GladstoneDaleConstant);
@@ -138,11 +145,11 @@ struct MediumSettings
     use("MixtureArrays", &S::MixtureArrays);
     use("MixtureGases", &S::MixtureGases);
     use("MixtureConstants", &S::MixtureConstants);
-    use("MixtureMolarMasses", &S::MixtureMolarMasses);
     use("BackgroundGas", &S::BackgroundGas);
     use("BackgroundConstant", &S::BackgroundConstant);
-    use("BackgroundMolarMass", &S::BackgroundMolarMass);
     use("FractionType", &S::FractionType);
+    use("MixtureMolarMasses", &S::MixtureMolarMasses);
+    use("BackgroundMolarMass", &S::BackgroundMolarMass);
     use("TemperatureScale", &S::TemperatureScale);
     use("PressureScale", &S::PressureScale);
     use("UniformPressure", &S::UniformPressure);
@@ -151,17 +158,14 @@ struct MediumSettings
     use("RelativeHumidity", &S::RelativeHumidity);
     use("Wavelength", &S::Wavelength);
     use("Fields", &S::Fields);
-    use("TransferFunctions", &S::TransferFunctions);
     use("FieldRanges", &S::FieldRanges);
     use("RefractivityScale", &S::RefractivityScale);
-    use("MaskThreshold", &S::MaskThreshold);
     use("MaskedSide", &S::MaskedSide);
-    use("Depth", &S::Depth);
+    use("MaskThreshold", &S::MaskThreshold);
     use("Symmetry", &S::Symmetry);
     use("SymmetryAxis", &S::SymmetryAxis);
     use("SymmetryOrigin", &S::SymmetryOrigin);
-    use("Outside", &S::Outside);
-    use("DoublePrecision", &S::DoublePrecision);
+    // end
   }
 
   bool operator==(const MediumSettings& other) const;

@@ -56,11 +56,11 @@ void print(ostream& os, const Value& value)
 void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->SchlierenSettings::visit(
-    [&](const char* name, const auto& value)
+  SchlierenSettings::visit(
+    [&](const char* name, auto member)
     {
       os << indent << name << ":";
-      print(os, value);
+      print(os, this->*member);
       os << "\n";
     });
   os << indent << "GradedFilter: " << this->GradedFilter << "\n";
@@ -98,20 +98,6 @@ void vtkSchlierenFilter::ClearFocalPoint()
     this->HasFocalPoint = false;
     this->Modified();
   }
-}
-
-//------------------------------------------------------------------------------
-void vtkSchlierenFilter::AddFieldColor(double value)
-{
-  this->FieldColors.push_back(value);
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkSchlierenFilter::ClearFieldColors()
-{
-  this->FieldColors.clear();
-  this->Modified();
 }
 
 //------------------------------------------------------------------------------

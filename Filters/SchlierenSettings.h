@@ -7,140 +7,37 @@
 #include <vector>
 
 /// Values of the properties of vtkSchlierenFilter under their names: numbers and texts, without
-/// VTK. See the filter for their meaning; its setters check ranges. visit() calls a function with
-/// the name and the value of each.
-
-/// The surroundings of the data. MediumSettings are the medium's own.
-struct SurroundingsSettings
-{
-  double LengthScale = 1;
-  double AmbientRefractivity = -1; ///< up to -1: found
-  int ExitInto = 0;
-  double ExitRefractivity = 2.7e-4;
-  double Wavelength = 632.8;
-
-  template <class Visit>
-  void visit(const Visit& use) const
-  {
-    use("LengthScale", this->LengthScale);
-    use("AmbientRefractivity", this->AmbientRefractivity);
-    use("ExitInto", this->ExitInto);
-    use("ExitRefractivity", this->ExitRefractivity);
-    use("Wavelength", this->Wavelength);
-  }
-};
+/// VTK. Plugin/Schlieren.xml describes them; Utilities/property_tables.py makes what stands between
+/// "members" or "visits" and "end". visit() calls a function with the name of each and a pointer to
+/// its member. MediumSettings are the medium's own.
 
 struct ViewSettings
 {
-  double ViewDirection[3] = { 0, 0, -1 };
-  double ViewUp[3] = { 0, 1, 0 };
   bool FaceFlatData = true;
   bool HasFocalPoint = false;
   double FocalPoint[3] = { 0, 0, 0 };
+  // members: View
+  double ViewDirection[3] = { 0, 0, -1 };
+  double ViewUp[3] = { 0, 1, 0 };
   double ParallelScale = 0;
   double ViewAngle = 0;
   int ImageSize[2] = { 512, 512 };
+  // end
 
-  template <class Visit>
-  void visit(const Visit& use) const
+  template <class Use>
+  static void visit(const Use& use)
   {
-    use("ViewDirection", this->ViewDirection);
-    use("ViewUp", this->ViewUp);
-    use("FaceFlatData", this->FaceFlatData);
-    use("HasFocalPoint", this->HasFocalPoint);
-    use("FocalPoint", this->FocalPoint);
-    use("ParallelScale", this->ParallelScale);
-    use("ViewAngle", this->ViewAngle);
-    use("ImageSize", this->ImageSize);
-  }
-};
-
-/// All but the graded filter, which is an object.
-struct OpticsSettings
-{
-  // Values without an enumeration in the tracer.
-  static constexpr int lockOff = 0, lockAlways = 2; // LockK
-  static constexpr int scenePattern = 3;            // BackgroundPattern
-  static constexpr int lightOfRays = 0;             // LightModel
-
-  int Cutoff = 0;
-  double KnifeEdgeAngle = 0;
-  double CutoffOffset = 0;
-  bool InvertCutoff = false;
-  bool AutoKScale = true;
-  int LockK = 1; // over time
-  double KScale = 1000;
-  bool KFromOptics = false;
-  double FocalLength = 1;
-  double SourceWidth = 1;
-  double SourceLength = 10;
-  double CutoffPosition = 0;
-  std::string ColorFilterImage;
-  double FringeSpacing = 0;
-  double FringeAngle = 0;
-  bool WhiteLight = false;
-  double ScreenDistance = -1;
-  double FocusOffset = 0;
-  double SourceDistance = 0;
-  int SourceShape = 0;
-  int LightModel = lightOfRays;
-  double Bandwidth = 0;
-  int CoherenceSamples = 32;
-  double PhasePlateDiameter = 0;
-  double PhasePlateDelay = 0.25;
-  double PhasePlateTransmission = 1;
-  int BackgroundPattern = 0;
-  double BackgroundDistance = -1;
-  double BackgroundPeriod = 0;
-  double BackgroundAngle = 0;
-  std::string BackgroundImage;
-  double FNumber = 0;
-  double LensFocalLength = 50;
-  double FocusDistance = 0;
-  double SensorWidth = 0;
-  bool ColorByField = false;
-  std::vector<double> FieldColors;
-
-  template <class Visit>
-  void visit(const Visit& use) const
-  {
-    use("Cutoff", this->Cutoff);
-    use("KnifeEdgeAngle", this->KnifeEdgeAngle);
-    use("CutoffOffset", this->CutoffOffset);
-    use("InvertCutoff", this->InvertCutoff);
-    use("AutoKScale", this->AutoKScale);
-    use("LockK", this->LockK);
-    use("KScale", this->KScale);
-    use("KFromOptics", this->KFromOptics);
-    use("FocalLength", this->FocalLength);
-    use("SourceWidth", this->SourceWidth);
-    use("SourceLength", this->SourceLength);
-    use("CutoffPosition", this->CutoffPosition);
-    use("ColorFilterImage", this->ColorFilterImage);
-    use("FringeSpacing", this->FringeSpacing);
-    use("FringeAngle", this->FringeAngle);
-    use("WhiteLight", this->WhiteLight);
-    use("ScreenDistance", this->ScreenDistance);
-    use("FocusOffset", this->FocusOffset);
-    use("SourceDistance", this->SourceDistance);
-    use("SourceShape", this->SourceShape);
-    use("LightModel", this->LightModel);
-    use("Bandwidth", this->Bandwidth);
-    use("CoherenceSamples", this->CoherenceSamples);
-    use("PhasePlateDiameter", this->PhasePlateDiameter);
-    use("PhasePlateDelay", this->PhasePlateDelay);
-    use("PhasePlateTransmission", this->PhasePlateTransmission);
-    use("BackgroundPattern", this->BackgroundPattern);
-    use("BackgroundDistance", this->BackgroundDistance);
-    use("BackgroundPeriod", this->BackgroundPeriod);
-    use("BackgroundAngle", this->BackgroundAngle);
-    use("BackgroundImage", this->BackgroundImage);
-    use("FNumber", this->FNumber);
-    use("LensFocalLength", this->LensFocalLength);
-    use("FocusDistance", this->FocusDistance);
-    use("SensorWidth", this->SensorWidth);
-    use("ColorByField", this->ColorByField);
-    use("FieldColors", this->FieldColors);
+    using S = ViewSettings;
+    use("FaceFlatData", &S::FaceFlatData);
+    use("HasFocalPoint", &S::HasFocalPoint);
+    use("FocalPoint", &S::FocalPoint);
+    // visits: View
+    use("ViewDirection", &S::ViewDirection);
+    use("ViewUp", &S::ViewUp);
+    use("ParallelScale", &S::ParallelScale);
+    use("ViewAngle", &S::ViewAngle);
+    use("ImageSize", &S::ImageSize);
+    // end
   }
 };
 
@@ -148,88 +45,161 @@ struct OpticsSettings
 /// some of them instead.
 struct AccuracySettings
 {
-  int PathModel = 0;
-  double StepSize = 0;
-  double HomogeneityTolerance = 0;
-  int SamplesPerPixel = 0;
+  // members: PathModel, StepSize, HomogeneityTolerance, SamplesPerPixel, Precision, MediumTolerance, TargetError
+  int PathModel = 1;
+  double StepSize = 2;
+  double HomogeneityTolerance = 0.001;
+  int SamplesPerPixel = 1;
   int Precision = 0;
-  double MediumTolerance = 0;
+  double MediumTolerance = 0.003;
   double TargetError = 0;
+  // end
 
-  template <class Visit>
-  void visit(const Visit& use) const
+  template <class Use>
+  static void visit(const Use& use)
   {
-    use("PathModel", this->PathModel);
-    use("StepSize", this->StepSize);
-    use("HomogeneityTolerance", this->HomogeneityTolerance);
-    use("SamplesPerPixel", this->SamplesPerPixel);
-    use("Precision", this->Precision);
-    use("MediumTolerance", this->MediumTolerance);
-    use("TargetError", this->TargetError);
+    using S = AccuracySettings;
+    // visits: PathModel, StepSize, HomogeneityTolerance, SamplesPerPixel, Precision, MediumTolerance, TargetError
+    use("PathModel", &S::PathModel);
+    use("StepSize", &S::StepSize);
+    use("HomogeneityTolerance", &S::HomogeneityTolerance);
+    use("SamplesPerPixel", &S::SamplesPerPixel);
+    use("Precision", &S::Precision);
+    use("MediumTolerance", &S::MediumTolerance);
+    use("TargetError", &S::TargetError);
+    // end
   }
 };
 
-struct FilmSettings
+/// All but the graded filter, which is an object.
+struct SchlierenSettings : ViewSettings, AccuracySettings
 {
-  double SmoothingRadius = 0;
+  // Values without an enumeration in the tracer.
+  static constexpr int lockOff = 0, lockAlways = 2; // LockK
+  static constexpr int scenePattern = 3;            // BackgroundPattern
+  static constexpr int lightOfRays = 0;             // LightModel
+
+  double Wavelength = 632.8;
   int PreviewReduction = 1;
-  bool ErrorEstimate = false;
+  // members: rest
+  double LengthScale = 1;
+  double AmbientRefractivity = -1;
+  int ExitInto = 0;
+  double ExitRefractivity = 2.7e-4;
+  int Cutoff = 0;
+  double KnifeEdgeAngle = 0;
+  double CutoffOffset = 0;
+  bool InvertCutoff = false;
+  bool AutoKScale = true;
+  int LockK = 1;
+  double KScale = 1000;
+  bool KFromOptics = false;
+  double FocalLength = 1;
+  double SourceWidth = 1;
+  double CutoffPosition = 0;
+  std::string ColorFilterImage;
+  double FringeSpacing = 0;
+  double FringeAngle = 0;
+  bool WhiteLight = false;
+  int BackgroundPattern = 0;
+  double BackgroundDistance = -1;
+  double BackgroundPeriod = 0;
+  double BackgroundAngle = 0;
+  std::string BackgroundImage;
+  double ScreenDistance = -1;
+  double FocusOffset = 0;
+  double FNumber = 0;
+  double LensFocalLength = 50;
+  double FocusDistance = 0;
+  double SensorWidth = 0;
   double FullWell = 0;
   double Exposure = 0.8;
   double ReadNoise = 10;
   double Gamma = 1;
   int BitDepth = 8;
-
-  template <class Visit>
-  void visit(const Visit& use) const
-  {
-    use("SmoothingRadius", this->SmoothingRadius);
-    use("PreviewReduction", this->PreviewReduction);
-    use("ErrorEstimate", this->ErrorEstimate);
-    use("FullWell", this->FullWell);
-    use("Exposure", this->Exposure);
-    use("ReadNoise", this->ReadNoise);
-    use("Gamma", this->Gamma);
-    use("BitDepth", this->BitDepth);
-  }
-};
-
-/// Resources for computing, which images do not depend on.
-struct ResourceSettings
-{
+  double SourceDistance = 0;
+  int SourceShape = 0;
+  double SourceLength = 10;
+  int LightModel = 0;
+  double Bandwidth = 0;
+  int CoherenceSamples = 32;
+  double PhasePlateDiameter = 0;
+  double PhasePlateDelay = 0.25;
+  double PhasePlateTransmission = 1;
+  bool ColorByField = false;
+  std::vector<double> FieldColors;
+  double SmoothingRadius = 0;
+  bool ErrorEstimate = false;
   int MediumMemory = 1024;
   int Device = 0;
   int NumberOfThreads = 0;
   int GatherLimit = 1000000;
   double TimeLimit = 0;
+  // end
 
-  template <class Visit>
-  void visit(const Visit& use) const
+  template <class Use>
+  static void visit(const Use& use)
   {
-    use("MediumMemory", this->MediumMemory);
-    use("Device", this->Device);
-    use("NumberOfThreads", this->NumberOfThreads);
-    use("GatherLimit", this->GatherLimit);
-    use("TimeLimit", this->TimeLimit);
-  }
-};
-
-struct SchlierenSettings : SurroundingsSettings,
-                           ViewSettings,
-                           OpticsSettings,
-                           AccuracySettings,
-                           FilmSettings,
-                           ResourceSettings
-{
-  template <class Visit>
-  void visit(const Visit& use) const
-  {
-    this->SurroundingsSettings::visit(use);
-    this->ViewSettings::visit(use);
-    this->OpticsSettings::visit(use);
-    this->AccuracySettings::visit(use);
-    this->FilmSettings::visit(use);
-    this->ResourceSettings::visit(use);
+    using S = SchlierenSettings;
+    ViewSettings::visit(use);
+    AccuracySettings::visit(use);
+    use("Wavelength", &S::Wavelength);
+    use("PreviewReduction", &S::PreviewReduction);
+    // visits: rest
+    use("LengthScale", &S::LengthScale);
+    use("AmbientRefractivity", &S::AmbientRefractivity);
+    use("ExitInto", &S::ExitInto);
+    use("ExitRefractivity", &S::ExitRefractivity);
+    use("Cutoff", &S::Cutoff);
+    use("KnifeEdgeAngle", &S::KnifeEdgeAngle);
+    use("CutoffOffset", &S::CutoffOffset);
+    use("InvertCutoff", &S::InvertCutoff);
+    use("AutoKScale", &S::AutoKScale);
+    use("LockK", &S::LockK);
+    use("KScale", &S::KScale);
+    use("KFromOptics", &S::KFromOptics);
+    use("FocalLength", &S::FocalLength);
+    use("SourceWidth", &S::SourceWidth);
+    use("CutoffPosition", &S::CutoffPosition);
+    use("ColorFilterImage", &S::ColorFilterImage);
+    use("FringeSpacing", &S::FringeSpacing);
+    use("FringeAngle", &S::FringeAngle);
+    use("WhiteLight", &S::WhiteLight);
+    use("BackgroundPattern", &S::BackgroundPattern);
+    use("BackgroundDistance", &S::BackgroundDistance);
+    use("BackgroundPeriod", &S::BackgroundPeriod);
+    use("BackgroundAngle", &S::BackgroundAngle);
+    use("BackgroundImage", &S::BackgroundImage);
+    use("ScreenDistance", &S::ScreenDistance);
+    use("FocusOffset", &S::FocusOffset);
+    use("FNumber", &S::FNumber);
+    use("LensFocalLength", &S::LensFocalLength);
+    use("FocusDistance", &S::FocusDistance);
+    use("SensorWidth", &S::SensorWidth);
+    use("FullWell", &S::FullWell);
+    use("Exposure", &S::Exposure);
+    use("ReadNoise", &S::ReadNoise);
+    use("Gamma", &S::Gamma);
+    use("BitDepth", &S::BitDepth);
+    use("SourceDistance", &S::SourceDistance);
+    use("SourceShape", &S::SourceShape);
+    use("SourceLength", &S::SourceLength);
+    use("LightModel", &S::LightModel);
+    use("Bandwidth", &S::Bandwidth);
+    use("CoherenceSamples", &S::CoherenceSamples);
+    use("PhasePlateDiameter", &S::PhasePlateDiameter);
+    use("PhasePlateDelay", &S::PhasePlateDelay);
+    use("PhasePlateTransmission", &S::PhasePlateTransmission);
+    use("ColorByField", &S::ColorByField);
+    use("FieldColors", &S::FieldColors);
+    use("SmoothingRadius", &S::SmoothingRadius);
+    use("ErrorEstimate", &S::ErrorEstimate);
+    use("MediumMemory", &S::MediumMemory);
+    use("Device", &S::Device);
+    use("NumberOfThreads", &S::NumberOfThreads);
+    use("GatherLimit", &S::GatherLimit);
+    use("TimeLimit", &S::TimeLimit);
+    // end
   }
 };
 

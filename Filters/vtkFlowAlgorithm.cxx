@@ -135,80 +135,10 @@ MediumSettings vtkFlowAlgorithm::GetMediumSettings()
 }
 
 //------------------------------------------------------------------------------
-void vtkFlowAlgorithm::AddMixtureArray(const char* name)
-{
-  this->MixtureArrays.emplace_back(name ? name : "");
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::ClearMixtureArrays()
-{
-  this->MixtureArrays.clear();
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::AddMixtureGas(const char* name)
-{
-  this->MixtureGases.emplace_back(name ? name : "");
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::ClearMixtureGases()
-{
-  this->MixtureGases.clear();
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
 double vtkFlowAlgorithm::GetGladstoneDaleConstantUsed()
 {
   return isCustom(this->Gas) ? this->GladstoneDaleConstant
                              : vtkGasTable::GetConstant(this->Gas, this->Wavelength);
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::AddMixtureConstant(double constant)
-{
-  this->MixtureConstants.push_back(constant);
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::ClearMixtureConstants()
-{
-  this->MixtureConstants.clear();
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::AddMixtureMolarMass(double molarMass)
-{
-  this->MixtureMolarMasses.push_back(molarMass);
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::ClearMixtureMolarMasses()
-{
-  this->MixtureMolarMasses.clear();
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::AddField(const char* name)
-{
-  this->Fields.emplace_back(name ? name : "");
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::ClearFields()
-{
-  this->Fields.clear();
-  this->Modified();
 }
 
 //------------------------------------------------------------------------------
@@ -222,19 +152,5 @@ void vtkFlowAlgorithm::AddTransferFunction(vtkPiecewiseFunction* function)
 void vtkFlowAlgorithm::ClearTransferFunctions()
 {
   this->Functions.clear();
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::AddFieldRange(double value)
-{
-  this->FieldRanges.push_back(value);
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::ClearFieldRanges()
-{
-  this->FieldRanges.clear();
   this->Modified();
 }

@@ -48,24 +48,6 @@ public:
     BODIES = 1
   };
 
-  /// Models of the refractivity N. The numbers are part of the interface.
-  enum IndexModels
-  {
-    /// The model that fits the arrays: with a density (chosen, or recognized by name)
-    /// GLADSTONE_DALE, or GLADSTONE_DALE_MIXTURE if there are fractions of known gases and Gas and
-    /// GladstoneDaleConstant are unchanged; else REFRACTIVITY, REFRACTIVE_INDEX or CIDDOR
-    AUTO = -1,
-    GLADSTONE_DALE = 0,   ///< N = K rho (Gladstone & Dale 1863); array 0 is the density rho
-    REFRACTIVE_INDEX = 1, ///< N = n - 1; array 1 is n
-    REFRACTIVITY = 2,     ///< array 1 is N
-    /// N = rho sum K_i Y_i: array 0 is rho; see AddMixtureArray
-    GLADSTONE_DALE_MIXTURE = 3,
-    /// Moist air (Ciddor 1996): arrays 2, 3 and 4 are temperature, pressure and humidity
-    CIDDOR = 4,
-    /// Several fields with a curve each: N = scale mean f_i, see AddField
-    TRANSFER_FUNCTIONS = 5
-  };
-
   /// Arrays for SetInputArrayToProcess.
   enum InputArrays
   {
@@ -77,42 +59,257 @@ public:
     MASK = 5      ///< not chosen, "" or "None": gas in all visible cells
   };
 
-  /// Kinds of fractions.
-  enum FractionTypes
+  /// Air in visible light, m^3/kg.
+  static constexpr double DefaultGladstoneDaleConstant = MediumSettings::defaultConstant;
+
+  // setters: rest
+  /// Values of IndexModel.
+  enum IndexModels
   {
-    MASS = 0,
-    VOLUME = 1 ///< or mole fractions
+    AUTO = -1,
+    GLADSTONE_DALE = 0,
+    REFRACTIVE_INDEX = 1,
+    REFRACTIVITY = 2,
+    GLADSTONE_DALE_MIXTURE = 3,
+    CIDDOR = 4,
+    TRANSFER_FUNCTIONS = 5
   };
 
   ///@{
-  /**
-   * Model of the refractivity, one of IndexModels. Default: AUTO. SetInputArrayToProcess chooses
-   * its arrays, see InputArrays. If the association (that of the model's first array) has no such
-   * names, the other one is searched. Without a choice, flowDefaults() finds arrays by name, and
-   * GetArraysUsed() lists them. It is an error, which lists the arrays, if there is none.
-   */
+  /// How the refractivity N = n - 1 is found. Default: Auto.
   vtkSetClampMacro(IndexModel, int, AUTO, TRANSFER_FUNCTIONS);
   vtkGetMacro(IndexModel, int);
   ///@}
 
   ///@{
-  /**
-   * Gladstone-Dale constant K in m^3/kg. Default: DefaultGladstoneDaleConstant (air, visible
-   * light). Gladstone & Dale 1863, Phil. Trans. R. Soc. 153, 317.
-   */
-  static constexpr double DefaultGladstoneDaleConstant = MediumSettings::defaultConstant;
+  /// The gas whose Gladstone-Dale constant at Wavelength is used, by name or, in scripts, by
+  /// formula (He). Default: Custom.
+  vtkSetStdStringFromCharMacro(Gas);
+  vtkGetCharFromStdStringMacro(Gas);
+  ///@}
+
+  ///@{
+  /// K in N = K times density, in m^3/kg (Gladstone and Dale 1863). 2.26e-4 is air in visible
+  /// light; nitrogen has 2.38e-4. Default: 2.26e-4.
   vtkSetMacro(GladstoneDaleConstant, double);
   vtkGetMacro(GladstoneDaleConstant, double);
   ///@}
 
   ///@{
-  /**
-   * The gas, by a name or formula of vtkGasTable, whose constant at Wavelength is used instead of
-   * GladstoneDaleConstant. Default: "Custom", no gas of the table.
-   */
-  vtkSetStdStringFromCharMacro(Gas);
-  vtkGetCharFromStdStringMacro(Gas);
+  /// Factor that turns the density array into kg/m^3; 0: that of the unit in the array's name, such
+  /// as Density [g/cm3] or rho_gcc, or 1 where there is none. Default: 0.
+  vtkSetMacro(DensityScale, double);
+  vtkGetMacro(DensityScale, double);
   ///@}
+
+  ///@{
+  /// The names of the arrays with the fractions of the species, for points or cells like the
+  /// density. Default: none.
+  void AddMixtureArray(const char* text)
+  {
+    this->MixtureArrays.emplace_back(text ? text : "");
+    this->Modified();
+  }
+  void ClearMixtureArrays()
+  {
+    this->MixtureArrays.clear();
+    this->Modified();
+  }
+  ///@}
+
+  ///@{
+  /// What the species are, by names or formulas as for Gas, in the order of Mixture Arrays.
+  /// Default: none.
+  void AddMixtureGas(const char* text)
+  {
+    this->MixtureGases.emplace_back(text ? text : "");
+    this->Modified();
+  }
+  void ClearMixtureGases()
+  {
+    this->MixtureGases.clear();
+    this->Modified();
+  }
+  ///@}
+
+  ///@{
+  /// The species' Gladstone-Dale constants in m^3/kg, in the order of Mixture Arrays. Default:
+  /// none.
+  void AddMixtureConstant(double value)
+  {
+    this->MixtureConstants.emplace_back(value);
+    this->Modified();
+  }
+  void ClearMixtureConstants()
+  {
+    this->MixtureConstants.clear();
+    this->Modified();
+  }
+  ///@}
+
+  ///@{
+  /// The gas that makes up the rest of a mixture. Default: Custom.
+  vtkSetStdStringFromCharMacro(BackgroundGas);
+  vtkGetCharFromStdStringMacro(BackgroundGas);
+  ///@}
+
+  ///@{
+  /// The Gladstone-Dale constant of the gas that makes up the rest, m^3/kg. 2.26e-4 is air in
+  /// visible light. Default: 2.26e-4.
+  vtkSetMacro(BackgroundConstant, double);
+  vtkGetMacro(BackgroundConstant, double);
+  ///@}
+
+  /// Values of FractionType.
+  enum FractionTypes
+  {
+    MASS = 0,
+    VOLUME = 1
+  };
+
+  ///@{
+  /// What the arrays are fractions of: Mass, or Volume, that is moles, which also uses the molar
+  /// masses. Default: Mass.
+  vtkSetClampMacro(FractionType, int, MASS, VOLUME);
+  vtkGetMacro(FractionType, int);
+  ///@}
+
+  ///@{
+  /// The species' molar masses in kg/mol, in the order of Mixture Arrays; for volume fractions.
+  /// Default: none.
+  void AddMixtureMolarMass(double value)
+  {
+    this->MixtureMolarMasses.emplace_back(value);
+    this->Modified();
+  }
+  void ClearMixtureMolarMasses()
+  {
+    this->MixtureMolarMasses.clear();
+    this->Modified();
+  }
+  ///@}
+
+  ///@{
+  /// The molar mass of the gas that makes up the rest, kg/mol; for volume fractions. 0.0289647 is
+  /// dry air. Default: 0.0289647.
+  vtkSetMacro(BackgroundMolarMass, double);
+  vtkGetMacro(BackgroundMolarMass, double);
+  ///@}
+
+  ///@{
+  /// Factor that turns the temperature array into K; 0: that of the unit in the array's name, or 1
+  /// where there is none. Default: 0.
+  vtkSetMacro(TemperatureScale, double);
+  vtkGetMacro(TemperatureScale, double);
+  ///@}
+
+  ///@{
+  /// Factor that turns the pressure array into Pa; 0: that of the unit in the array's name, such as
+  /// p_hPa, or 1 where there is none. Default: 0.
+  vtkSetMacro(PressureScale, double);
+  vtkGetMacro(PressureScale, double);
+  ///@}
+
+  ///@{
+  /// Pressure of air that is the same everywhere, in Pa, as around a heater or a fire in a room
+  /// (101325); then a temperature is enough, and no array of the pressure is read. 0: the pressure
+  /// is an array. Default: 0.
+  vtkSetMacro(UniformPressure, double);
+  vtkGetMacro(UniformPressure, double);
+  ///@}
+
+  ///@{
+  /// Temperature at rest, K, of air whose pressure changes without heat, such as a flow without
+  /// strong shocks (293.15 in a room); then a pressure is enough, and no array of the temperature
+  /// is read: it is this times (p / Stagnation Pressure)^(2/7). 0: the temperature is an array.
+  /// Default: 0.
+  vtkSetMacro(StagnationTemperature, double);
+  vtkGetMacro(StagnationTemperature, double);
+  ///@}
+
+  ///@{
+  /// Pressure of this air at rest, Pa; more than 0. Default: 101325.
+  vtkSetMacro(StagnationPressure, double);
+  vtkGetMacro(StagnationPressure, double);
+  ///@}
+
+  ///@{
+  /// Relative humidity, 0 to 1, where no array of it is chosen; 0 is dry air. Default: 0.
+  vtkSetMacro(RelativeHumidity, double);
+  vtkGetMacro(RelativeHumidity, double);
+  ///@}
+
+  ///@{
+  /// Wavelength of the light in vacuum, nanometres: for gases chosen by name, and for moist air
+  /// (300 to 1700). 632.8 is a helium-neon laser. Default: 632.8.
+  vtkSetMacro(Wavelength, double);
+  vtkGetMacro(Wavelength, double);
+  ///@}
+
+  ///@{
+  /// The names of the arrays to map through Transfer Functions, any number, all of points or all of
+  /// cells. Default: none.
+  void AddField(const char* text)
+  {
+    this->Fields.emplace_back(text ? text : "");
+    this->Modified();
+  }
+  void ClearFields()
+  {
+    this->Fields.clear();
+    this->Modified();
+  }
+  ///@}
+
+  ///@{
+  /// Two values for each of the Fields, which are mapped to 0 and 1; values beyond are clamped.
+  /// Default: none.
+  void AddFieldRange(double value)
+  {
+    this->FieldRanges.emplace_back(value);
+    this->Modified();
+  }
+  void ClearFieldRanges()
+  {
+    this->FieldRanges.clear();
+    this->Modified();
+  }
+  ///@}
+
+  ///@{
+  /// The refractivity where all Transfer Functions are 1: N = scale times their mean. 3e-4 is about
+  /// that of air. Default: 3e-4.
+  vtkSetMacro(RefractivityScale, double);
+  vtkGetMacro(RefractivityScale, double);
+  ///@}
+
+  /// Values of MaskedSide.
+  enum MaskedSides
+  {
+    MASKED_AUTO = -1,
+    MASKED_ABOVE = 0,
+    MASKED_BELOW = 1
+  };
+
+  ///@{
+  /// Auto: the side that the name of Mask means, Above where it is not known. Default: Auto.
+  vtkSetClampMacro(MaskedSide, int, MASKED_AUTO, MASKED_BELOW);
+  vtkGetMacro(MaskedSide, int);
+  ///@}
+
+  ///@{
+  /// The value of Mask between gas and bodies. Default: 0.5.
+  vtkSetMacro(MaskThreshold, double);
+  vtkGetMacro(MaskThreshold, double);
+  ///@}
+
+  ///@{
+  /// A point of the axis of symmetry. Default: 0 0 0.
+  vtkSetVector3Macro(SymmetryOrigin, double);
+  vtkGetVector3Macro(SymmetryOrigin, double);
+  ///@}
+
+  // end
 
   /**
    * Returns the Gladstone-Dale constant in use, m^3/kg: that of Gas at Wavelength, or
@@ -122,161 +319,12 @@ public:
 
   ///@{
   /**
-   * Factor from the density array to kg/m^3; 0 (the default): by the unit in the array's name,
-   * such as "Density [g/cm3]" or "rho_gcc", or 1 without a unit.
-   */
-  vtkSetMacro(DensityScale, double);
-  vtkGetMacro(DensityScale, double);
-  ///@}
-
-  ///@{
-  /**
-   * For mixtures: the arrays of the species' fractions, of the same association as the density.
-   * The rest of the sum to 1 is the background gas. Default: none.
-   */
-  virtual void AddMixtureArray(const char* name);
-  virtual void ClearMixtureArrays();
-  ///@}
-
-  ///@{
-  /**
-   * For mixtures: the Gladstone-Dale constants in m^3/kg, one for each array, not negative.
-   */
-  virtual void AddMixtureConstant(double constant);
-  virtual void ClearMixtureConstants();
-  ///@}
-
-  ///@{
-  /**
-   * For mixtures: the species, by names or formulas of vtkGasTable, one for each array or none at
-   * all. Their constants and molar masses come from the table, or from AddMixtureConstant and
-   * AddMixtureMolarMass for species called "" or "Custom". Default: none.
-   */
-  virtual void AddMixtureGas(const char* name);
-  virtual void ClearMixtureGases();
-  ///@}
-
-  ///@{
-  /**
-   * For mixtures by volume: the species' molar masses in kg/mol, one for each array, positive.
-   */
-  virtual void AddMixtureMolarMass(double molarMass);
-  virtual void ClearMixtureMolarMasses();
-  ///@}
-
-  ///@{
-  /**
-   * For mixtures: the background gas's Gladstone-Dale constant in m^3/kg (default: 2.26e-4, air)
-   * and molar mass in kg/mol (default: 0.0289647, air; for volume fractions).
-   */
-  vtkSetMacro(BackgroundConstant, double);
-  vtkGetMacro(BackgroundConstant, double);
-  vtkSetMacro(BackgroundMolarMass, double);
-  vtkGetMacro(BackgroundMolarMass, double);
-  ///@}
-
-  ///@{
-  /**
-   * For mixtures: the background gas, by a name or formula of vtkGasTable, whose constant and
-   * molar mass are used. Default: "Custom", no gas of the table.
-   */
-  vtkSetStdStringFromCharMacro(BackgroundGas);
-  vtkGetCharFromStdStringMacro(BackgroundGas);
-  ///@}
-
-  ///@{
-  /**
-   * Kind of the mixture's fractions, one of FractionTypes. Default: MASS.
-   */
-  vtkSetClampMacro(FractionType, int, MASS, VOLUME);
-  vtkGetMacro(FractionType, int);
-  ///@}
-
-  ///@{
-  /**
-   * Factors from the arrays of temperature and pressure to K and Pa; 0 (the default): by the unit
-   * in the name, as for DensityScale.
-   */
-  vtkSetMacro(TemperatureScale, double);
-  vtkGetMacro(TemperatureScale, double);
-  vtkSetMacro(PressureScale, double);
-  vtkGetMacro(PressureScale, double);
-  ///@}
-
-  ///@{
-  /// Pressure in Pa that Ciddor's air has everywhere, as in a room, instead of an array; 0 (the
-  /// default): an array.
-  vtkSetMacro(UniformPressure, double);
-  vtkGetMacro(UniformPressure, double);
-  ///@}
-
-  ///@{
-  /**
-   * Of air whose pressure changes without heat, such as a flow without strong shocks: its temperature, K, and pressure, Pa,
-   * at rest. The array of the pressure then gives the temperature, T0 (p / p0)^(2/7), and none of the temperature is read.
-   * A temperature of 0 (the default): an array. The default of the pressure is 101325.
-   */
-  vtkSetMacro(StagnationTemperature, double);
-  vtkGetMacro(StagnationTemperature, double);
-  vtkSetMacro(StagnationPressure, double);
-  vtkGetMacro(StagnationPressure, double);
-  ///@}
-
-  ///@{
-  /**
-   * For moist air: the relative humidity, 0 to 1, used without an array of it (default: 0). Its
-   * carbon dioxide is 450 parts per million.
-   */
-  vtkSetMacro(RelativeHumidity, double);
-  vtkGetMacro(RelativeHumidity, double);
-  ///@}
-
-  ///@{
-  /**
-   * Wavelength of the light in vacuum, nanometres: 300 to 1700 for moist air, any for named gases
-   * (with one warning outside of the range in which their constants were measured). Default:
-   * 632.8.
-   */
-  vtkSetMacro(Wavelength, double);
-  vtkGetMacro(Wavelength, double);
-  ///@}
-
-  ///@{
-  /**
-   * For transfer functions: the fields, all arrays of points or all of cells, any number. With
-   * x_i, the field relative to its range, 0 to 1, N is RefractivityScale times the mean of
-   * f_i(x_i). Default: none.
-   */
-  virtual void AddField(const char* name);
-  virtual void ClearFields();
-  ///@}
-
-  ///@{
-  /**
    * The functions f_i, one for each field, or none (the default): straight lines from 0 to 1, also
    * for functions that are null or have no points. Values may be any; x is between 0 and 1. Moving
    * a point modifies this filter.
    */
   virtual void AddTransferFunction(vtkPiecewiseFunction* function);
   virtual void ClearTransferFunctions();
-  ///@}
-
-  ///@{
-  /**
-   * The fields' ranges, two values for each, which map to 0 and 1; values beyond are clamped.
-   * Empty (the default), or two equal values: the range of the field's finite, visible values over
-   * all blocks in use.
-   */
-  virtual void AddFieldRange(double value);
-  virtual void ClearFieldRanges();
-  ///@}
-
-  ///@{
-  /**
-   * For transfer functions: N if all of them are 1. Default: 3e-4.
-   */
-  vtkSetMacro(RefractivityScale, double);
-  vtkGetMacro(RefractivityScale, double);
   ///@}
 
   /**
@@ -354,47 +402,6 @@ public:
    */
   vtkSetClampMacro(SymmetryAxis, int, AUTO_AXIS, Z_AXIS);
   vtkGetMacro(SymmetryAxis, int);
-  ///@}
-
-  ///@{
-  /**
-   * A point of the symmetry axis. Default: (0, 0, 0).
-   */
-  vtkSetVector3Macro(SymmetryOrigin, double);
-  vtkGetVector3Macro(SymmetryOrigin, double);
-  ///@}
-
-  /// Values of the array MASK that mark regions without gas.
-  enum MaskedSides
-  {
-    MASKED_AUTO = -1,
-    MASKED_ABOVE = 0,
-    MASKED_BELOW = 1
-  };
-
-  ///@{
-  /**
-   * Regions without gas, by an array of points or cells (SetInputArrayToProcess(MASK, ...)): with
-   * MASKED_ABOVE where it is MaskThreshold or more, such as an array `solid`; with MASKED_BELOW
-   * where it is less, such as `iblank` or a cell's gas fraction; with MASKED_AUTO (the default) on
-   * the side that the array's name means, above for unknown names. NaN is not gas, either. These
-   * regions block light, and their values are not used: points are hidden, or cells if the field
-   * belongs to cells (those with a hidden point). Blocks without the array are all gas; it is an
-   * error if all blocks are.
-   *
-   * If no array is chosen, one is that has such a name and values on both sides of MaskThreshold;
-   * GetArraysUsed() lists it. The name None chooses none.
-   */
-  vtkSetClampMacro(MaskedSide, int, MASKED_AUTO, MASKED_BELOW);
-  vtkGetMacro(MaskedSide, int);
-  ///@}
-
-  ///@{
-  /**
-   * Threshold of MaskedSide. Default: 0.5.
-   */
-  vtkSetMacro(MaskThreshold, double);
-  vtkGetMacro(MaskThreshold, double);
   ///@}
 
   /**

@@ -68,9 +68,10 @@ static_assert(sameValue(Self::EXIT_AUTO, schlieren::ExitInto::Auto) &&
   sameValue(Self::EXIT_SURROUNDINGS, schlieren::ExitInto::Surroundings) &&
   sameValue(Self::EXIT_AIR, schlieren::ExitInto::Air) &&
   sameValue(Self::EXIT_CUSTOM, schlieren::ExitInto::Custom));
-static_assert(Self::LOCK_OFF == OpticsSettings::lockOff &&
-  Self::LOCK_ALWAYS == OpticsSettings::lockAlways && Self::SCENE == OpticsSettings::scenePattern &&
-  Self::LIGHT_RAYS == OpticsSettings::lightOfRays);
+static_assert(Self::LOCK_OFF == SchlierenSettings::lockOff &&
+  Self::LOCK_ALWAYS == SchlierenSettings::lockAlways &&
+  Self::SCENE == SchlierenSettings::scenePattern &&
+  Self::LIGHT_RAYS == SchlierenSettings::lightOfRays);
 
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.
 constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
@@ -135,7 +136,6 @@ vtkSchlierenFilter::vtkSchlierenFilter()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
-  this->vtkSchlierenFilter::SetQuality(INTERACTIVE);
 }
 
 //------------------------------------------------------------------------------

@@ -51,9 +51,9 @@
  * centre of each bin, whose coordinates are the deflections along u and v, with the array `Rays`
  * (64-bit integers), 256 bins along both axes.
  *
- * The properties of the medium are those of vtkFlowAlgorithm. Results are kept
- * until something that they depend on changes: another cutoff, k or knife angle needs no
- * re-tracing, and another view keeps the medium.
+ * The properties of the medium are those of vtkFlowAlgorithm; Documentation/properties.md says more about all of them.
+ * Results are kept until something that they depend on changes: another cutoff, k or knife angle needs no re-tracing, and
+ * another view keeps the medium.
  *
  * Each user error is one error that says what to do, with an empty output.
  *
@@ -103,63 +103,6 @@ public:
   vtkTypeMacro(vtkSchlierenFilter, vtkFlowAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// What SetCutoff() takes.
-  enum Cutoffs
-  {
-    KNIFE_EDGE = 0,
-    SHADOWGRAPH = 1,
-    CIRCULAR = 2,
-    CIRCULAR_COMPLEMENT = 3,
-    GRADED_FILTER = 4,
-    COLOR_FILTER = 5,
-    INTERFEROGRAM = 6,
-    BACKGROUND_ORIENTED = 7,
-    NUMERICAL_SCHLIEREN = 8,
-    PHASE_CONTRAST = 9
-  };
-
-  /// What SetLockK() takes; LOCK_OVER_TIME keeps a value from one time step to the next.
-  enum LockModes
-  {
-    LOCK_OFF = 0,
-    LOCK_OVER_TIME = 1,
-    LOCK_ALWAYS = 2
-  };
-
-  /// What SetExitInto() takes.
-  enum Exits
-  {
-    EXIT_AUTO = 0,
-    EXIT_SURROUNDINGS = 1,
-    EXIT_AIR = 2,
-    EXIT_CUSTOM = 3
-  };
-
-  /// What SetSourceShape() takes.
-  enum SourceShapes
-  {
-    POINT = 0,
-    SLIT = 1,
-    DISC = 2
-  };
-
-  /// What SetLightModel() takes.
-  enum LightModels
-  {
-    LIGHT_RAYS = 0,
-    LIGHT_WAVES = 1,
-    LIGHT_AUTO = 2
-  };
-
-  /// What SetBackgroundPattern() takes.
-  enum BackgroundPatterns
-  {
-    DOTS = 0,
-    STRIPES = 1,
-    PICTURE = 2,
-    SCENE = 3
-  };
-
   /// The image, and the histogram of the cutoff plane.
   enum OutputPorts
   {
@@ -178,28 +121,6 @@ public:
     CUSTOM = 5
   };
 
-  /// What SetPathModel() takes.
-  enum PathModels
-  {
-    STRAIGHT = 0,
-    REFRACTED = 1
-  };
-
-  /// What SetPrecision() takes.
-  enum Precisions
-  {
-    SINGLE = 0,
-    DOUBLE = 1
-  };
-
-  /// What SetDevice() takes; AUTO is CUDA where there is a GPU that can be used.
-  enum Devices
-  {
-    AUTO = 0,
-    CPU = 1,
-    CUDA = 2
-  };
-
   ///@{
   /// Returns the image, or the output of another port.
   vtkImageData* GetOutput();
@@ -211,65 +132,510 @@ public:
    */
   const char* GetGrid() const;
 
-  /**
-   * Wavelength of the light in vacuum, nanometres, for the medium and for interferograms. Default: 632.8.
-   */
-  void SetWavelength(double wavelength) override;
-
+  // setters: rest
   ///@{
-  /**
-   * Metres per unit of the data's coordinates. Default: 1. An error where it is not positive.
-   */
+  /// Metres per unit of the data's coordinates; 0.001 for data in millimetres. Default: 1.
   vtkSetMacro(LengthScale, double);
   vtkGetMacro(LengthScale, double);
   ///@}
 
   ///@{
-  /**
-   * Ambient refractivity n - 1. Up to -1, which is the default and no refractivity: the median over
-   * the domain's boundary, found for the first image and kept at all other times, so that all
-   * fringes of a series refer to the same light. It is found again for other data or another
-   * medium. LockedAmbient is the ambient kept from an earlier image, else 0; setting it (as state
-   * files do) sets that of the next image, where 0 means that it is found.
-   */
+  /// Refractivity n - 1 of the surroundings; air at room conditions has 2.7e-4. -1: it is found, as
+  /// the median over the domain's boundary, for the first image, and kept while the time changes,
+  /// so that the fringes of a series are counted from the same reference. Default: -1.
   vtkSetMacro(AmbientRefractivity, double);
   vtkGetMacro(AmbientRefractivity, double);
-  void SetLockedAmbient(double ambient);
-  double GetLockedAmbient() const;
+  ///@}
+
+  /// Values of ExitInto.
+  enum Exits
+  {
+    EXIT_AUTO = 0,
+    EXIT_SURROUNDINGS = 1,
+    EXIT_AIR = 2,
+    EXIT_CUSTOM = 3
+  };
+
+  ///@{
+  /// What light enters where it leaves the data through a plane across the line of sight, the
+  /// window of a tank, which refracts it: Air (n - 1 = 2.718e-4), or Custom, of Exit Refractivity.
+  /// Default: Auto.
+  vtkSetClampMacro(ExitInto, int, EXIT_AUTO, EXIT_CUSTOM);
+  vtkGetMacro(ExitInto, int);
   ///@}
 
   ///@{
-  /**
-   * The gas that light enters where it leaves the data, through a plane window across the line of
-   * sight that conserves n sin(angle) (Snell). One of Exits: EXIT_AIR (n - 1 = 2.718e-4);
-   * EXIT_CUSTOM (ExitRefractivity, n - 1, above -1; default: 2.7e-4); EXIT_SURROUNDINGS: no
-   * window, angles are those in the data; EXIT_AUTO (the default): air if the ambient is a liquid,
-   * n - 1 > 0.1, with one warning; a window to the surroundings if these are a gas but n - 1
-   * exceeds 0.1 in the data; else EXIT_SURROUNDINGS. Deflections, screens and patterns are those
-   * behind the window; totally reflected light is lost.
-   */
-  vtkSetClampMacro(ExitInto, int, EXIT_AUTO, EXIT_CUSTOM);
-  vtkGetMacro(ExitInto, int);
+  /// Refractivity n - 1 of what light leaves the data into: 2.7e-4 of air, 0.333 of water. Default:
+  /// 2.7e-4.
   vtkSetMacro(ExitRefractivity, double);
   vtkGetMacro(ExitRefractivity, double);
   ///@}
 
   ///@{
-  /**
-   * Direction of view, as in vtkCamera, opposite to the light. Any length but 0. Default: (0, 0,
-   * -1); see FaceFlatData.
-   */
+  /// The direction of sight, as that of a parallel camera; light travels against it, towards the
+  /// viewer. Default: 0 0 -1.
   vtkSetVector3Macro(ViewDirection, double);
   vtkGetVector3Macro(ViewDirection, double);
   ///@}
 
   ///@{
-  /**
-   * Upward direction of the image; not parallel to ViewDirection. Default: (0, 1, 0).
-   */
+  /// The direction that points up in the image; not parallel to View Direction. Default: 0 1 0.
   vtkSetVector3Macro(ViewUp, double);
   vtkGetVector3Macro(ViewUp, double);
   ///@}
+
+  ///@{
+  /// Half the height of the image in the plane of the focal point, data units; 0: all of the data
+  /// is visible. Default: 0.
+  vtkSetMacro(ParallelScale, double);
+  vtkGetMacro(ParallelScale, double);
+  ///@}
+
+  ///@{
+  /// Perspective: degrees between the lower and the upper side of the image, seen from the camera;
+  /// 0: parallel light, as of a wind tunnel's mirrors. Default: 0.
+  vtkSetMacro(ViewAngle, double);
+  vtkGetMacro(ViewAngle, double);
+  ///@}
+
+  ///@{
+  /// Width and height of the image in pixels. Default: 512 512.
+  vtkSetVector2Macro(ImageSize, int);
+  vtkGetVector2Macro(ImageSize, int);
+  ///@}
+
+  /// Values of Cutoff.
+  enum Cutoffs
+  {
+    KNIFE_EDGE = 0,
+    SHADOWGRAPH = 1,
+    CIRCULAR = 2,
+    CIRCULAR_COMPLEMENT = 3,
+    GRADED_FILTER = 4,
+    COLOR_FILTER = 5,
+    INTERFEROGRAM = 6,
+    BACKGROUND_ORIENTED = 7,
+    NUMERICAL_SCHLIEREN = 8,
+    PHASE_CONTRAST = 9
+  };
+
+  ///@{
+  /// Which deflection the knife edge or the graded filter measures, degrees: 0 for a vertical edge,
+  /// where deflection to the right is bright; 90 for a horizontal one, where deflection upwards is
+  /// bright. Default: 0.
+  vtkSetMacro(KnifeEdgeAngle, double);
+  vtkGetMacro(KnifeEdgeAngle, double);
+  ///@}
+
+  ///@{
+  /// Position of the knife edge or the graded filter relative to the middle of the source's image,
+  /// as a fraction of its width. Default: 0.
+  vtkSetMacro(CutoffOffset, double);
+  vtkGetMacro(CutoffOffset, double);
+  ///@}
+
+  ///@{
+  /// Put the knife edge or the graded filter on the other side: bright and dark are exchanged.
+  /// Default: off.
+  vtkSetMacro(InvertCutoff, bool);
+  vtkGetMacro(InvertCutoff, bool);
+  vtkBooleanMacro(InvertCutoff, bool);
+  ///@}
+
+  ///@{
+  /// Choose the sensitivity k so that the 99th percentile of the deflections is full scale, but no
+  /// larger than the error of the medium's voxels allows where little flow is in view. Default: on.
+  vtkSetMacro(AutoKScale, bool);
+  vtkGetMacro(AutoKScale, bool);
+  vtkBooleanMacro(AutoKScale, bool);
+  ///@}
+
+  /// Values of LockK.
+  enum LockModes
+  {
+    LOCK_OFF = 0,
+    LOCK_OVER_TIME = 1,
+    LOCK_ALWAYS = 2
+  };
+
+  ///@{
+  /// How long an automatic sensitivity k is kept. Default: Over Time.
+  vtkSetClampMacro(LockK, int, LOCK_OFF, LOCK_ALWAYS);
+  vtkGetMacro(LockK, int);
+  ///@}
+
+  ///@{
+  /// Sensitivity k of the cutoff where it is not chosen automatically: the focal length over the
+  /// width of the light source. Default: 1000.
+  vtkSetMacro(KScale, double);
+  vtkGetMacro(KScale, double);
+  ///@}
+
+  ///@{
+  /// Use the sensitivity and offset of real optics: k is Focal Length over Source Width, the offset
+  /// is Cutoff Position over Source Width. Default: off.
+  vtkSetMacro(KFromOptics, bool);
+  vtkGetMacro(KFromOptics, bool);
+  vtkBooleanMacro(KFromOptics, bool);
+  ///@}
+
+  ///@{
+  /// Focal length of the second mirror, metres; more than 0. Default: 1.
+  vtkSetMacro(FocalLength, double);
+  vtkGetMacro(FocalLength, double);
+  ///@}
+
+  ///@{
+  /// Width of the source's image at the cutoff, across the knife edge, or diameter of a disc;
+  /// millimetres. Default: 1.
+  vtkSetMacro(SourceWidth, double);
+  vtkGetMacro(SourceWidth, double);
+  ///@}
+
+  ///@{
+  /// Distance of the edge from the middle of the source's image, towards covering it, millimetres.
+  /// Default: 0.
+  vtkSetMacro(CutoffPosition, double);
+  vtkGetMacro(CutoffPosition, double);
+  ///@}
+
+  ///@{
+  /// The image of the colour filter, which covers k times the deflection from -1 to 1 along both
+  /// axes: the name of a PNG file that the server can read, or the file's content as text,
+  /// data:image/png;base64,..., which is stored in state files. Default: none.
+  vtkSetStdStringFromCharMacro(ColorFilterImage);
+  vtkGetCharFromStdStringMacro(ColorFilterImage);
+  ///@}
+
+  ///@{
+  /// 0: infinite fringes, undisturbed light is bright everywhere, and fringes follow the optical
+  /// path. Default: 0.
+  vtkSetMacro(FringeSpacing, double);
+  vtkGetMacro(FringeSpacing, double);
+  ///@}
+
+  ///@{
+  /// Direction from fringe to fringe, degrees: 0 to the right, 90 upwards. Default: 0.
+  vtkSetMacro(FringeAngle, double);
+  vtkGetMacro(FringeAngle, double);
+  ///@}
+
+  ///@{
+  /// Make the interferogram in white light, as the array Color. Default: off.
+  vtkSetMacro(WhiteLight, bool);
+  vtkGetMacro(WhiteLight, bool);
+  vtkBooleanMacro(WhiteLight, bool);
+  ///@}
+
+  /// Values of BackgroundPattern.
+  enum BackgroundPatterns
+  {
+    DOTS = 0,
+    STRIPES = 1,
+    PICTURE = 2,
+    SCENE = 3
+  };
+
+  ///@{
+  /// The pattern behind the flow: Dots, Stripes, a Picture, which is Background Image, or the
+  /// Scene: what the view shows behind the flow, where it draws the flow as Schlieren. Default:
+  /// Dots.
+  vtkSetClampMacro(BackgroundPattern, int, DOTS, SCENE);
+  vtkGetMacro(BackgroundPattern, int);
+  ///@}
+
+  ///@{
+  /// Distance from where the data begin to the pattern behind them, data units; negative: one data
+  /// depth, and of the Scene the distance of its middle. Default: -1.
+  vtkSetMacro(BackgroundDistance, double);
+  vtkGetMacro(BackgroundDistance, double);
+  ///@}
+
+  ///@{
+  /// Distance between dots or stripes, data units; 0: eight pixels. Default: 0.
+  vtkSetMacro(BackgroundPeriod, double);
+  vtkGetMacro(BackgroundPeriod, double);
+  ///@}
+
+  ///@{
+  /// Direction across the stripes, degrees: 0 to the right, 90 upwards. Default: 0.
+  vtkSetMacro(BackgroundAngle, double);
+  vtkGetMacro(BackgroundAngle, double);
+  ///@}
+
+  ///@{
+  /// The image behind the flow: the name of a PNG file that the server can read, or the file's
+  /// content as text, data:image/png;base64,..., which is stored in state files. Default: none.
+  vtkSetStdStringFromCharMacro(BackgroundImage);
+  vtkGetCharFromStdStringMacro(BackgroundImage);
+  ///@}
+
+  ///@{
+  /// Of a shadowgraph: distance from the plane where light leaves the data's box to the screen,
+  /// data units; negative: one depth of that box along the light, wherever the flow is in it.
+  /// Default: -1.
+  vtkSetMacro(ScreenDistance, double);
+  vtkGetMacro(ScreenDistance, double);
+  ///@}
+
+  ///@{
+  /// The plane in focus, except of a shadowgraph: its distance from the middle of the data, with a
+  /// perspective from the focal point, towards the viewer, data units. Default: 0.
+  vtkSetMacro(FocusOffset, double);
+  vtkGetMacro(FocusOffset, double);
+  ///@}
+
+  ///@{
+  /// The lens of the camera, of Background Oriented and of images with a View Angle: focal length
+  /// over aperture; 0: a pinhole, everything is in focus. Default: 0.
+  vtkSetMacro(FNumber, double);
+  vtkGetMacro(FNumber, double);
+  ///@}
+
+  ///@{
+  /// Focal length of the camera's lens, millimetres; more than 0. Default: 50.
+  vtkSetMacro(LensFocalLength, double);
+  vtkGetMacro(LensFocalLength, double);
+  ///@}
+
+  ///@{
+  /// Distance from the camera to the plane in focus, with a View Angle, data units; 0: Background
+  /// Oriented focuses on the pattern, other images on the focal point, or as Focus Offset says.
+  /// Default: 0.
+  vtkSetMacro(FocusDistance, double);
+  vtkGetMacro(FocusDistance, double);
+  ///@}
+
+  ///@{
+  /// Width of the sensor behind the lens, millimetres: sets the View Angle. 0: off. Default: 0.
+  vtkSetMacro(SensorWidth, double);
+  vtkGetMacro(SensorWidth, double);
+  ///@}
+
+  ///@{
+  /// The camera's sensor: electrons that a pixel can hold; 0: none. Default: 0.
+  vtkSetMacro(FullWell, double);
+  vtkGetMacro(FullWell, double);
+  ///@}
+
+  ///@{
+  /// How much of the full well light 1 fills; more than 0. Default: 0.8.
+  vtkSetMacro(Exposure, double);
+  vtkGetMacro(Exposure, double);
+  ///@}
+
+  ///@{
+  /// Standard deviation of the noise of reading, electrons. Default: 10.
+  vtkSetMacro(ReadNoise, double);
+  vtkGetMacro(ReadNoise, double);
+  ///@}
+
+  ///@{
+  /// Recorded values are the light to the power of 1 over this; 1: linear. Default: 1.
+  vtkSetMacro(Gamma, double);
+  vtkGetMacro(Gamma, double);
+  ///@}
+
+  ///@{
+  /// Bits of the recorded values; the array has 8 or 16. Default: 8.
+  vtkSetClampMacro(BitDepth, int, 1, 16);
+  vtkGetMacro(BitDepth, int);
+  ///@}
+
+  ///@{
+  /// Light diverges from a point at this distance before the middle of the data, data units; more
+  /// than half of the data's depth. 0: it is collimated. Default: 0.
+  vtkSetMacro(SourceDistance, double);
+  vtkGetMacro(SourceDistance, double);
+  ///@}
+
+  /// Values of SourceShape.
+  enum SourceShapes
+  {
+    POINT = 0,
+    SLIT = 1,
+    DISC = 2
+  };
+
+  ///@{
+  /// Point, or an extended source: a Slit along the knife edge or a Disc, as wide as Source Width.
+  /// Default: Point.
+  vtkSetClampMacro(SourceShape, int, POINT, DISC);
+  vtkGetMacro(SourceShape, int);
+  ///@}
+
+  ///@{
+  /// Length of a slit's image at the cutoff, along the knife edge, millimetres. Default: 10.
+  vtkSetMacro(SourceLength, double);
+  vtkGetMacro(SourceLength, double);
+  ///@}
+
+  /// Values of LightModel.
+  enum LightModels
+  {
+    LIGHT_RAYS = 0,
+    LIGHT_WAVES = 1,
+    LIGHT_AUTO = 2
+  };
+
+  ///@{
+  /// How light continues behind the flow. Default: Rays.
+  vtkSetClampMacro(LightModel, int, LIGHT_RAYS, LIGHT_AUTO);
+  vtkGetMacro(LightModel, int);
+  ///@}
+
+  ///@{
+  /// Of waves: full width of the light's spectrum around Wavelength, nanometres; 0: one wavelength.
+  /// Default: 0.
+  vtkSetClampMacro(Bandwidth, double, 0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Bandwidth, double);
+  ///@}
+
+  ///@{
+  /// Of waves in focus: points of a source that Source Shape says is no point, and of a knife
+  /// edge's, whose waves do not interfere and whose images are added. 1: a laser, half of whose
+  /// undisturbed light a knife edge stops. Default: 32.
+  vtkSetClampMacro(CoherenceSamples, int, 1, 1024);
+  vtkGetMacro(CoherenceSamples, int);
+  ///@}
+
+  ///@{
+  /// Of Phase Contrast: diameter of the plate in the middle of the cutoff plane, millimetres, with
+  /// Focal Length; 0: only undisturbed light passes it. Default: 0.
+  vtkSetClampMacro(PhasePlateDiameter, double, 0, VTK_DOUBLE_MAX);
+  vtkGetMacro(PhasePlateDiameter, double);
+  ///@}
+
+  ///@{
+  /// Of Phase Contrast: by how much the plate delays light, wavelengths. 0.25: denser gas is
+  /// bright; -0.25: it is dark. Default: 0.25.
+  vtkSetMacro(PhasePlateDelay, double);
+  vtkGetMacro(PhasePlateDelay, double);
+  ///@}
+
+  ///@{
+  /// Of Phase Contrast: the fraction of light that the plate lets pass. Default: 1.
+  vtkSetClampMacro(PhasePlateTransmission, double, 0, 1);
+  vtkGetMacro(PhasePlateTransmission, double);
+  ///@}
+
+  ///@{
+  /// Tint the image: light takes on the colours of the Fields whose gradients it crosses. Default:
+  /// off.
+  vtkSetMacro(ColorByField, bool);
+  vtkGetMacro(ColorByField, bool);
+  vtkBooleanMacro(ColorByField, bool);
+  ///@}
+
+  /// Values of PathModel.
+  enum PathModels
+  {
+    STRAIGHT = 0,
+    REFRACTED = 1
+  };
+
+  ///@{
+  /// How light passes the medium. Default: Refracted.
+  vtkSetClampMacro(PathModel, int, STRAIGHT, REFRACTED);
+  vtkGetMacro(PathModel, int);
+  ///@}
+
+  ///@{
+  /// Length of an integration step, voxels; with solids no longer than 1. Default: 2.
+  vtkSetMacro(StepSize, double);
+  vtkGetMacro(StepSize, double);
+  ///@}
+
+  ///@{
+  /// Rays cross a cube of voxels in one step where the refractivity varies in it by no more than
+  /// this fraction of its range in the whole flow; 0: nothing is skipped. Default: 0.001.
+  vtkSetMacro(HomogeneityTolerance, double);
+  vtkGetMacro(HomogeneityTolerance, double);
+  ///@}
+
+  ///@{
+  /// Rays per pixel; the first is at the pixel's centre. Default: 1.
+  vtkSetMacro(SamplesPerPixel, int);
+  vtkGetMacro(SamplesPerPixel, int);
+  ///@}
+
+  /// Values of Precision.
+  enum Precisions
+  {
+    SINGLE = 0,
+    DOUBLE = 1
+  };
+
+  ///@{
+  /// Smooths the image by a Gaussian with a standard deviation of half this radius, pixels; 0: not
+  /// at all. Default: 0.
+  vtkSetMacro(SmoothingRadius, double);
+  vtkGetMacro(SmoothingRadius, double);
+  ///@}
+
+  ///@{
+  /// Of meshes: the error of the deflection that the size of voxels may cause, relative to the
+  /// largest deflection; with Color By Field also that of a colour's strength; 0: voxels are as
+  /// fine as the mesh. Default: 0.003.
+  vtkSetMacro(MediumTolerance, double);
+  vtkGetMacro(MediumTolerance, double);
+  ///@}
+
+  ///@{
+  /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the
+  /// settings below; negative: what cannot be seen. Default: 0.
+  vtkSetMacro(TargetError, double);
+  vtkGetMacro(TargetError, double);
+  ///@}
+
+  ///@{
+  /// Whether an image with a target error has the array ErrorEstimate, the error of each pixel in
+  /// the unit of Target Error. Default: off.
+  vtkSetMacro(ErrorEstimate, bool);
+  vtkGetMacro(ErrorEstimate, bool);
+  vtkBooleanMacro(ErrorEstimate, bool);
+  ///@}
+
+  ///@{
+  /// Of meshes: memory for voxels, MiB. Default: 1024.
+  vtkSetClampMacro(MediumMemory, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MediumMemory, int);
+  ///@}
+
+  /// Values of Device.
+  enum Devices
+  {
+    AUTO = 0,
+    CPU = 1,
+    CUDA = 2
+  };
+
+  ///@{
+  /// What traces the rays. Default: Auto.
+  vtkSetClampMacro(Device, int, AUTO, CUDA);
+  vtkGetMacro(Device, int);
+  ///@}
+
+  ///@{
+  /// Threads on the CPU; 0: VTK_SMP_MAX_THREADS where that is set, else the cores that the process
+  /// may use. Default: 0.
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /// Where ParaView runs as several processes: up to how many cells in all the pieces of a mesh
+  /// that these have are put together on rank 0. Default: 1000000.
+  vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
+  vtkGetMacro(GatherLimit, int);
+  ///@}
+
+  // end
+
+  /**
+   * Wavelength of the light in vacuum, nanometres, for the medium and for interferograms. Default: 632.8.
+   */
+  void SetWavelength(double wavelength) override;
 
   ///@{
   /**
@@ -295,33 +661,6 @@ public:
   virtual void ClearFocalPoint();
   vtkGetVector3Macro(FocalPoint, double);
   vtkGetMacro(HasFocalPoint, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Half the height of the image in the focal plane, data units; 0 (the default) fits the data.
-   */
-  vtkSetMacro(ParallelScale, double);
-  vtkGetMacro(ParallelScale, double);
-  ///@}
-
-  ///@{
-  /**
-   * Vertical angle of view, degrees, less than 170; 0 (the default): parallel light. Otherwise
-   * light diverges from a point source in the camera's pupil through the flow, so that each pixel
-   * has its own direction, as in a perspective vtkCamera. Data behind the camera are ignored.
-   * Light stays parallel in 2-D data, whose depth is artificial.
-   */
-  vtkSetMacro(ViewAngle, double);
-  vtkGetMacro(ViewAngle, double);
-  ///@}
-
-  ///@{
-  /**
-   * Width and height in pixels. Default: (512, 512).
-   */
-  vtkSetVector2Macro(ImageSize, int);
-  vtkGetVector2Macro(ImageSize, int);
   ///@}
 
   ///@{
@@ -366,66 +705,13 @@ public:
 
   ///@{
   /**
-   * Direction of the deflection that the knife edge and the graded filter measure, degrees: 0 (the
-   * default) is u, 90 is v.
-   */
-  vtkSetMacro(KnifeEdgeAngle, double);
-  vtkGetMacro(KnifeEdgeAngle, double);
-  ///@}
-
-  ///@{
-  /**
-   * Advance of the knife edge or graded filter from the middle of the source's image, as a
-   * fraction of the image's width, which is also the loss of undisturbed light. Default: 0. With
-   * KFromOptics, CutoffPosition is used instead.
-   */
-  vtkSetMacro(CutoffOffset, double);
-  vtkGetMacro(CutoffOffset, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether the knife edge or graded filter is reversed: I becomes 1 - I; or the phase plate, see
-   * PhasePlateDiameter. Default: off.
-   */
-  vtkSetMacro(InvertCutoff, bool);
-  vtkGetMacro(InvertCutoff, bool);
-  vtkBooleanMacro(InvertCutoff, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Whether k is chosen so that the 99th percentile of the deflections is full scale. It is
-   * limited by the error of the medium's voxels if little flow is in view. Default: on.
-   */
-  vtkSetMacro(AutoKScale, bool);
-  vtkGetMacro(AutoKScale, bool);
-  vtkBooleanMacro(AutoKScale, bool);
-  ///@}
-
-  ///@{
-  /**
-   * How long an automatic k is kept, one of LockModes. It is found for the first image and then
-   * - LOCK_OFF: for each image;
-   * - LOCK_OVER_TIME (the default): kept at all other times, whatever changes with the time, such
-   *   as the camera of an animation. Found again if camera, light or quality change at the time
-   *   that it was found for, and for data without time steps;
-   * - LOCK_ALWAYS: kept even if camera, light or quality change.
-   *
-   * In each mode it is found again if the settings of the medium, the kind of cutoff or, at the
-   * same time, the data change. Images in between without an automatic k do not count.
-   */
-  vtkSetClampMacro(LockK, int, LOCK_OFF, LOCK_ALWAYS);
-  vtkGetMacro(LockK, int);
-  ///@}
-
-  ///@{
-  /**
-   * The k kept from an earlier image by LockK, else 0. Setting it (as state files do) sets the k
-   * of the next image, which LockK then keeps; 0 means automatic.
+   * The k kept from an earlier image by LockK, and the ambient refractivity; else 0. Setting them (as
+   * state files do) sets those of the next image, which are then kept; 0 means automatic.
    */
   void SetLockedK(double k);
   double GetLockedK() const;
+  void SetLockedAmbient(double ambient);
+  double GetLockedAmbient() const;
   ///@}
 
   /**
@@ -442,55 +728,6 @@ public:
    */
   void FitKOverSeries();
   static constexpr int MOST_STEPS = 100; ///< of FitKOverSeries()
-
-  ///@{
-  /**
-   * Sensitivity k, used if AutoKScale is off: focal length / source width; the intensity at a
-   * knife edge is 1/2 + k times the deflection. Not negative. Default: 1000.
-   */
-  vtkSetMacro(KScale, double);
-  vtkGetMacro(KScale, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether real optics give sensitivity and offset, instead of AutoKScale, KScale and
-   * CutoffOffset: k = FocalLength / SourceWidth, offset = CutoffPosition / SourceWidth. Default:
-   * off.
-   */
-  vtkSetMacro(KFromOptics, bool);
-  vtkGetMacro(KFromOptics, bool);
-  vtkBooleanMacro(KFromOptics, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Focal length of the second mirror, metres, positive. Default: 1.
-   */
-  vtkSetMacro(FocalLength, double);
-  vtkGetMacro(FocalLength, double);
-  ///@}
-
-  ///@{
-  /**
-   * Size of the source's image at the cutoff, millimetres: its width across the knife edge, or a
-   * disc's diameter (default: 1), and a slit's length along the knife edge (default: 10). Not
-   * negative; for KFromOptics, the width is positive. Seen from the data, the source has the
-   * angular size width / FocalLength.
-   */
-  vtkSetMacro(SourceWidth, double);
-  vtkGetMacro(SourceWidth, double);
-  vtkSetMacro(SourceLength, double);
-  vtkGetMacro(SourceLength, double);
-  ///@}
-
-  ///@{
-  /**
-   * Advance of the edge into the source's image, millimetres, for KFromOptics. Default: 0.
-   */
-  vtkSetMacro(CutoffPosition, double);
-  vtkGetMacro(CutoffPosition, double);
-  ///@}
 
   ///@{
   /**
@@ -514,142 +751,6 @@ public:
   vtkPiecewiseFunction* GetGradedFilter() const;
   ///@}
 
-  ///@{
-  /**
-   * Image of the COLOR_FILTER, in sRGB, which spans -1 to 1 of k times the deflection along both
-   * axes: the name of a PNG file, or its content as text: "data:image/png;base64,..." (RFC 2397).
-   * May be grey, 16-bit or transparent (blended with white). Empty (the default): a colour wheel
-   * with the deflection's direction as hue, red along u, and its size as saturation, full at k
-   * |eps| = 1.
-   */
-  vtkSetStdStringFromCharMacro(ColorFilterImage);
-  vtkGetCharFromStdStringMacro(ColorFilterImage);
-  ///@}
-
-  ///@{
-  /**
-   * Fringes of an interferogram. FringeSpacing 0, the default: they are infinite, undisturbed light
-   * is bright everywhere. Otherwise a tilted reference beam adds straight fringes, so far apart
-   * (data units on the film; negative: so many are in the image's height) along FringeAngle
-   * (degrees; 0, the default, is u, 90 is v). Beams that cross at an angle have the spacing
-   * wavelength / (2 sin(angle / 2)).
-   */
-  vtkSetMacro(FringeSpacing, double);
-  vtkGetMacro(FringeSpacing, double);
-  vtkSetMacro(FringeAngle, double);
-  vtkGetMacro(FringeAngle, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether an interferogram uses white light, whose visible fringes are in `Color`. The medium
-   * disperses as Gas, BackgroundGas or moist air, whichever IndexModel uses; a custom gas does not
-   * disperse. Default: off.
-   */
-  vtkSetMacro(WhiteLight, bool);
-  vtkGetMacro(WhiteLight, bool);
-  vtkBooleanMacro(WhiteLight, bool);
-  ///@}
-
-  ///@{
-  /**
-   * The plane in focus for all cutoffs but SHADOWGRAPH: distance towards the viewer from the
-   * middle of the data or, with a ViewAngle, from the focal point, data units. Default: 0.
-   */
-  vtkSetMacro(FocusOffset, double);
-  vtkGetMacro(FocusOffset, double);
-  ///@}
-
-  ///@{
-  /**
-   * Light diverges from a point at this distance before the middle of the data (data units,
-   * outside of the data); 0, the default: it is collimated. Ignored with a ViewAngle, where light
-   * diverges from the pupil.
-   */
-  vtkSetMacro(SourceDistance, double);
-  vtkGetMacro(SourceDistance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Shape of the source, one of SourceShapes: a POINT (the default), or a SLIT or DISC of
-   * SourceWidth and SourceLength, which blurs what is out of focus and softens a knife edge.
-   */
-  vtkSetClampMacro(SourceShape, int, POINT, DISC);
-  vtkGetMacro(SourceShape, int);
-  ///@}
-
-  ///@{
-  /**
-   * How light continues behind the flow, one of LightModels: as rays (LIGHT_RAYS, the default), or
-   * as waves of Wavelength (LIGHT_WAVES), for SHADOWGRAPH and, with collimated light, KNIFE_EDGE,
-   * CIRCULAR, CIRCULAR_COMPLEMENT, GRADED_FILTER, PHASE_CONTRAST and INTERFEROGRAM without
-   * WhiteLight; other settings are errors then. Light may diverge by 0.1 at most. LIGHT_AUTO: of a
-   * shadowgraph waves where the width of a pixel and the source's image on the screen is less than
-   * four Fresnel widths, sqrt(wavelength distance), and waves can be made; of PHASE_CONTRAST waves.
-   * Waves replace Intensity alone; all other arrays remain those of rays.
-   */
-  vtkSetClampMacro(LightModel, int, LIGHT_RAYS, LIGHT_AUTO);
-  vtkGetMacro(LightModel, int);
-  ///@}
-
-  ///@{
-  /**
-   * Full width of the even spectrum of waves around Wavelength, nanometres, 0 or more. Default: 0,
-   * one wavelength.
-   */
-  vtkSetClampMacro(Bandwidth, double, 0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Bandwidth, double);
-  ///@}
-
-  ///@{
-  /**
-   * Points of the source of waves that is not a POINT, and of a knife edge's, whose waves do not
-   * interfere: the image is the mean of theirs. 1 to 1024; 1 is a laser. Default: 32, whose error
-   * is below 0.01 of the light. A SHADOWGRAPH takes the whole source.
-   */
-  vtkSetClampMacro(CoherenceSamples, int, 1, 1024);
-  vtkGetMacro(CoherenceSamples, int);
-  ///@}
-
-  ///@{
-  /**
-   * The plate of PHASE_CONTRAST, a disc in the plane where undisturbed light is a point: its
-   * diameter in millimetres, with FocalLength (default: 0, which undisturbed light alone passes),
-   * by how many waves it delays light (default: 0.25; -0.25 makes dark what 0.25 makes bright) and
-   * the fraction of light that it transmits, 0 to 1 (default: 1; 0 is an opaque stop). With
-   * InvertCutoff the plate is all around the disc instead; an opaque one is an aperture then.
-   */
-  vtkSetClampMacro(PhasePlateDiameter, double, 0, VTK_DOUBLE_MAX);
-  vtkGetMacro(PhasePlateDiameter, double);
-  vtkSetMacro(PhasePlateDelay, double);
-  vtkGetMacro(PhasePlateDelay, double);
-  vtkSetClampMacro(PhasePlateTransmission, double, 0, 1);
-  vtkGetMacro(PhasePlateTransmission, double);
-  ///@}
-
-  ///@{
-  /**
-   * The pattern of BACKGROUND_ORIENTED, one of BackgroundPatterns (default: DOTS):
-   * BackgroundDistance behind the side of the data where light enters (data units; negative, the
-   * default: one data depth); dots and stripes BackgroundPeriod apart (data units; 0, the default:
-   * eight pixels; they fade below four and vanish at two), which stand in the world: a bright stripe
-   * and a corner of dots' cells are where u = v = 0; stripes across BackgroundAngle
-   * (degrees; 0, the default: u); PICTURE: BackgroundImage, given as ColorFilterImage is; SCENE:
-   * that of SetBackgroundScene().
-   */
-  vtkSetClampMacro(BackgroundPattern, int, DOTS, SCENE);
-  vtkGetMacro(BackgroundPattern, int);
-  vtkSetMacro(BackgroundDistance, double);
-  vtkGetMacro(BackgroundDistance, double);
-  vtkSetMacro(BackgroundPeriod, double);
-  vtkGetMacro(BackgroundPeriod, double);
-  vtkSetMacro(BackgroundAngle, double);
-  vtkGetMacro(BackgroundAngle, double);
-  vtkSetStdStringFromCharMacro(BackgroundImage);
-  vtkGetCharFromStdStringMacro(BackgroundImage);
-  ///@}
-
   /**
    * Sets the image that the camera sees behind the flow, for BACKGROUND_ORIENTED with SCENE: RGB
    * bytes as on a screen, stretched over the image. `distance` is used if BackgroundDistance is
@@ -657,86 +758,14 @@ public:
    */
   void SetBackgroundScene(vtkImageData* image, double distance);
 
-  ///@{
-  /**
-   * The lens of the camera, for BACKGROUND_ORIENTED and for all images with a ViewAngle: its focal
-   * length over its aperture (0, the default: a pinhole, everything is in focus), its focal length
-   * (LensFocalLength, millimetres, positive; default: 50) and the distance from the camera to what
-   * is in focus (FocusDistance, data units, with a ViewAngle; 0, the default: BACKGROUND_ORIENTED
-   * the pattern, others what FocusOffset says). Each sample of a pixel sees one point of the
-   * aperture: something w wide that is blurred over d takes 10 d / w SamplesPerPixel for an error
-   * of a hundredth. Without a ViewAngle the lens is telecentric and focuses on the pattern.
-   * SensorWidth (millimetres; 0, the default: off) sets the ViewAngle to that of a sensor this wide
-   * behind the lens.
-   */
-  vtkSetMacro(FNumber, double);
-  vtkGetMacro(FNumber, double);
-  vtkSetMacro(LensFocalLength, double);
-  vtkGetMacro(LensFocalLength, double);
-  vtkSetMacro(FocusDistance, double);
-  vtkGetMacro(FocusDistance, double);
-  vtkSetMacro(SensorWidth, double);
-  vtkGetMacro(SensorWidth, double);
-  ///@}
-
   /**
    * Sets the pupil of a view's camera instead of FNumber and FocusDistance: its diameter and the
    * distance of what is in focus, data units. `diameter` 0 (the default): there is none.
    */
   void SetPupil(double diameter, double focusDistance);
 
-  ///@{
-  /**
-   * The camera's sensor, which makes the array `Recorded` of `Intensity`, and `RecordedBackground`
-   * of `Background`: electrons that a pixel can hold (FullWell; 0, the default: no sensor), how
-   * much of them light 1 fills (Exposure, positive; default: 0.8), the standard deviation of what
-   * reading adds (ReadNoise, electrons; default: 10), the exponent of its curve (Gamma, positive;
-   * default: 1, linear) and the bits of its values (BitDepth, 1 to 16; default: 8). The value is
-   * (electrons / FullWell) ^ (1 / Gamma) of the full scale.
-   */
-  vtkSetMacro(FullWell, double);
-  vtkGetMacro(FullWell, double);
-  vtkSetMacro(Exposure, double);
-  vtkGetMacro(Exposure, double);
-  vtkSetMacro(ReadNoise, double);
-  vtkGetMacro(ReadNoise, double);
-  vtkSetMacro(Gamma, double);
-  vtkGetMacro(Gamma, double);
-  vtkSetClampMacro(BitDepth, int, 1, 16);
-  vtkGetMacro(BitDepth, int);
-  ///@}
-
-  ///@{
-  /**
-   * Distance of a shadowgraph's screen from the plane where light leaves the data, data units.
-   * Negative (default: -1): one data depth.
-   */
-  vtkSetMacro(ScreenDistance, double);
-  vtkGetMacro(ScreenDistance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether the Fields tint the image, with any IndexModel (after Brownlee et al. 2011, sec. 8).
-   * Along its path, light accumulates g_i = integral |grad f_i| ds of each field f_i (relative to
-   * its range, 0 to 1; with TRANSFER_FUNCTIONS, the function's value). Its colour is 1 + s (sum
-   * g_i c_i / G - 1), where G = sum g_i, c_i are the FieldColors, and the strength s is G over its
-   * 99th percentile in the image, at most 1. In meshes, voxels also resolve the fields: see
-   * MediumTolerance. Default: off.
-   */
-  vtkSetMacro(ColorByField, bool);
-  vtkGetMacro(ColorByField, bool);
-  vtkBooleanMacro(ColorByField, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Colours of the fields: red, green and blue, 0 to 1. Empty (the default): distinct hues.
-   */
-  virtual void AddFieldColor(double value);
-  virtual void ClearFieldColors();
+  /// Returns the colours of the fields; see AddFieldColor().
   VTK_WRAPEXCLUDE const std::vector<double>& GetFieldColors() const { return this->FieldColors; }
-  ///@}
 
   ///@{
   /**
@@ -769,136 +798,11 @@ public:
 
   ///@{
   /**
-   * Path of the light, one of PathModels: REFRACTED rays bend; STRAIGHT rays integrate along the
-   * undisturbed line of sight. Where the index changes by more than a twentieth in a step, as at a
-   * face of glass, the steps of refracted rays are adaptive. A warning reports a MomentumDrift above
-   * 1 % and its position.
-   */
-  vtkSetClampMacro(PathModel, int, STRAIGHT, REFRACTED);
-  vtkGetMacro(PathModel, int);
-  ///@}
-
-  ///@{
-  /**
-   * Length of an integration step, voxels; of adaptive ones its maximum. 0.001 (SINGLE: 0.01) to 16.
-   * Up to 1, and with a target error, cubic splines through the samples are traced through, else
-   * quadratic ones.
-   */
-  vtkSetMacro(StepSize, double);
-  vtkGetMacro(StepSize, double);
-  ///@}
-
-  ///@{
-  /**
-   * Rays cross a block of cells in one step if n - 1 varies in it by at most this fraction of its
-   * range in the whole medium. 0 (no skipping) to 1. SkippingBound bounds the error.
-   */
-  vtkSetMacro(HomogeneityTolerance, double);
-  vtkGetMacro(HomogeneityTolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Rays per pixel, at least 1.
-   */
-  vtkSetMacro(SamplesPerPixel, int);
-  vtkGetMacro(SamplesPerPixel, int);
-  ///@}
-
-  ///@{
-  /**
    * Floating-point precision of tracing, one of Precisions. With DOUBLE and no target error, the
    * steps of refracted rays are adaptive.
    */
   virtual void SetPrecision(int precision);
   vtkGetMacro(Precision, int);
-  ///@}
-
-  ///@{
-  /**
-   * Error of the deflection due to the voxel size in meshes, relative to the maximum deflection;
-   * with ColorByField also that of G, relative to its 99th percentile. 0: voxels as fine as the
-   * mesh. 0 to 1.
-   */
-  vtkSetMacro(MediumTolerance, double);
-  vtkGetMacro(MediumTolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * Error that 99 % of the pixels whose light crosses the data shall keep, in the unit that the image
-   * is read in: of an interferogram fringes; with Background Oriented pixels of displacement; else a
-   * fraction of full scale, of a shadowgraph of the undisturbed light (what light displaced by 0.05
-   * pixels explains does not count). Negative: what cannot be seen, 0.02 fringes or pixels, else
-   * 0.004. 0, the default: off. It chooses StepSize, SamplesPerPixel (up to 64), MediumTolerance
-   * (0.01 to 0.0003), HomogeneityTolerance (0), cubic splines and
-   * Precision, whatever these properties are, by tracing some thousand pixels with several settings,
-   * and verifies its choice with others. The image's field data say what is reached: ErrorReached,
-   * ErrorLargest (of the pixels that were traced) and ErrorLimit, what contributes most. ErrorReached
-   * above TargetError: it cannot be kept, as Status says.
-   */
-  vtkSetMacro(TargetError, double);
-  vtkGetMacro(TargetError, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether an image with a TargetError has the array `ErrorEstimate` (float): the error of each pixel,
-   * in the unit of TargetError; 0 where its light does not cross the data. Default: off. All pixels are then made with
-   * finer settings, too, which takes several times as long as the image.
-   */
-  vtkSetMacro(ErrorEstimate, bool);
-  vtkGetMacro(ErrorEstimate, bool);
-  vtkBooleanMacro(ErrorEstimate, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Memory for a mesh's voxels, MiB. Default: 1024. If it does not suffice, MediumTolerance is not
-   * met, and the field data MediumError report the error (the larger of both). MediumError is the
-   * maximum over rays through many leaves, so it may be about twice MediumTolerance even with
-   * enough memory.
-   */
-  vtkSetClampMacro(MediumMemory, int, 1, VTK_INT_MAX);
-  vtkGetMacro(MediumMemory, int);
-  ///@}
-
-  ///@{
-  /**
-   * Smooths the image by a Gaussian with a standard deviation of half this radius, pixels, up to
-   * 32; 0, the default: not at all.
-   */
-  vtkSetMacro(SmoothingRadius, double);
-  vtkGetMacro(SmoothingRadius, double);
-  ///@}
-
-  ///@{
-  /**
-   * Device, one of Devices: AUTO (the default) uses CUDA if available, else the CPU; CUDA without
-   * a device is an error.
-   */
-  vtkSetClampMacro(Device, int, AUTO, CUDA);
-  vtkGetMacro(Device, int);
-  ///@}
-
-  ///@{
-  /**
-   * Threads on the CPU; 0 (the default): VTK_SMP_MAX_THREADS if set, else the cores that this
-   * process may use. The image does not depend on it.
-   */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
-
-  ///@{
-  /**
-   * Maximum number of cells of a mesh whose pieces are gathered on rank 0 when ParaView runs as
-   * several processes. The pieces of larger meshes stay on their ranks, with ghost cells; so do
-   * those of images with more than 160 times as many cells, which become a tree of bricks. 0: none
-   * are gathered. Adaptive meshes and 2-D data are always gathered. Default: 10^6.
-   */
-  vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
-  vtkGetMacro(GatherLimit, int);
-  ///@}
   ///@}
 
   ///@{

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the tables of Documentation/properties.md from Plugin/*.xml.
+"""Writes the tables of Documentation/properties.md, and C++ in Filters/*.h (see property_code.py), from Plugin/*.xml.
 
     Utilities/property_tables.py            # write them
-    Utilities/property_tables.py --check    # fail where the page differs from them
+    Utilities/property_tables.py --check    # fail where a file differs from them
 
 A table stands between <!-- table: GROUP --> and <!-- end -->; GROUP is the label of a property group, or one of
 Inputs, Commands, Information and Others, the properties in no group. The rest of the page is written by hand.
@@ -16,6 +16,8 @@ import os
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
+
+import property_code
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGE = os.path.join(ROOT, "Documentation", "properties.md")
@@ -155,17 +157,40 @@ def page(text, properties):
     return result
 
 
-def main():
+def wanted():
+    """What each file should be, by its name in the project."""
     with open(PAGE, encoding="utf-8") as file:
-        text = file.read()
-    wanted = page(text, read())
-    if "--check" not in sys.argv[1:]:
-        with open(PAGE, "w", encoding="utf-8") as file:
-            file.write(wanted)
-    elif text != wanted:
-        sys.stdout.writelines(difflib.unified_diff(text.splitlines(True), wanted.splitlines(True),
-                                                   "Documentation/properties.md", "what Plugin/*.xml says"))
-        sys.exit("Documentation/properties.md differs from Plugin/*.xml: run Utilities/property_tables.py.")
+        made = {"Documentation/properties.md": page(file.read(), read())}
+    medium = read(FILES[:1])
+    image = {name: item for name, item in read(FILES[1:]).items() if name not in medium}
+    bases = ""
+    for names, properties in ((("MediumSettings.h", "vtkFlowAlgorithm.h"), medium),
+                              (("SchlierenSettings.h", "vtkSchlierenFilter.h"), image)):
+        for name in names:
+            name = f"Filters/{name}"
+            with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+                made[name] = property_code.header(file.read(), properties, bases if properties is image else "")
+        bases = "".join(made.values())
+    return made
+
+
+def main():
+    differ = []
+    for name, text in wanted().items():
+        path = os.path.join(ROOT, name)
+        with open(path, encoding="utf-8") as file:
+            there = file.read()
+        if text == there:
+            continue
+        differ.append(name)
+        if "--check" not in sys.argv[1:]:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        else:
+            sys.stdout.writelines(difflib.unified_diff(there.splitlines(True), text.splitlines(True), name,
+                                                       "what Plugin/*.xml says"))
+    if differ and "--check" in sys.argv[1:]:
+        sys.exit(f"{', '.join(differ)}: not what Plugin/*.xml says: run Utilities/property_tables.py.")
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ void requireSize(const char* property, double value)
   }
 }
 
-const schlieren::Technique& techniqueOf(const OpticsSettings& optics)
+const schlieren::Technique& techniqueOf(const SchlierenSettings& optics)
 {
   return schlieren::techniqueOf(static_cast<schlieren::Cutoff>(optics.Cutoff));
 }
@@ -53,16 +53,16 @@ const schlieren::Technique& techniqueOf(const OpticsSettings& optics)
 } // namespace
 
 //------------------------------------------------------------------------------
-bool usesK(const OpticsSettings& optics) { return techniqueOf(optics).hasK(); }
+bool usesK(const SchlierenSettings& optics) { return techniqueOf(optics).hasK(); }
 
 //------------------------------------------------------------------------------
-bool choosesK(const OpticsSettings& optics)
+bool choosesK(const SchlierenSettings& optics)
 {
   return usesK(optics) && !optics.KFromOptics && optics.AutoKScale;
 }
 
 //------------------------------------------------------------------------------
-double kOfOptics(const OpticsSettings& optics)
+double kOfOptics(const SchlierenSettings& optics)
 {
   return optics.FocalLength > 0 && optics.SourceWidth > 0
     ? optics.FocalLength / (metresPerMillimetre * optics.SourceWidth)
@@ -70,14 +70,14 @@ double kOfOptics(const OpticsSettings& optics)
 }
 
 //------------------------------------------------------------------------------
-double offsetOfOptics(const OpticsSettings& optics)
+double offsetOfOptics(const SchlierenSettings& optics)
 {
   return optics.SourceWidth > 0 ? optics.CutoffPosition / optics.SourceWidth
                                 : std::numeric_limits<double>::quiet_NaN();
 }
 
 //------------------------------------------------------------------------------
-void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
+void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
 {
   scene.cutoffOffset = optics.CutoffOffset;
   if (optics.KFromOptics)
@@ -99,7 +99,7 @@ void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
 }
 
 //------------------------------------------------------------------------------
-schlieren::PhasePlate phasePlateFrom(const OpticsSettings& optics)
+schlieren::PhasePlate phasePlateFrom(const SchlierenSettings& optics)
 {
   schlieren::PhasePlate plate;
   if (optics.PhasePlateDiameter > 0)
@@ -151,7 +151,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
 }
 
 //------------------------------------------------------------------------------
-schlieren::LightSource lightSourceFrom(const OpticsSettings& optics)
+schlieren::LightSource lightSourceFrom(const SchlierenSettings& optics)
 {
   schlieren::LightSource source;
   if (optics.SourceDistance != 0)

@@ -6,7 +6,6 @@
 
 #include <string>
 
-struct OpticsSettings;
 struct SchlierenSettings;
 
 namespace filters
@@ -19,20 +18,20 @@ constexpr double metresPerMillimetre = 1e-3;
 constexpr double metresPerNanometre = 1e-9;
 
 /// Returns whether the cutoff depends on the sensitivity k.
-bool usesK(const OpticsSettings& optics);
+bool usesK(const SchlierenSettings& optics);
 
 /// Returns whether k is used and automatic.
-bool choosesK(const OpticsSettings& optics);
+bool choosesK(const SchlierenSettings& optics);
 
 /// Return k and offset of real optics, used or not; NaN without real optics.
-double kOfOptics(const OpticsSettings& optics);
-double offsetOfOptics(const OpticsSettings& optics);
+double kOfOptics(const SchlierenSettings& optics);
+double offsetOfOptics(const SchlierenSettings& optics);
 
 /// Sets k and the cutoff's offset to those given or of the optics, or leaves them to the tracer.
-void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene);
+void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene);
 
 /// Returns the plate of a phase contrast. Throws std::runtime_error.
-schlieren::PhasePlate phasePlateFrom(const OpticsSettings& optics);
+schlieren::PhasePlate phasePlateFrom(const SchlierenSettings& optics);
 
 /// Returns the text of vtkSchlierenFilter::GetSensitivity for an image with this k, which may be
 /// that of an earlier image (`isKept`); empty for k = 0.
@@ -41,7 +40,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
 /// Returns "k = 4000" or "k locked at 4000".
 std::string kInWords(double k, bool isKept);
 
-schlieren::LightSource lightSourceFrom(const OpticsSettings& optics);
+schlieren::LightSource lightSourceFrom(const SchlierenSettings& optics);
 
 /// Returns the lens of a view's camera.
 schlieren::Lens lensFrom(const SchlierenSettings& settings);

@@ -48,10 +48,11 @@ schlieren::Fringes fringesFrom(const SchlierenSettings& settings, const schliere
   return fringes;
 }
 
-schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbImageReader& images)
+schlieren::BackgroundPattern backgroundFrom(
+  const SchlierenSettings& settings, RgbImageReader& images)
 {
   schlieren::BackgroundPattern pattern;
-  if (settings.BackgroundPattern == OpticsSettings::scenePattern)
+  if (settings.BackgroundPattern == SchlierenSettings::scenePattern)
   {
     return pattern; // addBackground() sets it
   }
@@ -234,7 +235,7 @@ schlieren::Scene sceneFrom(
     : schlieren::Interpolation::Quadratic;
   // A target error chooses steps itself; waves take so many rays that a longer time for each counts.
   const bool areExact = scene.precision == schlieren::Precision::Double &&
-    settings.LightModel == OpticsSettings::lightOfRays;
+    settings.LightModel == SchlierenSettings::lightOfRays;
   scene.integrator =
     !hasTarget && areExact ? schlieren::Integrator::Adaptive : schlieren::Integrator::Leapfrog;
   scene.estimatesErrors = settings.ErrorEstimate;
@@ -267,7 +268,7 @@ void addBackground(
   schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background)
 {
   if (!schlieren::isOfCamera(scene.cutoff) ||
-    settings.BackgroundPattern != OpticsSettings::scenePattern)
+    settings.BackgroundPattern != SchlierenSettings::scenePattern)
   {
     return;
   }

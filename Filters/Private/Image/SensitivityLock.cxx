@@ -34,8 +34,9 @@ bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
 std::vector<double> settingsOfRays(const SchlierenSettings& settings)
 {
   std::vector<double> values;
-  const auto add = [&values](const char*, const auto& value)
+  const auto add = [&](const char*, auto member)
   {
+    const auto& value = settings.*member;
     if constexpr (std::is_array_v<std::remove_reference_t<decltype(value)>>)
     {
       values.insert(values.end(), std::begin(value), std::end(value));
@@ -45,8 +46,8 @@ std::vector<double> settingsOfRays(const SchlierenSettings& settings)
       values.push_back(static_cast<double>(value));
     }
   };
-  settings.ViewSettings::visit(add);
-  settings.AccuracySettings::visit(add);
+  ViewSettings::visit(add);
+  AccuracySettings::visit(add);
   values.insert(values.end(),
     { settings.SourceDistance, double(settings.SourceShape), double(settings.ColorByField),
       double(settings.Device) });
@@ -68,8 +69,8 @@ std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& n
     this->Last->medium == now.medium &&
     (this->Last->data == now.data || isAtOtherTime(*this->Last, now)) &&
     (!this->Origin || this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
-      mode == OpticsSettings::lockAlways);
-  if (mode == OpticsSettings::lockOff || (this->Last && !holds))
+      mode == SchlierenSettings::lockAlways);
+  if (mode == SchlierenSettings::lockOff || (this->Last && !holds))
   {
     this->Drop();
   }
