@@ -18,10 +18,10 @@ namespace
 
 /// Selects values at some boundary points from those of all ranks.
 std::vector<double> valuesOf(
-  const std::vector<Contribution>& points, const std::vector<double>& values)
+  const std::vector<LeafPoint>& points, const std::vector<double>& values)
 {
   std::vector<double> found;
-  for (const Contribution& point : points)
+  for (const LeafPoint& point : points)
   {
     found.push_back(values[static_cast<std::size_t>(point.point)]);
   }
@@ -132,13 +132,13 @@ BoundaryOverRanks boundaryOfMeshes(const Ranks& ranks, const MeshPiece& piece,
       std::move(all.faces),
       [&](const std::vector<Point>& places) { return hold(ranks, piece, places); },
       outside == Outside::Passes ? Sheets::Ignored : Sheets::Walls);
-    kept.contributions = faces.contributions;
+    kept.origins = faces.origins;
     kept.boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
     kept.keys = keys;
     kept.lattices = nullptr;
   }
   facts.voxelShape = kept.voxelShape;
-  return { kept.boundary, kept.boundary->ambient(valuesOf(kept.contributions, values)) };
+  return { kept.boundary, kept.boundary->ambient(valuesOf(kept.origins, values)) };
 }
 
 } // namespace

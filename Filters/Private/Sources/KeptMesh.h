@@ -26,7 +26,7 @@ struct KeptMesh
   std::shared_ptr<const GasBoundary> boundary; ///< null: nothing is kept
   std::shared_ptr<LatticesOfMesh> lattices;    ///< null in the first time step
   // Over several ranks:
-  std::vector<Contribution> contributions; ///< of all ranks' values to those at boundary points
+  std::vector<LeafPoint> origins; ///< of boundary points, among those of all ranks
   std::array<double, 3> voxelShape{};
   vtkTypeInt64 builds = 0; ///< number of different meshes
 

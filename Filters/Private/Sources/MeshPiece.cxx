@@ -35,7 +35,7 @@ std::shared_ptr<PieceMesh> PieceMesh::of(
   }
   return kept && kept->key == hash.value()
     ? kept
-    : std::make_shared<PieceMesh>(PieceMesh{ hash.value(), nullptr, {}, {} });
+    : std::make_shared<PieceMesh>(PieceMesh{ hash.value(), nullptr, {} });
 }
 
 MeshPiece::MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
@@ -167,12 +167,11 @@ void MeshPiece::sampleFields(
   }
 }
 
-/// Finds the faces, and keeps their contributions.
+/// Finds the faces, and keeps the origins of their points.
 Faces MeshPiece::findFaces() const
 {
   Faces faces = facesOf(pointersTo(this->Leaves), WorkProgress(), Copies::Neighbours);
-  this->Mesh->firstContributions = faces.firstContributions;
-  this->Mesh->contributions = faces.contributions;
+  this->Mesh->boundaryPoints = faces.origins;
   return faces;
 }
 
@@ -182,9 +181,9 @@ void MeshPiece::putBoundary(std::int64_t cellsOfAll, std::vector<char>& message)
   putAll(this->Cells.measuredCells(cellsOfAll), message);
   putAll(faces.points, message);
   std::vector<std::uint32_t> leaves;
-  for (std::size_t n = 0; n < faces.points.size(); ++n)
+  for (const LeafPoint& origin : faces.origins)
   {
-    leaves.push_back(faces.contributions[faces.firstContributions[n]].leaf);
+    leaves.push_back(origin.leaf);
   }
   putAll(leaves, message);
   putAll(faces.areDoubles, message);
@@ -196,13 +195,11 @@ void MeshPiece::putBoundary(std::int64_t cellsOfAll, std::vector<char>& message)
 
 void MeshPiece::putBoundaryValues(std::vector<char>& message) const
 {
-  if (this->Mesh->firstContributions.empty())
+  if (!this->Mesh->boundaryPoints)
   {
     this->findFaces();
   }
-  putAll(
-    valuesAt(this->Mesh->firstContributions, this->Mesh->contributions, pointersTo(this->Leaves)),
-    message);
+  putAll(valuesAt(*this->Mesh->boundaryPoints, pointersTo(this->Leaves)), message);
 }
 
 void BoundaryOfMeshes::add(Reader& reader)
@@ -219,8 +216,8 @@ void BoundaryOfMeshes::add(Reader& reader)
   {
     const std::uint32_t leaf = firstLeaf + leavesOfRank.at(n);
     this->leaves = std::max(this->leaves, leaf + 1);
-    all.contributions.push_back({ leaf, static_cast<vtkIdType>(all.points.size()), 1 });
-    all.addPoint(points[n], areDoubles.at(n) != 0);
+    const auto number = static_cast<vtkIdType>(all.points.size());
+    all.addPoint(points[n], { leaf, number }, areDoubles.at(n) != 0);
   }
   for (const std::int32_t corner : reader.GetAll<std::vector<std::int32_t>>())
   {

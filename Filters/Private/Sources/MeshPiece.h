@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,9 +31,7 @@ struct PieceMesh
 {
   std::uint64_t key;                           ///< see DataPiece::meshKey()
   std::shared_ptr<const CellTree::Mesh> cells; ///< null: not yet made
-  // Contributions to boundary values, see Faces; empty: not computed.
-  std::vector<std::size_t> firstContributions;
-  std::vector<Contribution> contributions;
+  std::optional<std::vector<LeafPoint>> boundaryPoints; ///< see Faces; unset: not computed
 
   /// Returns that of the leaves: `kept` (may be null) if it is equal, or a new one.
   static std::shared_ptr<PieceMesh> of(
@@ -93,7 +92,7 @@ private:
 struct BoundaryOfMeshes
 {
   std::vector<CellTree::MeasuredCell> cells;
-  Faces faces;              ///< each contribution is the value that is sent with the point
+  Faces faces;              ///< the origin of a point is its number among those of all ranks
   std::uint32_t leaves = 0; ///< of all ranks; those of a rank are others than another's
 
   /// Another rank's.

@@ -55,8 +55,7 @@ Faces withoutSidesAcrossZ(const Faces& all)
   Faces faces;
   faces.points = all.points;
   faces.areDoubles = all.areDoubles;
-  faces.firstContributions = all.firstContributions;
-  faces.contributions = all.contributions;
+  faces.origins = all.origins;
   for (std::size_t face = 0; face < all.size(); ++face)
   {
     const auto begin = all.corners.begin() + static_cast<std::ptrdiff_t>(all.starts[face]);
@@ -178,13 +177,10 @@ bool isSheet(
     {
       ++k;
     }
-    const auto contributionOf = [&](std::size_t corner) {
-      return faces
-        .contributions[faces.firstContributions[static_cast<std::size_t>(before[corner])]];
-    };
+    const auto leafOf = [&](std::size_t corner)
+    { return faces.origins[static_cast<std::size_t>(before[corner])].leaf; };
     const bool isMerged = faces.areDoubles[static_cast<std::size_t>(before[i])] != 0;
-    if (k == faces.starts[other + 1] || contributionOf(i).leaf != contributionOf(k).leaf ||
-      isMerged)
+    if (k == faces.starts[other + 1] || leafOf(i) != leafOf(k) || isMerged)
     {
       return false;
     }
@@ -315,11 +311,7 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<OpenFace>& kept)
       if (numbers[from] < 0)
       {
         numbers[from] = static_cast<std::int32_t>(result.surface.points.size());
-        result.contributions.insert(result.contributions.end(),
-          faces.contributions.begin() + static_cast<std::ptrdiff_t>(faces.firstContributions[from]),
-          faces.contributions.begin() +
-            static_cast<std::ptrdiff_t>(faces.firstContributions[from + 1]));
-        result.starts.push_back(result.contributions.size());
+        result.origins.push_back(faces.origins[from]);
         result.surface.points.push_back(faces.points[from]);
         points->InsertNextPoint(faces.points[from].data());
       }
@@ -396,29 +388,18 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, Sheets sheets
   return result;
 }
 
-std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves)
-{
-  return valuesAt(faces.starts, faces.contributions, leaves);
-}
-
-std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
-  const std::vector<Contribution>& contributions, const std::vector<vtkDataSet*>& leaves)
+std::vector<double> valuesAt(
+  const std::vector<LeafPoint>& points, const std::vector<vtkDataSet*>& leaves)
 {
   std::vector<vtkDataArray*> scalars;
   for (vtkDataSet* leaf : leaves)
   {
     scalars.push_back(leaf->GetPointData()->GetScalars());
   }
-  std::vector<double> values(starts.size() - 1);
-  for (std::size_t i = 0; i < values.size(); ++i)
+  std::vector<double> values;
+  for (const auto& [leaf, point] : points)
   {
-    for (std::size_t k = starts[i]; k < starts[i + 1]; ++k)
-    {
-      const Contribution& fraction = contributions[k];
-      values[i] += scalars[fraction.leaf]
-        ? fraction.weight * scalars[fraction.leaf]->GetComponent(fraction.point, 0)
-        : 0;
-    }
+    values.push_back(scalars[leaf] ? scalars[leaf]->GetComponent(point, 0) : 0);
   }
   return values;
 }

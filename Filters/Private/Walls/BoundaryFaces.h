@@ -42,10 +42,9 @@ enum class Sheets
 /// The boundary of the gas: faces of one visible cell only.
 struct BoundaryFaces
 {
-  Triangles surface;                       ///< normals point into the gas
-  std::vector<std::size_t> starts{ 0 };    ///< of each point in `contributions`, and the end
-  std::vector<Contribution> contributions; ///< to the value at the point
-  std::vector<unsigned char> hidesBehind;  ///< of each triangle: whether a hidden cell is behind it
+  Triangles surface;                      ///< normals point into the gas
+  std::vector<LeafPoint> origins;         ///< of its points
+  std::vector<unsigned char> hidesBehind; ///< of each triangle: whether a hidden cell is behind it
   Extent extent = Extent::Volume;
 };
 
@@ -67,10 +66,8 @@ BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, Sheets sheets
 /// Tests places in several threads; those that are not finite are in no cell.
 CellsTest testInParallel(const CellTest& isInCell, const WorkProgress& progress);
 
-/// Returns the scalars at the surface's points, of these leaves or others on the same mesh.
-std::vector<double> valuesAt(const BoundaryFaces& faces, const std::vector<vtkDataSet*>& leaves);
-/// Sums contributions of the scalars: those of value i are starts[i] to starts[i + 1].
-std::vector<double> valuesAt(const std::vector<std::size_t>& starts,
-  const std::vector<Contribution>& contributions, const std::vector<vtkDataSet*>& leaves);
+/// Returns the scalars at points of these leaves, or of others on the same mesh.
+std::vector<double> valuesAt(
+  const std::vector<LeafPoint>& points, const std::vector<vtkDataSet*>& leaves);
 
 } // namespace filters

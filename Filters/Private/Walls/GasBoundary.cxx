@@ -77,7 +77,7 @@ bool GasBoundary::isBeyondAll(const Point& place) const
 
 double GasBoundary::ambient(const std::vector<vtkDataSet*>& leaves) const
 {
-  return this->ambient(valuesAt(this->Faces, leaves));
+  return this->ambient(valuesAt(this->Faces.origins, leaves));
 }
 
 double GasBoundary::ambient(const std::vector<double>& values) const

@@ -138,8 +138,8 @@ void addCells(const MeshArrays& mesh, std::uint32_t leaf, const std::vector<Stat
       {
         Point x;
         mesh.coordinates(point, x.data());
-        faces.contributions.push_back({ leaf, point, 1 });
-        number = faces.addPoint(x, doubles && doubles->GetComponent(point, 0) != 0);
+        const bool isDouble = doubles && doubles->GetComponent(point, 0) != 0;
+        number = faces.addPoint(x, { leaf, point }, isDouble);
       }
       faces.corners.push_back(number);
     }

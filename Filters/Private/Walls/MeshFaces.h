@@ -17,12 +17,11 @@ class vtkDataSet;
 namespace filters
 {
 
-/// A weighted value at a point of a leaf, of which a boundary value is made.
-struct Contribution
+/// A point of a leaf.
+struct LeafPoint
 {
   std::uint32_t leaf;
   vtkIdType point;
-  double weight;
 };
 
 /// The state of a cell.
@@ -40,21 +39,19 @@ constexpr const char* doublesName = "Doubles";
 struct Faces
 {
   std::vector<Point> points;
-  std::vector<unsigned char> areDoubles;            // of the points, see doublesName
-  std::vector<std::size_t> firstContributions{ 0 }; // of each point's value, and the end
-  std::vector<Contribution> contributions;
-  std::vector<std::int32_t> corners;    // of all faces
-  std::vector<std::size_t> starts{ 0 }; // of each face, and the end
-  std::vector<Point> owners;            // middle of the cell
-  std::vector<State> states;            // of the cell
+  std::vector<unsigned char> areDoubles; // of the points, see doublesName
+  std::vector<LeafPoint> origins;        // of the points
+  std::vector<std::int32_t> corners;     // of all faces
+  std::vector<std::size_t> starts{ 0 };  // of each face, and the end
+  std::vector<Point> owners;             // middle of the cell
+  std::vector<State> states;             // of the cell
 
   std::size_t size() const { return this->owners.size(); }
-  /// Adds a point, after its contributions.
-  std::int32_t addPoint(const Point& x, bool isDouble = false)
+  std::int32_t addPoint(const Point& x, const LeafPoint& origin, bool isDouble)
   {
     this->points.push_back(x);
     this->areDoubles.push_back(isDouble ? 1 : 0);
-    this->firstContributions.push_back(this->contributions.size());
+    this->origins.push_back(origin);
     return static_cast<std::int32_t>(this->points.size() - 1);
   }
   /// Adds a face, after its corners.

@@ -387,7 +387,7 @@ TEST(LinearCells, FacesWithinAMeshAreNoBoundary)
     {
       EXPECT_LT(toCube(faces.points[i]), 1e-12);
       EXPECT_NEAR(
-        parts->GetPointData()->GetScalars()->GetComponent(faces.contributions[i].point, 0),
+        parts->GetPointData()->GetScalars()->GetComponent(faces.origins[i].point, 0),
         linear(faces.points[i]), 1e-15);
     }
   }

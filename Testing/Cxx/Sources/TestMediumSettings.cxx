@@ -56,7 +56,6 @@ TEST(MediumSettings, DifferWhereOnePropertyDoes)
 {
   const MediumSettings defaults;
   EXPECT_TRUE(defaults == MediumSettings());
-  int properties = 0;
   MediumSettings::visit(
     [&](const char* name, auto member)
     {
@@ -65,9 +64,7 @@ TEST(MediumSettings, DifferWhereOnePropertyDoes)
       EXPECT_TRUE(changed != defaults) << name;
       EXPECT_NE(printed(changed), printed(defaults)) << name;
       EXPECT_NE(printed(defaults).find("  " + std::string(name) + ":"), std::string::npos) << name;
-      ++properties;
     });
-  EXPECT_EQ(properties, 32);
 }
 
 TEST(MediumSettings, AreThoseOfTheFilter)
