@@ -137,7 +137,9 @@ def save_state(name):
 
 
 def add_steps(count):
-    """Buttons out of sight that run the scripts of Session.python."""
+    """Buttons out of sight that run the scripts of Session.python; the window becomes as small as its panels allow, for
+    half of a session's time goes into drawing its views."""
+    widget().resize(940, 640)
     steps = QWidget(widget())
     steps.setObjectName("Steps")
     for number in range(1, count + 1):
