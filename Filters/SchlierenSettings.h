@@ -59,18 +59,16 @@ struct ViewSettings
 struct OpticsSettings
 {
   // Values without an enumeration in the tracer.
-  static constexpr int lockOff = 0, lockAlways = 2; // LockK
-  static constexpr int scenePattern = 3;            // BackgroundPattern
-  static constexpr int lightOfRays = 0;             // LightModel
+  static constexpr int kAutomatic = 0, kAutomaticKept = 1, kValue = 2, kBench = 3; // KMode
+  static constexpr int scenePattern = 3; // BackgroundPattern
+  static constexpr int lightOfRays = 0;  // LightModel
 
   int Cutoff = 0;
   double KnifeEdgeAngle = 0;
   double CutoffOffset = 0;
   bool InvertCutoff = false;
-  bool AutoKScale = true;
-  int LockK = 1; // over time
+  int KMode = kAutomatic;
   double KScale = 1000;
-  bool KFromOptics = false;
   double FocalLength = 1;
   double SourceWidth = 1;
   double SourceLength = 10;
@@ -108,10 +106,8 @@ struct OpticsSettings
     use("KnifeEdgeAngle", this->KnifeEdgeAngle);
     use("CutoffOffset", this->CutoffOffset);
     use("InvertCutoff", this->InvertCutoff);
-    use("AutoKScale", this->AutoKScale);
-    use("LockK", this->LockK);
+    use("KMode", this->KMode);
     use("KScale", this->KScale);
-    use("KFromOptics", this->KFromOptics);
     use("FocalLength", this->FocalLength);
     use("SourceWidth", this->SourceWidth);
     use("SourceLength", this->SourceLength);

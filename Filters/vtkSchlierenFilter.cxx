@@ -68,9 +68,11 @@ static_assert(sameValue(Self::EXIT_AUTO, schlieren::ExitInto::Auto) &&
   sameValue(Self::EXIT_SURROUNDINGS, schlieren::ExitInto::Surroundings) &&
   sameValue(Self::EXIT_AIR, schlieren::ExitInto::Air) &&
   sameValue(Self::EXIT_CUSTOM, schlieren::ExitInto::Custom));
-static_assert(Self::LOCK_OFF == OpticsSettings::lockOff &&
-  Self::LOCK_ALWAYS == OpticsSettings::lockAlways && Self::SCENE == OpticsSettings::scenePattern &&
-  Self::LIGHT_RAYS == OpticsSettings::lightOfRays);
+static_assert(Self::K_AUTOMATIC == OpticsSettings::kAutomatic &&
+  Self::K_AUTOMATIC_KEPT == OpticsSettings::kAutomaticKept &&
+  Self::K_VALUE == OpticsSettings::kValue && Self::K_BENCH == OpticsSettings::kBench);
+static_assert(
+  Self::SCENE == OpticsSettings::scenePattern && Self::LIGHT_RAYS == OpticsSettings::lightOfRays);
 
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.
 constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };

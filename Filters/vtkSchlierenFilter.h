@@ -118,12 +118,13 @@ public:
     PHASE_CONTRAST = 9
   };
 
-  /// What SetLockK() takes; LOCK_OVER_TIME keeps a value from one time step to the next.
-  enum LockModes
+  /// What SetKMode() takes.
+  enum KModes
   {
-    LOCK_OFF = 0,
-    LOCK_OVER_TIME = 1,
-    LOCK_ALWAYS = 2
+    K_AUTOMATIC = 0,
+    K_AUTOMATIC_KEPT = 1,
+    K_VALUE = 2,
+    K_BENCH = 3
   };
 
   /// What SetExitInto() takes.
@@ -377,7 +378,7 @@ public:
   /**
    * Advance of the knife edge or graded filter from the middle of the source's image, as a
    * fraction of the image's width, which is also the loss of undisturbed light. Default: 0. With
-   * KFromOptics, CutoffPosition is used instead.
+   * K_BENCH, CutoffPosition is used instead.
    */
   vtkSetMacro(CutoffOffset, double);
   vtkGetMacro(CutoffOffset, double);
@@ -395,72 +396,54 @@ public:
 
   ///@{
   /**
-   * Whether k is chosen so that the 99th percentile of the deflections is full scale. It is
-   * limited by the error of the medium's voxels if little flow is in view. Default: on.
-   */
-  vtkSetMacro(AutoKScale, bool);
-  vtkGetMacro(AutoKScale, bool);
-  vtkBooleanMacro(AutoKScale, bool);
-  ///@}
-
-  ///@{
-  /**
-   * How long an automatic k is kept, one of LockModes. It is found for the first image and then
-   * - LOCK_OFF: for each image;
-   * - LOCK_OVER_TIME (the default): kept at all other times, whatever changes with the time, such
+   * Where the sensitivity k comes from, one of KModes:
+   * - K_AUTOMATIC (the default): it is found for the first image, so that the 99th percentile of the
+   *   deflections is full scale, or less k where little flow is in view and the error of the
+   *   medium's voxels would show; and kept at all other times, whatever changes with the time, such
    *   as the camera of an animation. Found again if camera, light or quality change at the time
    *   that it was found for, and for data without time steps;
-   * - LOCK_ALWAYS: kept even if camera, light or quality change.
+   * - K_AUTOMATIC_KEPT: as this, but kept even if camera, light or quality change;
+   * - K_VALUE: KScale;
+   * - K_BENCH: k = FocalLength / SourceWidth, and the cutoff's offset is CutoffPosition / SourceWidth.
    *
-   * In each mode it is found again if the settings of the medium, the kind of cutoff or, at the
+   * An automatic k is found again if the settings of the medium, the kind of cutoff or, at the
    * same time, the data change. Images in between without an automatic k do not count.
    */
-  vtkSetClampMacro(LockK, int, LOCK_OFF, LOCK_ALWAYS);
-  vtkGetMacro(LockK, int);
+  vtkSetClampMacro(KMode, int, K_AUTOMATIC, K_BENCH);
+  vtkGetMacro(KMode, int);
   ///@}
 
   ///@{
   /**
-   * The k kept from an earlier image by LockK, else 0. Setting it (as state files do) sets the k
-   * of the next image, which LockK then keeps; 0 means automatic.
+   * The automatic k kept from an earlier image, else 0. Setting it (as state files do) sets the k
+   * of the next image, which is then kept; 0: it is found.
    */
   void SetLockedK(double k);
   double GetLockedK() const;
   ///@}
 
   /**
-   * Finds k again for the next image, whatever LockK has kept.
+   * Finds an automatic k again for the next image, whatever has been kept.
    */
-  void FitK() { this->SetLockedK(0); }
+  void FitK();
 
   /**
    * Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
    * with the first and the last where there are more, and keeps the smallest of their automatic k, that of the largest
-   * deflections: no image exceeds full scale then by more than an image with its own k. LockK, which must not be
-   * LOCK_OFF, says how long it is kept. Reports progress; aborted, it changes nothing. An error where the data have no
-   * time steps or k is not automatic. The output is that of the last update until the next one.
+   * deflections: no image exceeds full scale then by more than an image with its own k. Reports progress; aborted, it
+   * changes nothing. An error where the data have no time steps or k is not automatic. The output is that of the last
+   * update until the next one.
    */
   void FitKOverSeries();
   static constexpr int MOST_STEPS = 100; ///< of FitKOverSeries()
 
   ///@{
   /**
-   * Sensitivity k, used if AutoKScale is off: focal length / source width; the intensity at a
+   * Sensitivity k of K_VALUE: focal length / source width; the intensity at a
    * knife edge is 1/2 + k times the deflection. Not negative. Default: 1000.
    */
   vtkSetMacro(KScale, double);
   vtkGetMacro(KScale, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether real optics give sensitivity and offset, instead of AutoKScale, KScale and
-   * CutoffOffset: k = FocalLength / SourceWidth, offset = CutoffPosition / SourceWidth. Default:
-   * off.
-   */
-  vtkSetMacro(KFromOptics, bool);
-  vtkGetMacro(KFromOptics, bool);
-  vtkBooleanMacro(KFromOptics, bool);
   ///@}
 
   ///@{
@@ -475,7 +458,7 @@ public:
   /**
    * Size of the source's image at the cutoff, millimetres: its width across the knife edge, or a
    * disc's diameter (default: 1), and a slit's length along the knife edge (default: 10). Not
-   * negative; for KFromOptics, the width is positive. Seen from the data, the source has the
+   * negative; for K_BENCH, the width is positive. Seen from the data, the source has the
    * angular size width / FocalLength.
    */
   vtkSetMacro(SourceWidth, double);
@@ -486,7 +469,7 @@ public:
 
   ///@{
   /**
-   * Advance of the edge into the source's image, millimetres, for KFromOptics. Default: 0.
+   * Advance of the edge into the source's image, millimetres, for K_BENCH. Default: 0.
    */
   vtkSetMacro(CutoffPosition, double);
   vtkGetMacro(CutoffPosition, double);

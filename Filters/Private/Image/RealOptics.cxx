@@ -58,7 +58,8 @@ bool usesK(const OpticsSettings& optics) { return techniqueOf(optics).hasK(); }
 //------------------------------------------------------------------------------
 bool choosesK(const OpticsSettings& optics)
 {
-  return usesK(optics) && !optics.KFromOptics && optics.AutoKScale;
+  return usesK(optics) &&
+    (optics.KMode == OpticsSettings::kAutomatic || optics.KMode == OpticsSettings::kAutomaticKept);
 }
 
 //------------------------------------------------------------------------------
@@ -80,7 +81,7 @@ double offsetOfOptics(const OpticsSettings& optics)
 void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
 {
   scene.cutoffOffset = optics.CutoffOffset;
-  if (optics.KFromOptics)
+  if (optics.KMode == OpticsSettings::kBench)
   {
     requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
     requirePositive("SourceWidth", optics.SourceWidth, "mm", "the source's image");
@@ -92,7 +93,7 @@ void setSensitivity(const OpticsSettings& optics, schlieren::Scene& scene)
     scene.kScale = kOfOptics(optics);
     scene.cutoffOffset = offsetOfOptics(optics);
   }
-  else if (!optics.AutoKScale)
+  else if (optics.KMode == OpticsSettings::kValue)
   {
     scene.kScale = optics.KScale;
   }
@@ -142,7 +143,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
     words += "; optics: " + textOf(focalLength, 4) + " m focal length, source " +
       textOf(focalLength / k / metresPerMillimetre, 4) + " mm wide";
   }
-  if (settings.KFromOptics && technique.hasEdge)
+  if (settings.KMode == OpticsSettings::kBench && technique.hasEdge)
   {
     words += ", the edge " + textOf(settings.CutoffPosition, 4) + " mm in (offset " +
       textOf(offsetOfOptics(settings), 4) + ")";

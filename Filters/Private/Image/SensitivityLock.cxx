@@ -68,8 +68,8 @@ std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& n
     this->Last->medium == now.medium &&
     (this->Last->data == now.data || isAtOtherTime(*this->Last, now)) &&
     (!this->Origin || this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
-      mode == OpticsSettings::lockAlways);
-  if (mode == OpticsSettings::lockOff || (this->Last && !holds))
+      mode == OpticsSettings::kAutomaticKept);
+  if (this->Last && !holds)
   {
     this->Drop();
   }

@@ -190,7 +190,7 @@ TEST(Pipeline, NothingIsDoneTwice)
   EXPECT_TRUE(workOfUpdate(filter) == none);
   filter->SetInvertCutoff(true);
   EXPECT_TRUE(workOfUpdate(filter) == none);
-  filter->SetAutoKScale(false);
+  filter->SetKMode(vtkSchlierenFilter::K_VALUE);
   filter->SetKScale(123);
   EXPECT_TRUE(workOfUpdate(filter) == none);
   EXPECT_EQ(fieldValue(filter, "KScale"), 123);
@@ -386,16 +386,15 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
          "Symmetry", "SymmetryAxis", "SymmetryOrigin", "Outside", "MediumTolerance", "MediumMemory",
          "LengthScale", "AmbientRefractivity", "ViewDirection", "ViewUp", "FaceFlatData",
          "FocalPoint", "ParallelScale", "ImageSize", "Wavelength", "Cutoff", "KnifeEdgeAngle",
-         "CutoffOffset", "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale", "KFromOptics",
-         "FocalLength", "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter",
-         "ColorFilterImage", "FringeSpacing", "FringeAngle", "WhiteLight", "ScreenDistance",
-         "FocusOffset", "SourceDistance", "SourceShape", "LightModel", "Bandwidth",
-         "CoherenceSamples", "PhasePlateDiameter", "PhasePlateDelay", "PhasePlateTransmission",
-         "BackgroundPattern", "BackgroundDistance", "BackgroundPeriod", "BackgroundAngle",
-         "BackgroundImage", "FNumber", "LensFocalLength", "FocusDistance", "SensorWidth",
-         "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth", "Quality", "PathModel",
-         "StepSize", "HomogeneityTolerance", "SamplesPerPixel", "Precision", "TargetError",
-         "ErrorEstimate", "Device", "NumberOfThreads", "SmoothingRadius" })
+         "CutoffOffset", "InvertCutoff", "KMode", "LockedK", "KScale", "FocalLength", "SourceWidth",
+         "SourceLength", "CutoffPosition", "GradedFilter", "ColorFilterImage", "FringeSpacing",
+         "FringeAngle", "WhiteLight", "ScreenDistance", "FocusOffset", "SourceDistance",
+         "SourceShape", "LightModel", "Bandwidth", "CoherenceSamples", "PhasePlateDiameter",
+         "PhasePlateDelay", "PhasePlateTransmission", "BackgroundPattern", "BackgroundDistance",
+         "BackgroundPeriod", "BackgroundAngle", "BackgroundImage", "FNumber", "LensFocalLength",
+         "FocusDistance", "SensorWidth", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth",
+         "Quality", "PathModel", "StepSize", "HomogeneityTolerance", "SamplesPerPixel", "Precision",
+         "TargetError", "ErrorEstimate", "Device", "NumberOfThreads", "SmoothingRadius" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }
