@@ -160,7 +160,7 @@ def take_tiles(take, frame, options, scratch):
     knife = take.shoot(KnifeEdgeAngle=90)
     check_light(knife["BlockedFraction"], frame)
     k = knife.facts["KScale"] or 1  # 0: nothing bends light
-    fixed = {"AutoKScale": 0, "KScale": k}
+    fixed = {"KMode": "Value", "KScale": k}
     eps = np.hypot(knife["Deflection"][..., 0], knife["Deflection"][..., 1])
     strong = max(float(np.percentile(eps, 99)), 1e-30)
     caustic = min(caustic_distance(knife["Deflection"], pixel), 1e6 * frame.depth)
@@ -193,19 +193,19 @@ def take_tiles(take, frame, options, scratch):
         (0, 0.1), (0.35, 0.1), (0.4, 1), (0.6, 1), (0.65, 0.4), (1, 0.4)) for number in (x, y, 0.5, 0)])
     knife_tile("graded", "Graded filter, 90°", "clear in its middle, 0.1 below, 0.4 above",
                Cutoff="Graded Filter", GradedFilter=steps, KnifeEdgeAngle=90)
-    circular = take.shoot(Cutoff="Circular", AutoKScale=1)
+    circular = take.shoot(Cutoff="Circular", KMode="Automatic")
     round_k = circular.facts["KScale"] or 1
     add("circular", "Circular stop", f"1 - k |ε|, k = {round_k:.4g}", grey(circular["Intensity"], 1),
         circular)
-    shot = take.shoot(Cutoff="Circular Complement", AutoKScale=0, KScale=round_k)
+    shot = take.shoot(Cutoff="Circular Complement", KMode="Value", KScale=round_k)
     add("complement", "Its complement", "k |ε|: dark field", grey(shot["Intensity"], 1), shot)
 
     group("Colour, and where light meets the cutoff plane")
-    shot = take.shoot(Cutoff="Color Filter", AutoKScale=0, KScale=round_k)
+    shot = take.shoot(Cutoff="Color Filter", KMode="Value", KScale=round_k)
     add("wheel", "Colour wheel", "hue: direction, saturation: k |ε|", shot["Color"], shot, wheel())
     path = os.path.join(scratch, "filter.png")
     write_png(path, four_colors())
-    shot = take.shoot(Cutoff="Color Filter", AutoKScale=0, KScale=round_k,
+    shot = take.shoot(Cutoff="Color Filter", KMode="Value", KScale=round_k,
                       ColorFilterImage=data_uri(path))
     add("color filter", "Colour filter from a PNG", "stored as text in the property", shot["Color"],
         shot, shrunk(four_colors()))

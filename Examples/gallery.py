@@ -57,7 +57,7 @@ def heating_coil():
     water = Calculator(read(XMLUnstructuredGridReader, "heating_coil_fluid.vtu"), ResultArrayName="N", Function=(
         "0.331418 - 1.1092e-4*(Temperature-300) - 1.4857e-6*(Temperature-300)^2 + 7.088e-9*(Temperature-300)^3"))
     return dict(Input=water, IndexModel="Refractivity", IndexArray=["POINTS", "N"], LengthScale=0.1, KnifeEdgeAngle=90,
-                AutoKScale=0, KScale=300, ExitInto="Air", MediumTolerance=0.005, ViewDirection=[0, 1, 0], ViewUp=[0, 0, 1], ParallelScale=1.1)
+                KMode="Value", KScale=300, ExitInto="Air", MediumTolerance=0.005, ViewDirection=[0, 1, 0], ViewUp=[0, 0, 1], ParallelScale=1.1)
 
 
 def reactor():

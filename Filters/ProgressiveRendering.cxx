@@ -238,7 +238,7 @@ std::optional<double> vtkSchlierenFilter::KeptK()
   {
     return {}; // what is kept waits: the change may be undone
   }
-  return this->Inside->KLock.For(this->LockK,
+  return this->Inside->KLock.For(this->KMode,
     this->CircumstancesOf(
       { static_cast<double>(this->Cutoff), std::max(this->AmbientRefractivity, -1.),
         static_cast<double>(this->ExitInto),
@@ -249,7 +249,7 @@ std::optional<double> vtkSchlierenFilter::KeptK()
 //------------------------------------------------------------------------------
 std::optional<double> vtkSchlierenFilter::KeptAmbient()
 {
-  this->Inside->AmbientLock.For(LOCK_OVER_TIME, this->CircumstancesOf({}, {}));
+  this->Inside->AmbientLock.For(K_AUTOMATIC, this->CircumstancesOf({}, {}));
   // Given at the time that it was found, it would make another medium of the same data.
   return this->Inside->AmbientLock.GetKept();
 }

@@ -344,6 +344,13 @@ void vtkSchlierenFilter::SetLockedK(double k)
 }
 
 //------------------------------------------------------------------------------
+void vtkSchlierenFilter::FitK()
+{
+  this->Inside->KLock.Drop();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
 double vtkSchlierenFilter::GetLockedK() const { return this->Inside->KLock.GetKept().value_or(0); }
 
 //------------------------------------------------------------------------------

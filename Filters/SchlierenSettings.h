@@ -75,9 +75,9 @@ struct AccuracySettings
 struct SchlierenSettings : ViewSettings, AccuracySettings
 {
   // Values without an enumeration in the tracer.
-  static constexpr int lockOff = 0, lockAlways = 2; // LockK
-  static constexpr int scenePattern = 3;            // BackgroundPattern
-  static constexpr int lightOfRays = 0;             // LightModel
+  static constexpr int kAutomatic = 0, kAutomaticKept = 1, kValue = 2, kBench = 3; // KMode
+  static constexpr int scenePattern = 3; // BackgroundPattern
+  static constexpr int lightOfRays = 0;  // LightModel
 
   double Wavelength = 632.8;
   int PreviewReduction = 1;
@@ -90,10 +90,8 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   double KnifeEdgeAngle = 0;
   double CutoffOffset = 0;
   bool InvertCutoff = false;
-  bool AutoKScale = true;
-  int LockK = 1;
+  int KMode = 0;
   double KScale = 1000;
-  bool KFromOptics = false;
   double FocalLength = 1;
   double SourceWidth = 1;
   double CutoffPosition = 0;
@@ -154,10 +152,8 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
     use("KnifeEdgeAngle", &S::KnifeEdgeAngle);
     use("CutoffOffset", &S::CutoffOffset);
     use("InvertCutoff", &S::InvertCutoff);
-    use("AutoKScale", &S::AutoKScale);
-    use("LockK", &S::LockK);
+    use("KMode", &S::KMode);
     use("KScale", &S::KScale);
-    use("KFromOptics", &S::KFromOptics);
     use("FocalLength", &S::FocalLength);
     use("SourceWidth", &S::SourceWidth);
     use("CutoffPosition", &S::CutoffPosition);

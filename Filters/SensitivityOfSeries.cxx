@@ -39,10 +39,10 @@ std::vector<double> spread(const std::vector<double>& times, std::size_t most)
 void vtkSchlierenFilter::FitKOverSeries()
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  if (!choosesK(*this) || this->LockK == LOCK_OFF)
+  if (!choosesK(*this))
   {
-    vtkErrorMacro(<< "One k for a series is an automatic k that is kept. Set AutoKScale to 1, "
-                     "LockK to Over Time or Always, KFromOptics to 0, and a Cutoff with a k.");
+    vtkErrorMacro(<< "One k for a series is an automatic k. Set KMode to Automatic or Automatic "
+                     "Kept, and a Cutoff with a k.");
     return;
   }
   this->UpdateInformation();
@@ -77,7 +77,6 @@ void vtkSchlierenFilter::FitKOverSeries()
     });
   this->PreviewReduction = 1;
   this->TimeLimit = 0;
-  this->LockK = LOCK_OFF;
   this->SamplesPerPixel = 1; // k is chosen from the first ray of each pixel
   this->TargetError = 0;
   this->ErrorEstimate = false;
@@ -86,6 +85,7 @@ void vtkSchlierenFilter::FitKOverSeries()
   {
     const double part = 1. / static_cast<double>(times.size());
     this->SetProgressShiftScale(static_cast<double>(i) * part, part);
+    inside.KLock.Drop(); // each step has its own
     this->Modified();
     this->UpdateTimeStep(times[i]);
     if (!inside.HasImage || this->GetAbortExecute())

@@ -242,41 +242,26 @@ public:
   vtkBooleanMacro(InvertCutoff, bool);
   ///@}
 
-  ///@{
-  /// Choose the sensitivity k so that the 99th percentile of the deflections is full scale, but no
-  /// larger than the error of the medium's voxels allows where little flow is in view. Default: on.
-  vtkSetMacro(AutoKScale, bool);
-  vtkGetMacro(AutoKScale, bool);
-  vtkBooleanMacro(AutoKScale, bool);
-  ///@}
-
-  /// Values of LockK.
-  enum LockModes
+  /// Values of KMode.
+  enum KModes
   {
-    LOCK_OFF = 0,
-    LOCK_OVER_TIME = 1,
-    LOCK_ALWAYS = 2
+    K_AUTOMATIC = 0,
+    K_AUTOMATIC_KEPT = 1,
+    K_VALUE = 2,
+    K_BENCH = 3
   };
 
   ///@{
-  /// How long an automatic sensitivity k is kept. Default: Over Time.
-  vtkSetClampMacro(LockK, int, LOCK_OFF, LOCK_ALWAYS);
-  vtkGetMacro(LockK, int);
+  /// Where the sensitivity k comes from. Default: Automatic.
+  vtkSetClampMacro(KMode, int, K_AUTOMATIC, K_BENCH);
+  vtkGetMacro(KMode, int);
   ///@}
 
   ///@{
-  /// Sensitivity k of the cutoff where it is not chosen automatically: the focal length over the
-  /// width of the light source. Default: 1000.
+  /// Sensitivity k of the cutoff, where K Mode is Value: the focal length over the width of the
+  /// light source. Default: 1000.
   vtkSetMacro(KScale, double);
   vtkGetMacro(KScale, double);
-  ///@}
-
-  ///@{
-  /// Use the sensitivity and offset of real optics: k is Focal Length over Source Width, the offset
-  /// is Cutoff Position over Source Width. Default: off.
-  vtkSetMacro(KFromOptics, bool);
-  vtkGetMacro(KFromOptics, bool);
-  vtkBooleanMacro(KFromOptics, bool);
   ///@}
 
   ///@{
@@ -705,7 +690,7 @@ public:
 
   ///@{
   /**
-   * The k kept from an earlier image by LockK, and the ambient refractivity; else 0. Setting them (as
+   * The automatic k kept from an earlier image, and the ambient refractivity; else 0. Setting them (as
    * state files do) sets those of the next image, which are then kept; 0 means automatic.
    */
   void SetLockedK(double k);
@@ -715,16 +700,16 @@ public:
   ///@}
 
   /**
-   * Finds k again for the next image, whatever LockK has kept.
+   * Finds an automatic k again for the next image, whatever has been kept.
    */
-  void FitK() { this->SetLockedK(0); }
+  void FitK();
 
   /**
    * Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
    * with the first and the last where there are more, and keeps the smallest of their automatic k, that of the largest
-   * deflections: no image exceeds full scale then by more than an image with its own k. LockK, which must not be
-   * LOCK_OFF, says how long it is kept. Reports progress; aborted, it changes nothing. An error where the data have no
-   * time steps or k is not automatic. The output is that of the last update until the next one.
+   * deflections: no image exceeds full scale then by more than an image with its own k. Reports progress; aborted, it
+   * changes nothing. An error where the data have no time steps or k is not automatic. The output is that of the last
+   * update until the next one.
    */
   void FitKOverSeries();
   static constexpr int MOST_STEPS = 100; ///< of FitKOverSeries()

@@ -24,7 +24,7 @@ schlieren.Cutoff = "Knife Edge"
 schlieren.ImageSize = [480, 240]
 schlieren.Quality = "Fine"
 # What does not depend on the flow that happens to be there first.
-schlieren.AutoKScale = 0
+schlieren.KMode = "Value"
 schlieren.KScale = 400
 schlieren.AmbientRefractivity = 1.2 * schlieren.GladstoneDaleConstant
 schlieren.FocalPoint = [0.06, 0, 0]

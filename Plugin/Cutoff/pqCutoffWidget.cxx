@@ -62,7 +62,8 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
   cutoff.Inverted = valueOf(proxy, "InvertCutoff") != 0;
   cutoff.IsOfDisc = valueOf(proxy, "SourceShape") == Filter::DISC;
   cutoff.IsSquare = *vtkSMPropertyHelper(proxy, "ColorFilterImage").GetAsString() != '\0';
-  if (valueOf(proxy, "KFromOptics") != 0)
+  const int mode = vtkSMPropertyHelper(proxy, "KMode").GetAsInt();
+  if (mode == Filter::K_BENCH)
   {
     const double width = valueOf(proxy, "SourceWidth"); // millimetres
     cutoff.EdgeIsFastened = true;
@@ -71,8 +72,7 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
   }
   else
   {
-    cutoff.K =
-      valueOf(proxy, "AutoKScale") != 0 ? valueOf(proxy, "KScaleUsed") : valueOf(proxy, "KScale");
+    cutoff.K = valueOf(proxy, mode == Filter::K_VALUE ? "KScale" : "KScaleUsed");
     cutoff.Offset = valueOf(proxy, "CutoffOffset");
   }
   if (!std::isfinite(cutoff.K) || !std::isfinite(cutoff.Offset))
@@ -119,9 +119,9 @@ pqCutoffWidget::pqCutoffWidget(
   QObject::connect(this->View, &pqCutoffView::grabbed, this, &pqCutoffWidget::grabbed);
   QObject::connect(this->View, &pqCutoffView::dragged, this, &pqCutoffWidget::dragged);
   QObject::connect(this->View, &pqCutoffView::released, this, &pqCutoffWidget::released);
-  for (const char* name : { "Cutoff", "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff",
-         "AutoKScale", "KScale", "KFromOptics", "FocalLength", "SourceWidth", "CutoffPosition",
-         "SourceShape", "ColorFilterImage", "GradedFilter", "KScaleUsed" })
+  for (const char* name : { "Cutoff", "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff", "KMode",
+         "KScale", "FocalLength", "SourceWidth", "CutoffPosition", "SourceShape",
+         "ColorFilterImage", "GradedFilter", "KScaleUsed" })
   {
     this->Connection->Connect(
       smProxy->GetProperty(name), vtkCommand::ModifiedEvent, this, SLOT(readCutoff()));
@@ -198,7 +198,7 @@ QMap<QString, QVariant> pqCutoffWidget::changes() const
       }
       else
       {
-        values["AutoKScale"] = 0;
+        values["KMode"] = Filter::K_VALUE;
         values["KScale"] = now.K;
       }
       break;

@@ -18,8 +18,7 @@ const std::vector<PresetSetting> defaults = {
   { "KnifeEdgeAngle", 0, nullptr },
   { "CutoffOffset", 0, nullptr },
   { "InvertCutoff", 0, nullptr },
-  { "AutoKScale", 1, nullptr },
-  { "KFromOptics", 0, nullptr },
+  { "KMode", Filter::K_AUTOMATIC, nullptr },
   { "FocalLength", 1, nullptr },
   { "SourceWidth", 1, nullptr },
   { "SourceLength", 10, nullptr },
@@ -63,7 +62,7 @@ const std::vector<BenchPreset>& benchPresets()
     preset("Knife Edge, vertical", {}),
     preset("Knife Edge, horizontal", { { "KnifeEdgeAngle", 90, nullptr } }),
     preset("Knife Edge, Toepler's bench: mirror of 1 m, slit of 1 mm",
-      { { "KFromOptics", 1, nullptr }, { "SourceShape", Filter::SLIT, nullptr } }),
+      { { "KMode", Filter::K_BENCH, nullptr }, { "SourceShape", Filter::SLIT, nullptr } }),
     preset("Circular, bright field", { { "Cutoff", Filter::CIRCULAR, nullptr } }),
     preset(
       "Circular Complement, dark field", { { "Cutoff", Filter::CIRCULAR_COMPLEMENT, nullptr } }),

@@ -20,5 +20,5 @@ struct BenchPreset
   std::vector<PresetSetting> settings;
 };
 
-/// Returns all presets. Each sets the same properties, regardless of earlier values.
+/// Returns all presets. Each sets the same properties.
 const std::vector<BenchPreset>& benchPresets();

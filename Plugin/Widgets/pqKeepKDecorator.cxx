@@ -10,13 +10,14 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
+#include "vtkSchlierenFilter.h"
 
 namespace
 {
 
-bool isAutomaticInPanel(vtkSMProperty* property)
+bool isValueInPanel(vtkSMProperty* property)
 {
-  return vtkSMUncheckedPropertyHelper(property).GetAsInt() != 0;
+  return vtkSMUncheckedPropertyHelper(property).GetAsInt() == vtkSchlierenFilter::K_VALUE;
 }
 
 } // namespace
@@ -24,7 +25,7 @@ bool isAutomaticInPanel(vtkSMProperty* property)
 //------------------------------------------------------------------------------
 pqKeepKDecorator::pqKeepKDecorator(vtkPVXMLElement* element, pqPropertyWidget* parentObject)
   : pqPropertyWidgetDecorator(element, parentObject)
-  , WasAutomatic(isAutomaticInPanel(parentObject->property()))
+  , WasValue(isValueInPanel(parentObject->property()))
 {
   for (const unsigned long event :
     { vtkCommand::ModifiedEvent, vtkCommand::UncheckedPropertyModifiedEvent })
@@ -41,10 +42,11 @@ void pqKeepKDecorator::onChoice()
 {
   vtkSMProperty* choice = this->parentWidget()->property();
   vtkSMProxy* filter = this->parentWidget()->proxy();
-  const bool was = this->WasAutomatic;
-  this->WasAutomatic = isAutomaticInPanel(choice);
-  // Acts if the applied k is automatic and the user has unchecked it.
-  if (was && !this->WasAutomatic && vtkSMPropertyHelper(choice).GetAsInt() != 0)
+  const bool was = this->WasValue;
+  this->WasValue = isValueInPanel(choice);
+  // Acts if the applied k is another one and the user has chosen Value.
+  if (!was && this->WasValue &&
+    vtkSMPropertyHelper(choice).GetAsInt() != vtkSchlierenFilter::K_VALUE)
   {
     filter->UpdatePropertyInformation(filter->GetProperty("KScaleUsed"));
     const double k = vtkSMPropertyHelper(filter, "KScaleUsed").GetAsDouble();

@@ -8,8 +8,8 @@
 
 class vtkEventQtSlotConnect;
 
-/// Sets K Scale to the k in use when the user switches off Auto K Scale in the panel, which keeps
-/// the image. Scripts, undo and state files set both themselves.
+/// Sets K Scale to the k in use when the user chooses Value as K Mode in the panel, which keeps the
+/// image. Scripts, undo and state files set both themselves.
 class pqKeepKDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT
@@ -22,6 +22,6 @@ private Q_SLOTS:
   void onChoice();
 
 private:
-  bool WasAutomatic;
+  bool WasValue;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -11,9 +11,12 @@
 #include "vtkSMProperty.h"
 #include "vtkSMProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
+#include "vtkSchlierenFilter.h"
 
 #include <QMenu>
 #include <QToolButton>
+
+#include <cstring>
 
 namespace
 {
@@ -26,6 +29,22 @@ QMap<QString, QVariant> valuesOf(const BenchPreset& preset)
     values[setting.property] = setting.text ? QVariant(setting.text) : QVariant(setting.number);
   }
   return values;
+}
+
+/// Returns a preset whose automatic k is kept if that of the filter is.
+BenchPreset keepingK(vtkSMProxy* filter, BenchPreset preset)
+{
+  const int mode = vtkSMUncheckedPropertyHelper(filter, "KMode").GetAsInt();
+  for (PresetSetting& setting : preset.settings)
+  {
+    if (std::strcmp(setting.property, "KMode") == 0 &&
+      mode == vtkSchlierenFilter::K_AUTOMATIC_KEPT &&
+      setting.number == vtkSchlierenFilter::K_AUTOMATIC)
+    {
+      setting.number = mode;
+    }
+  }
+  return preset;
 }
 
 /// Applies a preset at once as one undo step, without other changes that wait for Apply.
@@ -88,10 +107,10 @@ pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidge
         filter->UpdatePropertyInformation(filter->GetProperty("PictureCount"));
         if (pqLiveEdit::isPossible(filter))
         {
-          applyPreset(filter, preset);
+          applyPreset(filter, keepingK(filter, preset));
           return;
         }
-        showPreset(filter, preset);
+        showPreset(filter, keepingK(filter, preset));
         // Enables Apply, because the panel observes only its widgets.
         Q_EMIT this->parentWidget()->changeAvailable();
         Q_EMIT this->parentWidget()->changeFinished();

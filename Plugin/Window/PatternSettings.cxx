@@ -43,8 +43,8 @@ void useKOf(vtkSMProxy* from, vtkSMProxy* to)
 {
   const auto valueOf = [](vtkSMProxy* proxy, const char* name)
   { return vtkSMPropertyHelper(proxy, name).GetAsInt(); };
-  if (valueOf(from, "Cutoff") == valueOf(to, "Cutoff") && valueOf(to, "AutoKScale") != 0 &&
-    valueOf(to, "LockK") == vtkSchlierenFilter::LOCK_ALWAYS)
+  if (valueOf(from, "Cutoff") == valueOf(to, "Cutoff") &&
+    valueOf(to, "KMode") == vtkSchlierenFilter::K_AUTOMATIC_KEPT)
   {
     from->UpdatePropertyInformation(from->GetProperty("KScaleUsed"));
     vtkSMPropertyHelper(to, "LockedK").Set(vtkSMPropertyHelper(from, "KScaleUsed").GetAsDouble());

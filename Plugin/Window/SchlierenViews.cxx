@@ -398,7 +398,7 @@ private:
     {
       setFlowDefaults(bench, this->Defaults);
       setInt(bench, "Quality", Filter::AUTOMATIC);
-      setInt(bench, "LockK", Filter::LOCK_ALWAYS);
+      setInt(bench, "KMode", Filter::K_AUTOMATIC_KEPT);
       set(bench);
     }
     bench->UpdateVTKObjects();
@@ -431,8 +431,8 @@ private:
   {
     vtkSMProxy* bench = benchOf(this->Images[image]);
     const int cutoff = vtkSMPropertyHelper(bench, "Cutoff").GetAsInt();
-    if (!Filter::CutoffHasK(cutoff) || vtkSMPropertyHelper(bench, "KFromOptics").GetAsInt() != 0 ||
-      vtkSMPropertyHelper(bench, "AutoKScale").GetAsInt() == 0)
+    if (!Filter::CutoffHasK(cutoff) ||
+      vtkSMPropertyHelper(bench, "KMode").GetAsInt() > Filter::K_AUTOMATIC_KEPT)
     {
       return;
     }
@@ -442,7 +442,7 @@ private:
     for (vtkSMProxy* shown : this->Images)
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", benchOf(shown));
-      setInt(benchOf(shown), "AutoKScale", 0);
+      setInt(benchOf(shown), "KMode", Filter::K_VALUE);
       vtkSMPropertyHelper(benchOf(shown), "KScale").Set(k);
       benchOf(shown)->UpdateVTKObjects();
     }

@@ -121,7 +121,7 @@ def truth_of(flow, technique, rays=64):
     rays = 1 if technique == "Background Oriented" else rays
     _, _, truth = measure(technique, source, common, dict(TRUTH, SamplesPerPixel=rays))
     if truth["k"] > 0:
-        common.update(AutoKScale=0, KScale=truth["k"])
+        common.update(KMode="Value", KScale=truth["k"])
     return source, common, truth
 
 

@@ -67,6 +67,6 @@ print(f"Above the coil: {above.mean():.1e}")
 assert top.sum() > 50 and np.median(above) > 0
 
 schlieren.KnifeEdgeAngle = 90
-schlieren.AutoKScale = 0
+schlieren.KMode = "Value"
 schlieren.KScale = 400 / 1.3314  # deflections are those in air
 check_baseline(schlieren, "HeatingCoil")

@@ -33,7 +33,7 @@ def check_session(state):
     display = drawn(simple.FindSource("jet"), view)
     bench = display.SchlierenBench
     assert bench.Density == ["POINTS", "rho"] and bench.IndexModel == "Gladstone-Dale"
-    assert bench.AutoKScale == 1 and bench.Quality == "Automatic"
+    assert bench.KMode == "Automatic Kept" and bench.Quality == "Automatic"
     check_linked(state, scene, view)
     assert view.InteractionMode == "3D" and view.CenterAxesVisibility == 0
 

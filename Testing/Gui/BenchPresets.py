@@ -28,9 +28,9 @@ user.choose("CutoffOffset/DoubleLineEdit0", "0.3")
 choose_preset("Phase Contrast, laser")
 user.check("Cutoff/ComboBox", "currentText", "Phase Contrast")
 user.check("PhasePlateDelay", "visible", "true")
-user.check("KFromOptics", "visible", "false")
+user.check("KMode", "visible", "false")
 choose_preset("Knife Edge, Toepler's bench: mirror of 1 m, slit of 1 mm")
-user.check("KFromOptics/CheckBox", "checked", "true")
+user.check("KMode/ComboBox", "currentText", "Bench")
 user.check("InvertCutoff/CheckBox", "checked", "false")
 user.check("SourceLength", "visible", "true")
 user.apply()
@@ -41,11 +41,11 @@ user.python("Show(FindSource('bench'))\nRender()\nsettle(FindSource('bench'))")
 choose_preset("Circular Complement, dark field")
 user.check_at(PANEL + "/Accept", "enabled", "false")
 user.check("Cutoff/ComboBox", "currentText", "Circular Complement")
-user.check("KFromOptics/CheckBox", "checked", "false")
+user.check("KMode/ComboBox", "currentText", "Automatic")
 user.save_state("dark.pvsm")
 user.menu("menu_Edit", "actionEditUndo")
 user.check("Cutoff/ComboBox", "currentText", "Knife Edge")
-user.check("KFromOptics/CheckBox", "checked", "true")
+user.check("KMode/ComboBox", "currentText", "Bench")
 user.save_state("undone.pvsm")
 
 # What is typed but not applied: of the bench it is gone, anything else waits on.
@@ -59,6 +59,13 @@ user.check_at(PANEL + "/Accept", "enabled", "true")
 user.reset()
 user.check("ImageSize/LineEdit0", "text", "32")
 user.save_state("fringes.pvsm")
+
+# An automatic k that is kept stays so.
+user.choose("Cutoff/ComboBox", "Knife Edge")
+user.choose("KMode/ComboBox", "Automatic Kept")
+user.apply()
+choose_preset("Circular, bright field")
+user.check("KMode/ComboBox", "currentText", "Automatic Kept")
 
 # A preset begins with the name that its cutoff has in the panel, and in the legend.
 user.python("""
@@ -102,7 +109,7 @@ def scripted(**properties):
 
 toepler = shown("toepler")
 assert np.ptp(toepler) > 0
-assert np.array_equal(toepler, scripted(KFromOptics=1, SourceShape="Slit"))
+assert np.array_equal(toepler, scripted(KMode="Bench", SourceShape="Slit"))
 assert np.array_equal(toepler, shown("undone"))
 assert np.array_equal(shown("dark"), scripted(Cutoff="Circular Complement"))
 fringes = shown("fringes")
@@ -114,5 +121,5 @@ with open(TRACE, encoding="utf-8") as file:
     script = file.read()
 lines = traced(script, "bench")
 dark = lines.index(("Cutoff", "'Circular Complement'"))
-assert set(lines[dark:dark + 3]) == {("Cutoff", "'Circular Complement'"), ("KFromOptics", "0"),
+assert set(lines[dark:dark + 3]) == {("Cutoff", "'Circular Complement'"), ("KMode", "'Automatic'"),
                                      ("SourceShape", "'Point'")}, lines

@@ -41,7 +41,7 @@ def check_session(state):
     mesh = simple.FindSource("mesh")
     benches = [drawn(mesh, view).SchlierenBench for view in in_views]
     assert [bench.PathModel for bench in benches] == ["Straight", "Refracted"]
-    assert {bench.AutoKScale for bench in benches} == {0} and len({bench.KScale for bench in benches}) == 1
+    assert all(bench.KMode == "Value" for bench in benches) and len({bench.KScale for bench in benches}) == 1
     check_linked(state, scene, *in_views)
     assert simple.GetRepresentation(mesh, scene).Visibility == 1
     return benches, in_views

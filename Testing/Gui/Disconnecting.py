@@ -10,7 +10,7 @@ from views_testing import ViewsSession, check_linked, drawn, filters, load, imag
 from representation_testing import pixels_of
 
 K = 200
-SETTINGS = {"ImageSize": [96, 96], "GladstoneDaleConstant": 2e-6, "AutoKScale": 0, "KScale": K}
+SETTINGS = {"ImageSize": [96, 96], "GladstoneDaleConstant": 2e-6, "KMode": "Value", "KScale": K}
 SIDE = 280  # pixels of the cutoff plane, where all of it is from -0.005 to 0.005 both ways
 PLANE, PREVIEW = "SchlierenCutoff/Plane", "ColorFilterImage/Preview"
 SETTLE = """

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Automatic k switched off in the properties panel: K Scale begins with the k in use, so that the image stays as it
-is; before Apply, cancelled, undone, traced and kept. A script that switches it off sets nothing else."""
+"""A value in place of an automatic k in the properties panel: K Scale begins with the k in use, so that the image stays as
+it is; before Apply, cancelled, undone, traced and kept. A script that chooses it sets nothing else."""
 
 import os
 
@@ -26,42 +26,42 @@ k = automatic.FieldData["KScale"].GetRange()[0]
 assert k > 0 and abs(k - 1000) > 100
 
 user = Session()
-KSCALE, AUTO = "KScale/DoubleLineEdit0", "AutoKScale/CheckBox"
+KSCALE, MODE = "KScale/DoubleLineEdit0", "KMode/ComboBox"
 user.check("KScale", "visible", "false")
 for keeps in (False, True):
-    user.click(AUTO)
+    user.choose(MODE, "Value")
     user.check("KScale", "visible", "true")
     user.check(KSCALE, "text", k)
     if not keeps:
         user.reset()
-        user.check(AUTO, "checked", "true")
+        user.check(MODE, "currentText", "Automatic")
         user.check(KSCALE, "text", "1000")
 user.save_state("before.pvsm")
 user.apply()
 user.save_state("off.pvsm")
 user.menu("menu_Edit", "actionEditUndo")
-user.check(AUTO, "checked", "true")
+user.check(MODE, "currentText", "Automatic")
 user.check(KSCALE, "text", "1000")
 user.save_state("undone.pvsm")
 user.menu("menu_Edit", "actionEditRedo")
-user.check(AUTO, "checked", "false")
+user.check(MODE, "currentText", "Value")
 user.save_state("redone.pvsm")
 
 # Another k, then automatic and off again: the k in use is the automatic one then.
 user.choose(KSCALE, "500")
 user.apply()
-user.click(AUTO)
-user.click(AUTO)
+user.choose(MODE, "Automatic")
+user.choose(MODE, "Value")
 user.check(KSCALE, "text", "500")
-user.click(AUTO)
+user.choose(MODE, "Automatic")
 user.apply()
-user.click(AUTO)
+user.choose(MODE, "Value")
 user.check(KSCALE, "text", k)
 
 # A script in the window gets what it sets.
 user.reset()
-user.python("FindSource('bench').AutoKScale = 0\nRender()")
-user.check(AUTO, "checked", "false")
+user.python("FindSource('bench').KMode = 'Value'\nRender()")
+user.check(MODE, "currentText", "Value")
 user.check(KSCALE, "text", "500")
 
 user.play(f"""
@@ -84,20 +84,21 @@ def write(*_):
 bench.SMProxy.AddObserver("UpdateEvent", write)
 """)
 
-for state, is_automatic, value in (("before", 1, 1000), ("off", 0, k), ("undone", 1, 1000), ("redone", 0, k)):
+for state, mode, value in (("before", "Automatic", 1000), ("off", "Value", k), ("undone", "Automatic", 1000),
+                           ("redone", "Value", k)):
     simple.ResetSession()
     simple.LoadState(os.path.join(FOLDER, state + ".pvsm"))
     bench = simple.FindSource("bench")
-    assert (bench.AutoKScale, bench.KScale) == (is_automatic, value), (state, bench.AutoKScale, bench.KScale)
+    assert (bench.KMode, bench.KScale) == (mode, value), (state, bench.KMode, bench.KScale)
     assert np.abs(image_array(bench, "Intensity") - image_of_automatic).max() < 1e-6, state
 
 with open(TRACE, encoding="utf-8") as file:
     text = file.read()
 lines = traced(text, "bench")
-off = lines.index(("AutoKScale", "0"))
+off = lines.index(("KMode", "'Value'"))
 assert lines[off + 1][0] == "KScale" and float(lines[off + 1][1]) == k, text
 
 # A script of its own, too.
-bench = scripted(AutoKScale=0)
+bench = scripted(KMode="Value")
 bench.UpdatePipeline()
 assert bench.KScale == 1000 and bench.FieldData["KScale"].GetRange()[0] == 1000

@@ -38,7 +38,7 @@ def same():
     return finished(bench) and len(intensity()) == len(kept) and np.abs(intensity() - kept).max() < 1e-6
 def check_given_up(text):
     until(same)
-    assert bench.CutoffOffset == 0 and bench.AutoKScale == 1 and bench.KnifeEdgeAngle == 0
+    assert bench.CutoffOffset == 0 and bench.KMode == "Automatic Kept" and bench.KnifeEdgeAngle == 0
     with open({REPORT!r}, "a") as file:
         file.write(text + "\\n")
 """
@@ -87,6 +87,6 @@ for state in ("added", "given_up"):
     load(state + ".pvsm")
     _, (_, view) = views()
     bench = drawn(simple.FindSource("jet"), view).SchlierenBench
-    assert bench.CutoffOffset == 0 and bench.AutoKScale == 1
+    assert bench.CutoffOffset == 0 and bench.KMode == "Automatic Kept"
 load("undone.pvsm")
 assert len(views()) == 1

@@ -22,7 +22,7 @@ settle_views()
 (display,) = displays()
 (view,) = by_name("Schlieren View")
 inside_window.k = k_of(display)
-assert inside_window.k > 0 and display.SchlierenBench.LockK == "Always"
+assert inside_window.k > 0 and display.SchlierenBench.KMode == "Automatic Kept"
 display.SchlierenBench.Quality = "Interactive"  # which makes images faster, and does not change k
 
 # Only the lip of the nozzle is seen, in a view of another size.

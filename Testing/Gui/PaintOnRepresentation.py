@@ -43,7 +43,7 @@ user.event(DISPLAY + "/Representation/displayRepresentationWidget/comboBox", "se
 user.python(f"""
 view, display = GetActiveView(), GetDisplayProperties(FindSource("flow"), GetActiveView())
 display.SchlierenBench.Cutoff = "Color Filter"
-display.SchlierenBench.AutoKScale, display.SchlierenBench.KScale = 0, {K}
+display.SchlierenBench.KMode, display.SchlierenBench.KScale = "Value", {K}
 display.SchlierenBench.GladstoneDaleConstant = 2e-6
 Render(view)
 """)

@@ -25,14 +25,14 @@ def reached(name, most):
     return any(one.objectName() == name for one in parents) or (most > 0 and reached(name, most - 1))
 QApplication.setActiveWindow(widget())
 widget("propertiesPanel", "Cutoff", "ComboBox").setFocus()
-for name in ("Presets", "KnifeEdgeAngle", "CutoffOffset", "LockK", "FitKAgain", "FitKOverSeries", "KFromOptics", "Plane", "Quality"):
+for name in ("Presets", "KnifeEdgeAngle", "CutoffOffset", "KMode", "FitKAgain", "FitKOverSeries", "Plane", "Quality"):
     assert reached(name, 2), name
 with open({REPORT!r}, "w") as file:
     file.write("reached\\n")
 """)
 user.reset()
 
-user.click("KFromOptics/CheckBox")
+user.choose("KMode/ComboBox", "Bench")
 user.choose("FocalLength/DoubleLineEdit0", "2")
 user.choose("SourceWidth/DoubleLineEdit0", "4")
 user.apply()

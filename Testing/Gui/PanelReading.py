@@ -46,8 +46,9 @@ label = widget("propertiesPanel", "ProxyPanel").findChild(QtWidgets.QLabel, "Foc
 assert label.isVisible() and label.text() == "<p>Focal Point (data units)</p>", label.text()
 """)
 
-# What is kept over a series, but not its number.
-user.check("LockedK", "visible", "false")
+# What is kept over a series, but not its numbers.
+for name in ("LockedAmbient", "LockedK"):
+    user.check(name, "visible", "false")
 
 # Notes can be read and copied like other text in a window.
 user.python(f"""

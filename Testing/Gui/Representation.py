@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "
 from plugin_testing import Schlieren, image_array, simple  # noqa: E402
 from window_testing import BENCH, DISPLAY, FOLDER, Session  # noqa: E402
 
-SETTINGS = ("Cutoff", "AutoKScale", "KScale", "CutoffOffset", "KnifeEdgeAngle")
+SETTINGS = ("Cutoff", "KMode", "KScale", "CutoffOffset", "KnifeEdgeAngle")
 PLANE = BENCH + "/SchlierenCutoff/Plane"
 SAVE = """
 import inside_window

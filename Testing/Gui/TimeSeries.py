@@ -75,7 +75,7 @@ user.python(SETTLE + NOTE + begin("played"))
 vcr("Play")
 user.python(SETTLE + "save('played')\n" + begin("stepped"))
 user.check_at(PANEL + "/Accept", "enabled", "false")
-user.check("LockK/ComboBox", "currentText", "Always")
+user.check("KMode/ComboBox", "currentText", "Automatic Kept")
 user.python(FIND + f"""
 with open({NOTES!r}, "w") as file:
     for text in (widget("propertiesPanel", "Sensitivity", "Note").text(), information(bench, "Status")):
@@ -131,7 +131,7 @@ def scripted(name, time, size=None):
         bench = Schlieren(
             Input=flow, Density=["POINTS", "rho"], ImageSize=size, ViewDirection=list(kept["direction"]),
             ViewUp=list(kept["up"]), FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]),
-            AutoKScale=0, KScale=float(kept["k"]), Quality="Automatic", **SAMPLES.get(name, {}))
+            KMode="Value", KScale=float(kept["k"]), Quality="Automatic", **SAMPLES.get(name, {}))
         bench.UpdatePipeline(time)
         arrays = bench.GetClientSideObject().GetOutputDataObject(0).GetPointData()
         made[key] = [vtk_to_numpy(arrays.GetArray(array)).copy() for array in ("Intensity", "OpticalPathDifference")]
@@ -194,7 +194,7 @@ load("saved.pvsm")
 (_, (_, view)) = views()
 (flow,) = simple.GetSources().values()
 bench = drawn(flow, view).SchlierenBench
-assert bench.LockK == "Always"
+assert bench.KMode == "Automatic Kept"
 simple.SaveAnimation(os.path.join(FOLDER, "script.png"), view, FrameWindow=[0, 3], ImageResolution=SIZE)
 for step in range(len(TIMES)):
     difference = png(os.path.join(FOLDER, f"script.{step:04}.png")) - png(os.path.join(FOLDER, f"saved.{step:04}.png"))

@@ -155,13 +155,14 @@ def check_linked(state, scene, *others):
 
 
 def frame_view(view, scale):
-    """Parallel light, an image that is 2 * scale high, at its own k, and nothing else in it: no window's size matters
-    then."""
+    """Parallel light, an image that is 2 * scale high, at its own k where k is automatic, and nothing else in it: no
+    window's size matters then."""
     view.CameraParallelProjection, view.CameraParallelScale = 1, scale
     view.OrientationAxesVisibility = 0
     for display in view.Representations:
         if display.GetProperty("SchlierenBench") is not None:
-            display.SchlierenBench.LockK = "Off"
+            if display.SchlierenBench.KMode == "Automatic Kept":
+                display.SchlierenBench.KMode, display.SchlierenBench.LockedK = "Automatic", 0
             display.SchlierenLegend = 0
 
 

@@ -35,7 +35,7 @@ steps = simple.ExtractTimeSteps(Input=flow, SelectionMode="Select Time Range", T
 instants = simple.TemporalInterpolator(Input=steps, DiscreteTimeStepInterval=STEP / BETWEEN)
 instants.UpdatePipelineInformation()
 bench = Schlieren(Input=instants, Density=["POINTS", "rho"], ImageSize=[96, 8], ParallelScale=0.08, FocalPoint=[0, 0, 0],
-                  AutoKScale=0, KScale=K, **EVERY_VOXEL)
+                  KMode="Value", KScale=K, **EVERY_VOXEL)
 exposed = simple.TemporalStatistics(Input=bench, ComputeMinimum=0, ComputeMaximum=0, ComputeStandardDeviation=0)
 
 light = image_array(exposed, "Intensity_average")[4]

@@ -22,7 +22,7 @@ TEXTS = {"IndexModel": {"Auto", "Gladstone-Dale", "Gladstone-Dale Mixture", "Cid
          "Cutoff": {"Knife Edge", "Shadowgraph", "Circular", "Circular Complement", "Graded Filter",
                     "Color Filter", "Interferogram", "Background Oriented", "Numerical Schlieren",
                     "Phase Contrast"},
-         "LockK": {"Off", "Over Time", "Always"},
+         "KMode": {"Automatic", "Automatic Kept", "Value", "Bench"},
          "ExitInto": {"Auto", "Surroundings", "Air", "Custom"},
          "SourceShape": {"Point", "Slit", "Disc"}, "LightModel": {"Rays", "Waves", "Auto"},
          "BackgroundPattern": {"Dots", "Stripes", "Picture", "Scene"},
@@ -92,7 +92,7 @@ for item in properties.values():
                 listed = set(CUTOFFS.values()) - listed
             assert shown_with.setdefault(item.name, listed) == listed, item.name
 for shown, names in (
-        (WITH_K, "AutoKScale LockK KScale KFromOptics FocalLength SourceWidth FitKAgain FitKOverSeries"),
+        (WITH_K, "KMode KScale FocalLength SourceWidth FitKAgain FitKOverSeries"),
         (WITH_K | WITH_FRINGES, "Sensitivity"),
         (WITH_EDGE, "KnifeEdgeAngle CutoffOffset CutoffPosition"),
         (WITH_EDGE | {vtkSchlierenFilter.PHASE_CONTRAST}, "InvertCutoff"),
@@ -133,10 +133,10 @@ for name, value in (("KnifeEdgeAngle", 30), ("InvertCutoff", 1), ("Cutoff", "Sha
     assert not np.array_equal(image_array(bench, "Intensity"), reference), name
     setattr(bench, name, default)
     assert np.array_equal(image_array(bench, "Intensity"), reference), name
-bench.AutoKScale = 0
+bench.KMode = "Value"
 bench.KScale = 10
 assert np.abs(image_array(bench, "Intensity") - 0.5).max() < 0.1
-bench.AutoKScale = 1
+bench.KMode = "Automatic"
 assert work(bench) == before, "Cutoffs and k must need no re-tracing"
 
 chained = Schlieren(refractivity)

@@ -92,7 +92,7 @@ mesh = simple.Transform(Input=simple.Calculator(Input=simple.Wavelet(WholeExtent
 mesh.Transform.Scale = 3 * [1 / 3]
 mesh.UpdatePipeline()
 simple.Hide(wavelet, view)
-inside = show(mesh, view, Bodies=bodies, AutoKScale=0, KScale=1e-9, GladstoneDaleConstant=1e-9)  # the gas is grey
+inside = show(mesh, view, Bodies=bodies, KMode="Value", KScale=1e-9, GladstoneDaleConstant=1e-9)  # the gas is grey
 LARGE = (480, 360)
 for angle, zoom in ((30, 1), (60, 1), (30, 6)):  # the last one is within the data
     simple.ResetCamera(view)
@@ -169,7 +169,7 @@ write_series("pulse.pvd", TIMES, 20, pulse)
 flow = simple.PVDReader(FileName=os.path.abspath("pulse.pvd"))
 flow.UpdatePipeline()
 view = new_view()
-display = show(flow, view, AutoKScale=0, KScale=500)
+display = show(flow, view, KMode="Value", KScale=500)
 simple.ResetCamera(view)
 scene = simple.GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
@@ -185,7 +185,7 @@ for index, time in enumerate(TIMES):
 
 # An automatic k is kept over time, as that of the filter.
 bench = display.SchlierenBench
-bench.AutoKScale = 1
+bench.KMode = "Automatic"
 used = set()
 for time in TIMES:
     scene.AnimationTime = time

@@ -38,7 +38,7 @@ def check(source, target, **settings):
     for name, value in finer.items():
         setattr(bench, name, value)
     if k > 0:
-        bench.AutoKScale, bench.KScale = 0, k
+        bench.KMode, bench.KScale = "Value", k
     image = output(bench)
     assert not image.GetFieldData().GetArray("ErrorReached")
     path = vtk_to_numpy(image.GetPointData().GetArray("OpticalPathDifference"))

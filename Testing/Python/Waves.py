@@ -118,7 +118,7 @@ column.PhasePlateDiameter = 0.3
 assert image_array(column, "Intensity")[64].min() < 0.5, "The flanks bend light beside the aperture"
 column.InvertCutoff = 0
 
-for cutoff, settings, most in (("Graded Filter", {"AutoKScale": 0, "KScale": 300}, 5e-3), ("Interferogram", {}, 3e-3),
+for cutoff, settings, most in (("Graded Filter", {"KMode": "Value", "KScale": 300}, 5e-3), ("Interferogram", {}, 3e-3),
                                ("Interferogram", {"FringeSpacing": 0.1, "FringeAngle": 60}, 3e-3)):
     column.Cutoff = cutoff
     for key, value in settings.items():

@@ -69,8 +69,8 @@ std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& n
     this->Last->medium == now.medium &&
     (this->Last->data == now.data || isAtOtherTime(*this->Last, now)) &&
     (!this->Origin || this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
-      mode == SchlierenSettings::lockAlways);
-  if (mode == SchlierenSettings::lockOff || (this->Last && !holds))
+      mode == SchlierenSettings::kAutomaticKept);
+  if (this->Last && !holds)
   {
     this->Drop();
   }

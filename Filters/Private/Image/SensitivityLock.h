@@ -25,7 +25,7 @@ struct ImageCircumstances
 /// Returns all settings that an automatic k depends on, except medium and cutoff.
 std::vector<double> settingsOfRays(const SchlierenSettings& settings);
 
-/// Keeps an automatic value, such as k, for later images as vtkSchlierenFilter::LockK says.
+/// Keeps an automatic value, such as k, for later images as vtkSchlierenFilter::KMode says.
 class SensitivityLock
 {
 public:

@@ -29,8 +29,8 @@ class Reader;
 /// needs no dataset.
 struct PieceMesh
 {
-  std::uint64_t key;                           ///< see DataPiece::meshKey()
-  std::shared_ptr<const CellTree::Mesh> cells; ///< null: not yet made
+  std::uint64_t key;                                    ///< see DataPiece::meshKey()
+  std::shared_ptr<const CellTree::Mesh> cells;          ///< null: not yet made
   std::optional<std::vector<LeafPoint>> boundaryPoints; ///< see Faces; unset: not computed
 
   /// Returns that of the leaves: `kept` (may be null) if it is equal, or a new one.

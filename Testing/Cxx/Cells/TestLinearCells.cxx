@@ -386,8 +386,7 @@ TEST(LinearCells, FacesWithinAMeshAreNoBoundary)
     for (std::size_t i = 0; i < faces.points.size(); ++i)
     {
       EXPECT_LT(toCube(faces.points[i]), 1e-12);
-      EXPECT_NEAR(
-        parts->GetPointData()->GetScalars()->GetComponent(faces.origins[i].point, 0),
+      EXPECT_NEAR(parts->GetPointData()->GetScalars()->GetComponent(faces.origins[i].point, 0),
         linear(faces.points[i]), 1e-15);
     }
   }

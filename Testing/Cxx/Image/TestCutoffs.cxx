@@ -37,7 +37,7 @@ vtkSmartPointer<Filter> benchOf(vtkImageData* image, int cutoff, double k)
   filter->SetAmbientRefractivity(ambient);
   filter->SetParallelScale(0.5);
   filter->SetCutoff(cutoff);
-  filter->SetAutoKScale(false);
+  filter->SetKMode(Filter::K_VALUE);
   filter->SetKScale(k);
   return filter;
 }

@@ -234,7 +234,7 @@ TEST(Legend, SaysWhereKComesFrom)
   auto filter = ball();
   filter->Update();
   EXPECT_NE(legendText(filter, "LegendNotes").find("(automatic)"), std::string::npos);
-  filter->SetAutoKScale(false);
+  filter->SetKMode(vtkSchlierenFilter::K_VALUE);
   filter->SetKScale(1500);
   filter->Update();
   EXPECT_EQ(legendText(filter, "LegendNotes"), "k = 1500");

@@ -190,7 +190,7 @@ TEST(Pipeline, NothingIsDoneTwice)
   EXPECT_TRUE(workOfUpdate(filter) == none);
   filter->SetInvertCutoff(true);
   EXPECT_TRUE(workOfUpdate(filter) == none);
-  filter->SetAutoKScale(false);
+  filter->SetKMode(vtkSchlierenFilter::K_VALUE);
   filter->SetKScale(123);
   EXPECT_TRUE(workOfUpdate(filter) == none);
   EXPECT_EQ(fieldValue(filter, "KScale"), 123);

@@ -62,7 +62,7 @@ TEST(Preview, IsTheWholeOneAveragedOverBoxes)
     auto filter = bench(columnImage(48), 160);
     filter->SetViewDirection(0.3, 0.2, -1);
     filter->SetFocalPoint(0.2, -0.1, 0.3);
-    filter->SetAutoKScale(false);
+    filter->SetKMode(vtkSchlierenFilter::K_VALUE);
     filter->SetKScale(300);
     filter->SetCutoff(cutoff);
     filter->SetScreenDistance(100);

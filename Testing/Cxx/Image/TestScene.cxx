@@ -92,24 +92,25 @@ TEST_F(Scene, HasWhatIsSet)
   EXPECT_EQ(made.smoothingRadius, 3.5);
 }
 
-// k = f / a and the offset is a fraction of a, whatever AutoKScale and KScale say.
+// k = f / a and the offset is a fraction of a, whatever KScale and CutoffOffset say.
 TEST_F(Scene, SensitivityFollowsFromOptics)
 {
-  this->filter->SetKFromOptics(true);
+  this->filter->SetKMode(Filter::K_BENCH);
   this->filter->SetFocalLength(1.5);
   this->filter->SetSourceWidth(0.5);
   this->filter->SetCutoffPosition(0.125);
   this->filter->SetCutoffOffset(7);
-  for (const bool isAuto : { true, false })
-  {
-    this->filter->SetAutoKScale(isAuto);
-    const schlieren::Scene made = this->scene();
-    EXPECT_DOUBLE_EQ(made.kScale.value_or(0), 3000);
-    EXPECT_DOUBLE_EQ(made.cutoffOffset, 0.25);
-  }
-  this->filter->SetKFromOptics(false);
+  EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 3000);
+  EXPECT_DOUBLE_EQ(this->scene().cutoffOffset, 0.25);
+  this->filter->SetKMode(Filter::K_VALUE);
   EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 1000);
   EXPECT_DOUBLE_EQ(this->scene().cutoffOffset, 7);
+  for (const int mode : { Filter::K_AUTOMATIC, Filter::K_AUTOMATIC_KEPT })
+  {
+    this->filter->SetKMode(mode);
+    EXPECT_FALSE(this->scene().kScale.has_value());
+    EXPECT_DOUBLE_EQ(this->scene().cutoffOffset, 7);
+  }
 }
 
 TEST_F(Scene, SensitivityIsStatedInWords)
@@ -122,7 +123,7 @@ TEST_F(Scene, SensitivityIsStatedInWords)
   EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 4000).substr(0, 49),
     "k = 4000: full scale is a deflection of 0.25 mrad");
   this->filter->SetCutoff(Filter::KNIFE_EDGE);
-  this->filter->SetKFromOptics(true);
+  this->filter->SetKMode(Filter::K_BENCH);
   this->filter->SetCutoffPosition(-0.1);
   EXPECT_NE(
     sensitivityInWords(this->filter->GetSettings(), 4000).find("the edge -0.1 mm in (offset -0.1)"),
@@ -146,7 +147,7 @@ TEST_F(Scene, SensitivityOfAnInterferogramIsItsWavelength)
 
 TEST_F(Scene, OpticsThatCannotBeAreRefused)
 {
-  this->filter->SetKFromOptics(true);
+  this->filter->SetKMode(Filter::K_BENCH);
   for (const double wrong : { 0., -1., notANumber, HUGE_VAL })
   {
     this->filter->SetFocalLength(wrong);

@@ -180,7 +180,7 @@ std::vector<Mistake> mistakes()
     { "NegativeK",
       [](Filter* f)
       {
-        f->SetAutoKScale(false);
+        f->SetKMode(Filter::K_VALUE);
         f->SetKScale(-1);
       },
       { "KScale", "-1" }, [](Filter* f) { f->SetKScale(1); } },
@@ -201,7 +201,7 @@ std::vector<Mistake> mistakes()
     { "NoFocalLength",
       [](Filter* f)
       {
-        f->SetKFromOptics(true);
+        f->SetKMode(Filter::K_BENCH);
         f->SetFocalLength(0);
       },
       { "FocalLength is 0 m", "positive" }, [](Filter* f) { f->SetFocalLength(1); } },

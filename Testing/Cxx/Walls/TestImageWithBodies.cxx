@@ -259,7 +259,7 @@ TEST(ImageWithBodies, FieldsTintAsInTheGrid)
     {
       filter->AddField(field);
     }
-    filter->SetAutoKScale(false);
+    filter->SetKMode(vtkSchlierenFilter::K_VALUE);
     filter->SetKScale(2e5);
     filter->Update();
     return valuesOf(filter, "Color");

@@ -177,7 +177,7 @@ TEST(Solids, LightThatDoesNotComeOutIsSaid)
   ASSERT_EQ(complaints->Warnings.size(), 1u);
   EXPECT_NE(complaints->Warnings[0].find("did not come out"), std::string::npos);
   filter->SetKScale(1);
-  filter->SetAutoKScale(false);
+  filter->SetKMode(vtkSchlierenFilter::K_VALUE);
   filter->Update();
   EXPECT_EQ(complaints->Warnings.size(), 1u);
 }

@@ -12,10 +12,10 @@ namespace
 
 using Filter = vtkSchlierenFilter;
 
-class LockK : public testing::Test
+class KeptK : public testing::Test
 {
 protected:
-  LockK()
+  KeptK()
     : filter(bench(nullptr, 24))
   {
     this->filter->SetInputConnection(this->series->GetOutputPort());
@@ -54,26 +54,25 @@ protected:
 
 } // namespace
 
-TEST_F(LockK, OverTimeIsTheDefault)
+TEST_F(KeptK, IsNoneAtFirst)
 {
   vtkNew<Filter> fresh;
-  EXPECT_EQ(fresh->GetLockK(), Filter::LOCK_OVER_TIME);
+  EXPECT_EQ(fresh->GetKMode(), Filter::K_AUTOMATIC);
   EXPECT_EQ(fresh->GetLockedK(), 0);
 }
 
-TEST_F(LockK, OffFindsItForEachImage)
+TEST_F(KeptK, IsFoundAgainForAnyImage)
 {
-  this->filter->SetLockK(Filter::LOCK_OFF);
   for (const double time : { 0., 2., 1., 0. })
   {
+    this->filter->FitK();
     EXPECT_DOUBLE_EQ(this->kAt(time), this->own[time]);
     EXPECT_FALSE(this->saysLocked());
   }
 }
 
-TEST_F(LockK, OverTimeKeepsThatOfTheFirstImage)
+TEST_F(KeptK, AutomaticIsThatOfTheFirstImage)
 {
-  this->filter->SetLockK(Filter::LOCK_OVER_TIME);
   EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
   EXPECT_FALSE(this->saysLocked());
   EXPECT_EQ(this->filter->GetLockedK(), 0);
@@ -104,9 +103,9 @@ TEST_F(LockK, OverTimeKeepsThatOfTheFirstImage)
   EXPECT_FALSE(this->saysLocked());
 }
 
-TEST_F(LockK, AlwaysKeepsItForAnotherCameraAndQualityToo)
+TEST_F(KeptK, AutomaticKeptIsThatOfAnotherCameraAndQualityToo)
 {
-  this->filter->SetLockK(Filter::LOCK_ALWAYS);
+  this->filter->SetKMode(Filter::K_AUTOMATIC_KEPT);
   EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
   this->filter->SetParallelScale(0.1);
   EXPECT_EQ(this->kAt(1), this->own[1]);
@@ -117,9 +116,9 @@ TEST_F(LockK, AlwaysKeepsItForAnotherCameraAndQualityToo)
   EXPECT_EQ(this->kAt(2), this->own[1]);
 }
 
-TEST_F(LockK, AnotherMediumCutoffOrDataHasItsOwn)
+TEST_F(KeptK, AnotherMediumCutoffOrDataHasItsOwn)
 {
-  this->filter->SetLockK(Filter::LOCK_ALWAYS);
+  this->filter->SetKMode(Filter::K_AUTOMATIC_KEPT);
   EXPECT_DOUBLE_EQ(this->kAt(0), this->own[0]);
   EXPECT_EQ(this->kAt(1), this->own[0]);
   this->filter->SetCutoff(Filter::CIRCULAR); // whose full scale is twice as far
@@ -136,14 +135,14 @@ TEST_F(LockK, AnotherMediumCutoffOrDataHasItsOwn)
 }
 
 // So that undoing what was in between leads back to the same image.
-TEST_F(LockK, StaysWhileAnImageHasNone)
+TEST_F(KeptK, StaysWhileAnImageHasNone)
 {
   this->kAt(0);
   EXPECT_EQ(this->kAt(2), this->own[0]);
-  this->filter->SetAutoKScale(false);
+  this->filter->SetKMode(Filter::K_VALUE);
   EXPECT_EQ(this->kAt(2), 1000);
   EXPECT_EQ(std::string(this->filter->GetStatus()).find("locked"), std::string::npos);
-  this->filter->SetAutoKScale(true);
+  this->filter->SetKMode(Filter::K_AUTOMATIC);
   EXPECT_EQ(this->kAt(2), this->own[0]);
   EXPECT_TRUE(this->saysLocked());
   this->filter->SetCutoff(Filter::SHADOWGRAPH);
@@ -152,20 +151,8 @@ TEST_F(LockK, StaysWhileAnImageHasNone)
   EXPECT_EQ(this->kAt(2), this->own[0]);
 }
 
-TEST_F(LockK, SwitchedOffAndOnKeepsTheKInUse)
+TEST_F(KeptK, CanBeGiven)
 {
-  this->kAt(0);
-  EXPECT_EQ(this->kAt(2), this->own[0]);
-  this->filter->SetLockK(Filter::LOCK_OFF);
-  EXPECT_DOUBLE_EQ(this->kAt(2), this->own[2]);
-  EXPECT_FALSE(this->saysLocked());
-  this->filter->SetLockK(Filter::LOCK_OVER_TIME);
-  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[2]);
-}
-
-TEST_F(LockK, CanBeGiven)
-{
-  this->filter->SetLockK(Filter::LOCK_OVER_TIME);
   this->filter->SetLockedK(123);
   for (const double time : { 2., 1. })
   {
@@ -186,9 +173,8 @@ TEST_F(LockK, CanBeGiven)
 }
 
 // A preview has fewer rays: it neither keeps its k nor the one of another view.
-TEST_F(LockK, IsThatOfAWholeImage)
+TEST_F(KeptK, IsThatOfAWholeImage)
 {
-  this->filter->SetLockK(Filter::LOCK_OVER_TIME);
   this->filter->SetPreviewReduction(4);
   EXPECT_NE(this->kAt(0), this->own[0]);
   this->filter->SetPreviewReduction(1);
@@ -205,10 +191,10 @@ namespace
 {
 
 /// A gas that becomes denser everywhere.
-class LockAmbient : public testing::Test
+class KeptAmbient : public testing::Test
 {
 protected:
-  LockAmbient()
+  KeptAmbient()
     : filter(bench(nullptr, 24))
   {
     this->source->make = [](double time)
@@ -237,7 +223,7 @@ protected:
 
 } // namespace
 
-TEST_F(LockAmbient, KeepsTheSurroundingsOfTheFirstImage)
+TEST_F(KeptAmbient, KeepsTheSurroundingsOfTheFirstImage)
 {
   const double first = this->ambientAt(1);
   EXPECT_NEAR(first, 2e-4, 1e-8);
@@ -257,7 +243,7 @@ TEST_F(LockAmbient, KeepsTheSurroundingsOfTheFirstImage)
   EXPECT_EQ(this->ambientAt(2), first);
 }
 
-TEST_F(LockAmbient, AnotherMediumOrDataHaveTheirOwn)
+TEST_F(KeptAmbient, AnotherMediumOrDataHaveTheirOwn)
 {
   this->ambientAt(0);
   EXPECT_NEAR(this->ambientAt(2), 1e-4, 1e-8);
@@ -275,7 +261,7 @@ TEST_F(LockAmbient, AnotherMediumOrDataHaveTheirOwn)
   EXPECT_NEAR(this->ambientAt(1), 1e-4, 1e-8);
 }
 
-TEST_F(LockAmbient, CanBeGiven)
+TEST_F(KeptAmbient, CanBeGiven)
 {
   this->filter->SetLockedAmbient(7e-5);
   EXPECT_EQ(this->ambientAt(2), 7e-5);
@@ -286,7 +272,7 @@ TEST_F(LockAmbient, CanBeGiven)
 }
 
 // The medium need not be made again where the surroundings are what was found for it.
-TEST_F(LockAmbient, LightAloneMakesNoMedium)
+TEST_F(KeptAmbient, LightAloneMakesNoMedium)
 {
   this->ambientAt(1);
   for (const int cutoff : { Filter::KNIFE_EDGE, Filter::CIRCULAR })
