@@ -82,11 +82,7 @@ struct MediumSettings
   double DensityScale = 0;
   std::vector<std::string> MixtureArrays;
   std::vector<std::string> MixtureGases;
-  std::vector<double> MixtureConstants;
-  std::vector<double> MixtureMolarMasses;
-  std::string BackgroundGas = "Custom";
-  double BackgroundConstant = defaultConstant;
-  double BackgroundMolarMass = 0.0289647;
+  std::string BackgroundGas = "air";
   int FractionType = 0; ///< 0: mass, 1: volume
   double TemperatureScale = 0;
   double PressureScale = 0;
@@ -137,11 +133,7 @@ struct MediumSettings
     use("DensityScale", &S::DensityScale);
     use("MixtureArrays", &S::MixtureArrays);
     use("MixtureGases", &S::MixtureGases);
-    use("MixtureConstants", &S::MixtureConstants);
-    use("MixtureMolarMasses", &S::MixtureMolarMasses);
     use("BackgroundGas", &S::BackgroundGas);
-    use("BackgroundConstant", &S::BackgroundConstant);
-    use("BackgroundMolarMass", &S::BackgroundMolarMass);
     use("FractionType", &S::FractionType);
     use("TemperatureScale", &S::TemperatureScale);
     use("PressureScale", &S::PressureScale);

@@ -170,34 +170,6 @@ double vtkFlowAlgorithm::GetGladstoneDaleConstantUsed()
 }
 
 //------------------------------------------------------------------------------
-void vtkFlowAlgorithm::AddMixtureConstant(double constant)
-{
-  this->MixtureConstants.push_back(constant);
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::ClearMixtureConstants()
-{
-  this->MixtureConstants.clear();
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::AddMixtureMolarMass(double molarMass)
-{
-  this->MixtureMolarMasses.push_back(molarMass);
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
-void vtkFlowAlgorithm::ClearMixtureMolarMasses()
-{
-  this->MixtureMolarMasses.clear();
-  this->Modified();
-}
-
-//------------------------------------------------------------------------------
 void vtkFlowAlgorithm::AddField(const char* name)
 {
   this->Fields.emplace_back(name ? name : "");

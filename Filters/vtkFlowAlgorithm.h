@@ -140,17 +140,9 @@ public:
 
   ///@{
   /**
-   * For mixtures: the Gladstone-Dale constants in m^3/kg, one for each array, not negative.
-   */
-  virtual void AddMixtureConstant(double constant);
-  virtual void ClearMixtureConstants();
-  ///@}
-
-  ///@{
-  /**
-   * For mixtures: the species, by names or formulas of vtkGasTable, one for each array or none at
-   * all. Their constants and molar masses come from the table, or from AddMixtureConstant and
-   * AddMixtureMolarMass for species called "" or "Custom". Default: none.
+   * For mixtures: the species, one for each array, by names or formulas of vtkGasTable, or by
+   * numbers: the Gladstone-Dale constant in m^3/kg and, for volume fractions, the molar mass in
+   * kg/mol, such as "2.3e-4 0.044". Default: none.
    */
   virtual void AddMixtureGas(const char* name);
   virtual void ClearMixtureGases();
@@ -158,27 +150,7 @@ public:
 
   ///@{
   /**
-   * For mixtures by volume: the species' molar masses in kg/mol, one for each array, positive.
-   */
-  virtual void AddMixtureMolarMass(double molarMass);
-  virtual void ClearMixtureMolarMasses();
-  ///@}
-
-  ///@{
-  /**
-   * For mixtures: the background gas's Gladstone-Dale constant in m^3/kg (default: 2.26e-4, air)
-   * and molar mass in kg/mol (default: 0.0289647, air; for volume fractions).
-   */
-  vtkSetMacro(BackgroundConstant, double);
-  vtkGetMacro(BackgroundConstant, double);
-  vtkSetMacro(BackgroundMolarMass, double);
-  vtkGetMacro(BackgroundMolarMass, double);
-  ///@}
-
-  ///@{
-  /**
-   * For mixtures: the background gas, by a name or formula of vtkGasTable, whose constant and
-   * molar mass are used. Default: "Custom", no gas of the table.
+   * For mixtures: the background gas, given as those of AddMixtureGas() are. Default: "air".
    */
   vtkSetStdStringFromCharMacro(BackgroundGas);
   vtkGetCharFromStdStringMacro(BackgroundGas);

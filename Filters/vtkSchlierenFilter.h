@@ -543,8 +543,8 @@ public:
   ///@{
   /**
    * Whether an interferogram uses white light, whose visible fringes are in `Color`. The medium
-   * disperses as Gas, BackgroundGas or moist air, whichever IndexModel uses; a custom gas does not
-   * disperse. Default: off.
+   * disperses as Gas, BackgroundGas or moist air, whichever IndexModel uses; a gas given
+   * by its constant does not disperse. Default: off.
    */
   vtkSetMacro(WhiteLight, bool);
   vtkGetMacro(WhiteLight, bool);

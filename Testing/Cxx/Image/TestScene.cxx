@@ -322,7 +322,9 @@ TEST_F(Scene, WhiteLightDispersesAsTheGasDoes)
   EXPECT_GT(atBlue(), 1.005);
   this->medium->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE);
   this->medium->AddMixtureGas("helium");
-  EXPECT_EQ(atBlue(), 1); // the background is custom
+  EXPECT_DOUBLE_EQ(atBlue(), ofGas("air")); // as the background
+  this->medium->SetBackgroundGas("2.3e-4");
+  EXPECT_EQ(atBlue(), 1);
   this->medium->SetBackgroundGas("nitrogen");
   EXPECT_DOUBLE_EQ(atBlue(), ofGas("nitrogen"));
   this->medium->SetIndexModel(vtkRefractiveIndex::CIDDOR);
