@@ -84,7 +84,6 @@ struct MediumSettings
   std::vector<std::string> MixtureGases;
   std::string BackgroundGas = "air";
   int FractionType = 0; ///< 0: mass, 1: volume
-  double TemperatureScale = 0;
   double PressureScale = 0;
   double UniformPressure = 0;       ///< 0: Pressure is an array
   double StagnationTemperature = 0; ///< 0: Temperature is an array
@@ -135,7 +134,6 @@ struct MediumSettings
     use("MixtureGases", &S::MixtureGases);
     use("BackgroundGas", &S::BackgroundGas);
     use("FractionType", &S::FractionType);
-    use("TemperatureScale", &S::TemperatureScale);
     use("PressureScale", &S::PressureScale);
     use("UniformPressure", &S::UniformPressure);
     use("StagnationTemperature", &S::StagnationTemperature);

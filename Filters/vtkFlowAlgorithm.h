@@ -166,11 +166,9 @@ public:
 
   ///@{
   /**
-   * Factors from the arrays of temperature and pressure to K and Pa; 0 (the default): by the unit
-   * in the name, as for DensityScale.
+   * Factor from the array of the pressure to Pa; 0 (the default): by the unit in the name, as for
+   * DensityScale. Temperatures are in K, or in the unit in the array's name.
    */
-  vtkSetMacro(TemperatureScale, double);
-  vtkGetMacro(TemperatureScale, double);
   vtkSetMacro(PressureScale, double);
   vtkGetMacro(PressureScale, double);
   ///@}

@@ -70,7 +70,6 @@ GasMixture gasMixture(const MediumSettings& settings)
 
 CiddorAir ciddorAir(const MediumSettings& settings)
 {
-  requireFinite("TemperatureScale", settings.TemperatureScale);
   requireFinite("PressureScale", settings.PressureScale);
   if (!(settings.UniformPressure >= 0) || std::isinf(settings.UniformPressure))
   {
@@ -98,7 +97,7 @@ CiddorAir ciddorAir(const MediumSettings& settings)
     throw std::runtime_error("Wavelength is " + textOf(settings.Wavelength) +
       " nm, where Ciddor's equations do not hold. Set it between 300 and 1700 nm.");
   }
-  return { schlieren::MoistAir::at(wavelength), settings.TemperatureScale, settings.PressureScale,
+  return { schlieren::MoistAir::at(wavelength), kelvinsOf(settings), settings.PressureScale,
     settings.UniformPressure, settings.isIsentropic() ? settings.StagnationTemperature : 0,
     settings.StagnationPressure, hasHumidity, humidity };
 }
@@ -156,8 +155,8 @@ std::string CiddorAir::warning(const std::string& fraction) const
   return fraction +
     " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to "
     "120 kPa, relative humidity to 1). There they are continued towards the ideal gas. "
-    "If so many surprise you, check that TemperatureScale and PressureScale give K and "
-    "Pa, and that humidity is from 0 to 1.";
+    "If so many surprise you, check that Temperature is in K, that PressureScale gives Pa, and "
+    "that humidity is from 0 to 1.";
 }
 
 //------------------------------------------------------------------------------

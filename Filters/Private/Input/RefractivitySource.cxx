@@ -391,7 +391,7 @@ Implausible implausibleIn(const Source& source)
   const bool isIndex = settings.IndexModel == MediumSettings::RefractiveIndex ||
     settings.IndexModel == MediumSettings::Refractivity;
   flow.scales = settings.IndexModel == MediumSettings::Ciddor
-    ? std::vector<double>{ settings.TemperatureScale, settings.PressureScale }
+    ? std::vector<double>{ kelvinsOf(settings), settings.PressureScale }
     : std::vector<double>{ isIndex ? 1 : settings.DensityScale };
   const bool isOfTable = !isCustom(settings.Gas);
   flow.isGas = settings.IndexModel == MediumSettings::Mixture || isOfTable ||

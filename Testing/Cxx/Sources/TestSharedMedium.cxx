@@ -301,7 +301,6 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     { "BackgroundGas", mixture, [](F* f) { f->SetBackgroundGas("helium"); } },
     { "FractionType", mixture, [](F* f) { f->SetFractionType(R::VOLUME); } },
     { "Temperature", moistAir, [](F* f) { array(f, R::TEMPERATURE, "p"); } },
-    { "TemperatureScale", moistAir, [](F* f) { f->SetTemperatureScale(1.1); } },
     { "PressureScale", moistAir, [](F* f) { f->SetPressureScale(1.1); } },
     { "UniformPressure", moistAir, [](F* f) { f->SetUniformPressure(9e4); } },
     { "StagnationTemperature", moistAir, [](F* f) { f->SetStagnationTemperature(300); } },
