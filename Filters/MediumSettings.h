@@ -75,6 +75,9 @@ struct MediumSettings
   /// Air in visible light, m^3/kg.
   static constexpr double defaultConstant = 2.26e-4;
 
+  /// Between gas and bodies in a mask.
+  static constexpr double maskThreshold = 0.5;
+
   std::array<ArraySelection, 6> Arrays;
   std::vector<TransferCurve> TransferFunctions;
   double Depth = 0;
@@ -87,13 +90,8 @@ struct MediumSettings
   double DensityScale = 0;
   std::vector<std::string> MixtureArrays;
   std::vector<std::string> MixtureGases;
-  std::vector<double> MixtureConstants;
-  std::string BackgroundGas = "Custom";
-  double BackgroundConstant = 2.26e-4;
+  std::string BackgroundGas = "air";
   int FractionType = 0;
-  std::vector<double> MixtureMolarMasses;
-  double BackgroundMolarMass = 0.0289647;
-  double TemperatureScale = 0;
   double PressureScale = 0;
   double UniformPressure = 0;
   double StagnationTemperature = 0;
@@ -104,7 +102,6 @@ struct MediumSettings
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
   int MaskedSide = -1;
-  double MaskThreshold = 0.5;
   int Symmetry = 0;
   int SymmetryAxis = 0;
   double SymmetryOrigin[3] = { 0, 0, 0 };
@@ -144,13 +141,8 @@ struct MediumSettings
     use("DensityScale", &S::DensityScale);
     use("MixtureArrays", &S::MixtureArrays);
     use("MixtureGases", &S::MixtureGases);
-    use("MixtureConstants", &S::MixtureConstants);
     use("BackgroundGas", &S::BackgroundGas);
-    use("BackgroundConstant", &S::BackgroundConstant);
     use("FractionType", &S::FractionType);
-    use("MixtureMolarMasses", &S::MixtureMolarMasses);
-    use("BackgroundMolarMass", &S::BackgroundMolarMass);
-    use("TemperatureScale", &S::TemperatureScale);
     use("PressureScale", &S::PressureScale);
     use("UniformPressure", &S::UniformPressure);
     use("StagnationTemperature", &S::StagnationTemperature);
@@ -161,7 +153,6 @@ struct MediumSettings
     use("FieldRanges", &S::FieldRanges);
     use("RefractivityScale", &S::RefractivityScale);
     use("MaskedSide", &S::MaskedSide);
-    use("MaskThreshold", &S::MaskThreshold);
     use("Symmetry", &S::Symmetry);
     use("SymmetryAxis", &S::SymmetryAxis);
     use("SymmetryOrigin", &S::SymmetryOrigin);

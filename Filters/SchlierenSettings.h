@@ -102,7 +102,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   int BackgroundPattern = 0;
   double BackgroundDistance = -1;
   double BackgroundPeriod = 0;
-  double BackgroundAngle = 0;
   std::string BackgroundImage;
   double ScreenDistance = -1;
   double FocusOffset = 0;
@@ -120,7 +119,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   double SourceLength = 10;
   int LightModel = 0;
   double Bandwidth = 0;
-  int CoherenceSamples = 32;
   double PhasePlateDiameter = 0;
   double PhasePlateDelay = 0.25;
   double PhasePlateTransmission = 1;
@@ -164,7 +162,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
     use("BackgroundPattern", &S::BackgroundPattern);
     use("BackgroundDistance", &S::BackgroundDistance);
     use("BackgroundPeriod", &S::BackgroundPeriod);
-    use("BackgroundAngle", &S::BackgroundAngle);
     use("BackgroundImage", &S::BackgroundImage);
     use("ScreenDistance", &S::ScreenDistance);
     use("FocusOffset", &S::FocusOffset);
@@ -182,7 +179,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
     use("SourceLength", &S::SourceLength);
     use("LightModel", &S::LightModel);
     use("Bandwidth", &S::Bandwidth);
-    use("CoherenceSamples", &S::CoherenceSamples);
     use("PhasePlateDiameter", &S::PhasePlateDiameter);
     use("PhasePlateDelay", &S::PhasePlateDelay);
     use("PhasePlateTransmission", &S::PhasePlateTransmission);

@@ -118,8 +118,9 @@ public:
   ///@}
 
   ///@{
-  /// What the species are, by names or formulas as for Gas, in the order of Mixture Arrays.
-  /// Default: none.
+  /// What the species are, in the order of Mixture Arrays: names or formulas as for Gas, or
+  /// numbers: the Gladstone-Dale constant in m^3/kg and, for volume fractions, a space and the
+  /// molar mass in kg/mol, such as 2.3e-4 0.044. Default: none.
   void AddMixtureGas(const char* text)
   {
     this->MixtureGases.emplace_back(text ? text : "");
@@ -133,31 +134,10 @@ public:
   ///@}
 
   ///@{
-  /// The species' Gladstone-Dale constants in m^3/kg, in the order of Mixture Arrays. Default:
-  /// none.
-  void AddMixtureConstant(double value)
-  {
-    this->MixtureConstants.emplace_back(value);
-    this->Modified();
-  }
-  void ClearMixtureConstants()
-  {
-    this->MixtureConstants.clear();
-    this->Modified();
-  }
-  ///@}
-
-  ///@{
-  /// The gas that makes up the rest of a mixture. Default: Custom.
+  /// The gas that makes up the rest of a mixture: a name, a formula or numbers as in Mixture Gases.
+  /// Default: air.
   vtkSetStdStringFromCharMacro(BackgroundGas);
   vtkGetCharFromStdStringMacro(BackgroundGas);
-  ///@}
-
-  ///@{
-  /// The Gladstone-Dale constant of the gas that makes up the rest, m^3/kg. 2.26e-4 is air in
-  /// visible light. Default: 2.26e-4.
-  vtkSetMacro(BackgroundConstant, double);
-  vtkGetMacro(BackgroundConstant, double);
   ///@}
 
   /// Values of FractionType.
@@ -168,39 +148,10 @@ public:
   };
 
   ///@{
-  /// What the arrays are fractions of: Mass, or Volume, that is moles, which also uses the molar
-  /// masses. Default: Mass.
+  /// What the arrays are fractions of: Mass, or Volume, that is moles, which also uses the gases'
+  /// molar masses. Default: Mass.
   vtkSetClampMacro(FractionType, int, MASS, VOLUME);
   vtkGetMacro(FractionType, int);
-  ///@}
-
-  ///@{
-  /// The species' molar masses in kg/mol, in the order of Mixture Arrays; for volume fractions.
-  /// Default: none.
-  void AddMixtureMolarMass(double value)
-  {
-    this->MixtureMolarMasses.emplace_back(value);
-    this->Modified();
-  }
-  void ClearMixtureMolarMasses()
-  {
-    this->MixtureMolarMasses.clear();
-    this->Modified();
-  }
-  ///@}
-
-  ///@{
-  /// The molar mass of the gas that makes up the rest, kg/mol; for volume fractions. 0.0289647 is
-  /// dry air. Default: 0.0289647.
-  vtkSetMacro(BackgroundMolarMass, double);
-  vtkGetMacro(BackgroundMolarMass, double);
-  ///@}
-
-  ///@{
-  /// Factor that turns the temperature array into K; 0: that of the unit in the array's name, or 1
-  /// where there is none. Default: 0.
-  vtkSetMacro(TemperatureScale, double);
-  vtkGetMacro(TemperatureScale, double);
   ///@}
 
   ///@{
@@ -295,12 +246,6 @@ public:
   /// Auto: the side that the name of Mask means, Above where it is not known. Default: Auto.
   vtkSetClampMacro(MaskedSide, int, MASKED_AUTO, MASKED_BELOW);
   vtkGetMacro(MaskedSide, int);
-  ///@}
-
-  ///@{
-  /// The value of Mask between gas and bodies. Default: 0.5.
-  vtkSetMacro(MaskThreshold, double);
-  vtkGetMacro(MaskThreshold, double);
   ///@}
 
   ///@{

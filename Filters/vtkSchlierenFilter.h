@@ -300,7 +300,8 @@ public:
   ///@}
 
   ///@{
-  /// Direction from fringe to fringe, degrees: 0 to the right, 90 upwards. Default: 0.
+  /// Direction from fringe to fringe, and from stripe to stripe of a background, degrees: 0 to the
+  /// right, 90 upwards. Default: 0.
   vtkSetMacro(FringeAngle, double);
   vtkGetMacro(FringeAngle, double);
   ///@}
@@ -340,12 +341,6 @@ public:
   /// Distance between dots or stripes, data units; 0: eight pixels. Default: 0.
   vtkSetMacro(BackgroundPeriod, double);
   vtkGetMacro(BackgroundPeriod, double);
-  ///@}
-
-  ///@{
-  /// Direction across the stripes, degrees: 0 to the right, 90 upwards. Default: 0.
-  vtkSetMacro(BackgroundAngle, double);
-  vtkGetMacro(BackgroundAngle, double);
   ///@}
 
   ///@{
@@ -474,14 +469,6 @@ public:
   /// Default: 0.
   vtkSetClampMacro(Bandwidth, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(Bandwidth, double);
-  ///@}
-
-  ///@{
-  /// Of waves in focus: points of a source that Source Shape says is no point, and of a knife
-  /// edge's, whose waves do not interfere and whose images are added. 1: a laser, half of whose
-  /// undisturbed light a knife edge stops. Default: 32.
-  vtkSetClampMacro(CoherenceSamples, int, 1, 1024);
-  vtkGetMacro(CoherenceSamples, int);
   ///@}
 
   ///@{

@@ -43,8 +43,8 @@ assert np.allclose(disk.GetDataInformation().GetBounds()[4:], (-10, 0))
 
 schlieren = Schlieren(Input=gas, Bodies=disk, IndexModel="Gladstone-Dale Mixture", Density=["POINTS", "rho"],
                       MixtureArrays=["AsH3", "CH4", "GaMe3"],
-                      MixtureConstants=[SPECIES[name][1] for name in ("AsH3", "CH4", "GaMe3")],
-                      BackgroundConstant=SPECIES["H2"][1], LengthScale=0.01,
+                      MixtureGases=[str(SPECIES[name][1]) for name in ("AsH3", "CH4", "GaMe3")],
+                      BackgroundGas=str(SPECIES["H2"][1]), LengthScale=0.01,
                       Outside="Passes", AmbientRefractivity=ambient,
                       **EVERY_VOXEL, ImageSize=[160, 280], ViewDirection=[0, 1, 0],
                       ViewUp=[0, 0, 1])

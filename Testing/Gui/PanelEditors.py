@@ -60,7 +60,7 @@ user.save_state("gas.pvsm")
 # A mixture.
 user.choose("IndexModel/ComboBox", "Gladstone-Dale Mixture")
 user.python("""
-for name, texts in (("MixtureArrays", ("Y_He", "Y_CO2")), ("MixtureGases", ("helium", "CO2"))):
+for name, texts in (("MixtureArrays", ("Y_He", "Y_CO2")), ("MixtureGases", ("helium", "2.2e-4"))):
     found = widget("propertiesPanel", name)
     for text in texts:
         click(found.findChild(QtWidgets.QToolButton, "Add"))
@@ -68,7 +68,7 @@ for name, texts in (("MixtureArrays", ("Y_He", "Y_CO2")), ("MixtureGases", ("hel
         assert model.setData(model.index(model.rowCount() - 1, 0), text)
 """)
 user.type("Wavelength/DoubleLineEdit0", "500")
-user.choose("BackgroundGas/ComboBox", "air")
+user.type("BackgroundGas/BackgroundGas", "nitrogen")
 user.apply()
 user.save_state("mixture.pvsm")
 
@@ -181,13 +181,13 @@ shown = image_array(bench, "OpticalPathDifference")
 assert np.ptp(shown) > 0 and np.array_equal(shown, scripted(Gas="He"))
 
 bench = bench_of("mixture.pvsm")
-assert bench.IndexModel == "Gladstone-Dale Mixture" and bench.BackgroundGas == "air"
+assert bench.IndexModel == "Gladstone-Dale Mixture" and bench.BackgroundGas == "nitrogen"
 assert values(bench, "MixtureArrays") == ["Y_He", "Y_CO2"]
-assert values(bench, "MixtureGases") == ["helium", "CO2"]
+assert values(bench, "MixtureGases") == ["helium", "2.2e-4"]
 shown = image_array(bench, "OpticalPathDifference")
 assert np.ptp(shown) > 0 and np.array_equal(shown, scripted(
     IndexModel="Gladstone-Dale Mixture", Wavelength=500, MixtureArrays=["Y_He", "Y_CO2"],
-    MixtureGases=["He", "carbon dioxide"], BackgroundGas="air"))
+    MixtureGases=["He", "2.2e-4"], BackgroundGas="N2"))
 
 bench = bench_of("fields.pvsm")
 assert values(bench, "Fields") == ["temperature", "Y_He"]
@@ -229,7 +229,7 @@ bench.ImageSize = [32, 32]
 simple.SetActiveSource(bench)
 exec(script[:last], {})  # pylint: disable=exec-used
 assert functions(bench) == [LINE, curve], functions(bench)
-assert values(bench, "MixtureGases") == ["helium", "CO2"]
+assert values(bench, "MixtureGases") == ["helium", "2.2e-4"]
 assert np.array_equal(image_array(bench, "OpticalPathDifference"), shown)
 
 bench = bench_of("removed.pvsm")

@@ -30,7 +30,7 @@ SECONDS_OF_CASE = 120  # of the processor; the longest take some 10
 BYTES_OF_CASE = 8 << 30  # of addresses
 EXTREMES = (float("nan"), float("inf"), -float("inf"), 0., -1., 1e-300, 1e300, 2., .5, 1e-6, 1e6, 90.)
 INTEGERS = (0, 1, 2, 3, 7, -1, 64, 1000, 2**31 - 1, -2**31)
-TEXTS = ("", "None", "rho", "p", "air", "N2", "1e-3", "data:image/png;base64,AAAA", "/no/such.png", "é%s%n", "x" * 10000)
+TEXTS = ("", "None", "rho", "p", "air", "N2", "1e-3", "2e-4 .03", "data:image/png;base64,AAAA", "/no/such.png", "é%s%n", "x" * 10000)
 
 # Of properties with which an image may take as long as one likes: values with which it takes a moment.
 QUICK = {"ImageSize": ([16, 16], [16, 16], [33, 7], [1, 1], [0, 16], [16, -3], [2**31 - 1, 2**31 - 1]),

@@ -15,11 +15,10 @@ names = [vtkGasTable.GetName(i) for i in range(vtkGasTable.GetNumberOfGases())]
 assert "helium" in names and len(set(names)) == len(names)
 column = gaussian_column(16)
 
-# The lists that users choose from.
+# The list that users choose from.
 for proxy in (RefractiveIndex(column), Schlieren(column)):
-    for name in ("Gas", "BackgroundGas"):
-        offered = list(proxy.GetProperty(name).Available)
-        assert offered == ["Custom"] + names, f"{name} offers {offered}, the table {names}"
+    offered = list(proxy.Gas.Available)
+    assert offered == ["Custom"] + names, f"Gas offers {offered}, the table {names}"
 
 
 def largest(proxy):
@@ -51,10 +50,9 @@ s.BackgroundGas = "sulfur hexafluoride"
 s.Wavelength = 700
 assert math.isclose(largest(s), custom * vtkGasTable.GetConstant("SF6", 700) / 2.26e-4,
                     rel_tol=1e-6)
-s.MixtureGases = ["", "Custom"]
-s.MixtureConstants = [1e-3, 2e-3]
+s.MixtureGases = ["1e-3", "2e-3"]
 before = largest(s)
-s.MixtureConstants = [1e-3, 3e-3]
+s.MixtureGases = ["1e-3", "3e-3"]
 assert largest(s) > 1.3 * before
 
 

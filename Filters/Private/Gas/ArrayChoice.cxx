@@ -56,7 +56,7 @@ std::string inWords(const MediumSettings& settings)
     text += (text.empty() ? "" : "; ") + std::string(S::arrayProperties[index]) + ": '" +
       selection.name + "'";
     const double scale = index == S::DensityArray ? settings.DensityScale
-      : index == S::TemperatureArray              ? settings.TemperatureScale
+      : index == S::TemperatureArray              ? kelvinsOf(settings)
       : index == S::PressureArray                 ? settings.PressureScale
                                                   : 1;
     if (scale != 1)
@@ -211,6 +211,13 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
 }
 
 //------------------------------------------------------------------------------
+double kelvinsOf(const MediumSettings& settings)
+{
+  const double byUnit = scaleByUnit("Temperature", settings.Arrays[S::TemperatureArray].name);
+  return byUnit != 0 ? byUnit : 1;
+}
+
+//------------------------------------------------------------------------------
 bool isOpen(const MediumSettings& settings)
 {
   return settings.IndexModel == S::Auto ||
@@ -306,14 +313,11 @@ void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, Med
     // A unit that is concluded from values, such as hPa, belongs to the default arrays only.
     const bool isOfDefaults = given.IndexModel == S::Auto && name == defaults.arrayOf(property);
     const double byValues = isOfDefaults ? scaleIn(defaults, property + "Scale") : 0;
-    const bool isKnown = scale != 0 || byUnit != 0 || byValues != 0;
-    choice.isScaleKnown = choice.isScaleKnown || isKnown;
+    choice.isScaleKnown = scale != 0 || byUnit != 0 || byValues != 0;
     return scale != 0 ? scale : byUnit != 0 ? byUnit : byValues != 0 ? byValues : 1;
   };
   if (settings.IndexModel == S::Ciddor)
   {
-    settings.TemperatureScale = scaleOf(S::TemperatureArray, given.TemperatureScale);
-    choice.isScaleKnown = false; // the unit of the pressure decides
     settings.PressureScale = scaleOf(S::PressureArray, given.PressureScale);
   }
   else if (settings.IndexModel == S::GladstoneDale || settings.IndexModel == S::Mixture)
@@ -336,7 +340,7 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
   ArraySelection& mask = settings.Arrays[S::MaskArray];
   if (!mask.isChosen())
   {
-    const MaskDefault found = flowMask(known, settings.MaskThreshold);
+    const MaskDefault found = flowMask(known);
     mask = { found.array, -1, found.association == FlowArray::Cells };
   }
   if (settings.MaskedSide < 0)

@@ -49,7 +49,7 @@ struct MediumChoice
 {
   /// Complete settings (model, arrays, factors to SI units, fractions), without unread arrays.
   MediumSettings settings;
-  bool isScaleKnown = false; ///< whether the user or a unit in a name gives the scale
+  bool isScaleKnown = false; ///< of the density or pressure: whether the user or a unit gives it
   std::string message;       ///< the choice as a text for the user
   std::string note;          ///< names that were not understood; mostly empty
 };
@@ -59,6 +59,9 @@ bool isOpen(const MediumSettings& settings);
 
 /// Completes `settings` by a choice among the arrays of the data.
 MediumChoice choiceOf(const MediumSettings& settings, const std::vector<FlowArray>& known);
+
+/// Returns the factor from the temperature to K, by the unit in the array's name; 1 without one.
+double kelvinsOf(const MediumSettings& settings);
 
 /// Returns the indices into MediumSettings::Arrays that the model reads besides fractions and
 /// fields.

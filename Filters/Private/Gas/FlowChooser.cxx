@@ -384,7 +384,6 @@ bool FlowChooser::moistAir(FlowArray::Association association)
   }
   else
   {
-    this->Result.scales.emplace_back("TemperatureScale", kelvins);
     this->Result.message += ", " + textOf(kelvins) + " K each";
   }
   this->Result.message += "; pressure: " + quoted(pressure.array->name);

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <locale>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -63,6 +65,40 @@ std::vector<std::string> namesUsed(const MediumSettings& settings)
   return names;
 }
 
+std::string notInTable(const std::string& property, const std::string& name)
+{
+  return property + " holds '" + name + "', which is not in the table of gases.";
+}
+
+std::string allGases()
+{
+  std::string names;
+  for (const schlieren::Gas& gas : schlieren::gases())
+  {
+    names +=
+      (names.empty() ? "" : ", ") + std::string(gas.name) + " (" + std::string(gas.formula) + ")";
+  }
+  return names;
+}
+
+/// Reads a constant and, after spaces, a molar mass, with a decimal point in any locale. Returns how
+/// many numbers the text consists of; 0 for any other text.
+int readNumbers(const std::string& text, schlieren::Component& component)
+{
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  if (!(in >> component.constant))
+  {
+    return 0;
+  }
+  if ((in >> std::ws).eof())
+  {
+    return 1;
+  }
+  const bool isRead = static_cast<bool>(in >> component.molarMass);
+  return isRead && (in >> std::ws).eof() ? 2 : 0;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -71,21 +107,45 @@ bool isCustom(const std::string& name) { return name.empty() || name == "Custom"
 //------------------------------------------------------------------------------
 const schlieren::Gas* gasFrom(const std::string& property, const std::string& name)
 {
-  if (isCustom(name))
+  const schlieren::Gas* gas = schlieren::findGas(name);
+  if (!gas && !isCustom(name))
   {
-    return nullptr;
+    throw std::runtime_error(notInTable(property, name) + " Choose one of: " + allGases() +
+      ", or Custom for GladstoneDaleConstant.");
   }
-  if (const schlieren::Gas* found = schlieren::findGas(name))
+  return gas;
+}
+
+//------------------------------------------------------------------------------
+schlieren::Component componentFrom(
+  const std::string& property, const std::string& text, const MediumSettings& settings)
+{
+  if (const schlieren::Gas* gas = schlieren::findGas(text))
   {
-    return found;
+    return { gas->constantAt(wavelengthOfGases(settings)), gas->molarMass };
   }
-  std::string known;
-  for (const schlieren::Gas& gas : schlieren::gases())
+  schlieren::Component component{};
+  const int count = readNumbers(text, component);
+  if (count == 0)
   {
-    known += std::string(gas.name) + " (" + std::string(gas.formula) + "), ";
+    throw std::runtime_error(notInTable(property, text) + " Give one of: " + allGases() +
+      "; or numbers: the Gladstone-Dale constant in m^3/kg and, for volume fractions, a space and "
+      "the molar mass in kg/mol, such as 2.3e-4 0.044.");
   }
-  throw std::runtime_error(property + " holds '" + name +
-    "', which is not in the table of gases. Choose one of: " + known + "or Custom.");
+  if (count == 1 && settings.FractionType == 1)
+  {
+    throw std::runtime_error(property + " holds '" + text +
+      "', a gas without a molar mass, by which volume fractions weigh. Add it in kg/mol, such "
+      "as " +
+      text + " 0.044, or set FractionType to Mass.");
+  }
+  if (component.constant < 0 || component.molarMass <= 0)
+  {
+    throw std::runtime_error(property + " holds '" + text +
+      "', but a Gladstone-Dale constant is not negative, and a molar mass is positive. Give them "
+      "in m^3/kg and kg/mol (air: 2.26e-4 0.02896).");
+  }
+  return component;
 }
 
 //------------------------------------------------------------------------------
@@ -104,7 +164,7 @@ bool usesWavelength(const MediumSettings& settings)
 {
   const std::vector<std::string> names = namesUsed(settings);
   return settings.IndexModel == MediumSettings::Ciddor ||
-    !std::all_of(names.begin(), names.end(), isCustom);
+    std::any_of(names.begin(), names.end(), schlieren::findGas);
 }
 
 //------------------------------------------------------------------------------
@@ -116,8 +176,7 @@ std::function<double(double)> dispersionOfGases(const MediumSettings& settings, 
     return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };
   }
   const std::vector<std::string> names = namesUsed(settings);
-  const schlieren::Gas* gas =
-    names.empty() || isCustom(names.back()) ? nullptr : schlieren::findGas(names.back());
+  const schlieren::Gas* gas = names.empty() ? nullptr : schlieren::findGas(names.back());
   if (!gas)
   {
     return nullptr;
@@ -133,7 +192,7 @@ std::string noteOnGases(const MediumSettings& settings)
   std::set<std::string_view> reported;
   for (const std::string& name : namesUsed(settings))
   {
-    const schlieren::Gas* gas = isCustom(name) ? nullptr : schlieren::findGas(name);
+    const schlieren::Gas* gas = schlieren::findGas(name);
     const double wavelength = 1e-9 * settings.Wavelength;
     if (gas && !isMeasuredNear(*gas, wavelength) && reported.insert(gas->name).second)
     {

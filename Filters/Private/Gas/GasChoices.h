@@ -13,12 +13,18 @@ struct MediumSettings;
 namespace filters
 {
 
-/// Returns whether the name is "Custom" or empty.
+/// Returns whether the name is "Custom" or empty: no gas of the table.
 bool isCustom(const std::string& name);
 
 /// Finds a gas by name or formula; null for a custom one. Throws std::runtime_error that lists the
 /// table's gases for an unknown name. `property` names the source of the choice in the message.
 const schlieren::Gas* gasFrom(const std::string& property, const std::string& name);
+
+/// Returns a gas of a mixture, given by a name or formula of the table, or by its Gladstone-Dale
+/// constant in m^3/kg and, for volume fractions, its molar mass in kg/mol, such as "2.3e-4 0.044".
+/// Throws std::runtime_error for any other text.
+schlieren::Component componentFrom(
+  const std::string& property, const std::string& text, const MediumSettings& settings);
 
 /// Returns the wavelength in metres. Throws std::runtime_error where it is not positive.
 double wavelengthOfGases(const MediumSettings& settings);

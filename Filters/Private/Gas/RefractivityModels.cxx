@@ -7,7 +7,6 @@
 #include "Gas/ArrayChoice.h"
 #include "Gas/GasChoices.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -30,37 +29,6 @@ void requireFinite(const std::string& name, double value)
   }
 }
 
-void requireConstant(const std::string& name, double value)
-{
-  requireFinite(name, value);
-  if (value < 0)
-  {
-    throw std::runtime_error(name + " holds " + textOf(value) +
-      ", but a Gladstone-Dale constant is not negative. Give it in m^3/kg (air: 2.26e-4).");
-  }
-}
-
-void requireMolarMass(const std::string& name, double value)
-{
-  requireFinite(name, value);
-  if (value <= 0)
-  {
-    throw std::runtime_error(name + " holds " + textOf(value) +
-      ", but a molar mass is positive. Give it in kg/mol (air: 0.0289647).");
-  }
-}
-
-/// Throws unless there is one value per species.
-void requireOneEach(const char* name, std::size_t count, std::size_t species)
-{
-  if (count != species)
-  {
-    throw std::runtime_error("MixtureArrays and " + std::string(name) + " differ in length (" +
-      std::to_string(species) + " and " + std::to_string(count) +
-      "). Give one value for each array.");
-  }
-}
-
 Linear gladstoneDale(const MediumSettings& settings)
 {
   const schlieren::Gas* gas = gasFrom("Gas", settings.Gas);
@@ -71,28 +39,8 @@ Linear gladstoneDale(const MediumSettings& settings)
   return { constant * settings.DensityScale, 0 };
 }
 
-/// Finds the gases of the species and, last, of the background; null for those not chosen by name.
-std::vector<const schlieren::Gas*> gasesOfMixture(const MediumSettings& settings)
-{
-  const std::size_t species = settings.MixtureArrays.size();
-  std::vector<const schlieren::Gas*> gases;
-  if (!settings.MixtureGases.empty())
-  {
-    requireOneEach("MixtureGases", settings.MixtureGases.size(), species);
-    for (const std::string& name : settings.MixtureGases)
-    {
-      gases.push_back(gasFrom("MixtureGases", name));
-    }
-  }
-  gases.resize(species);
-  gases.push_back(gasFrom("BackgroundGas", settings.BackgroundGas));
-  return gases;
-}
-
 GasMixture gasMixture(const MediumSettings& settings)
 {
-  const std::vector<double>& constants = settings.MixtureConstants;
-  const std::vector<double>& molarMasses = settings.MixtureMolarMasses;
   const std::size_t species = settings.MixtureArrays.size();
   if (species == 0)
   {
@@ -101,57 +49,27 @@ GasMixture gasMixture(const MediumSettings& settings)
       "fraction of a gas. Name the arrays of "
       "the fractions, or set IndexModel to Gladstone-Dale for a single gas.");
   }
+  if (settings.MixtureGases.size() != species)
+  {
+    throw std::runtime_error("MixtureArrays and MixtureGases differ in length (" +
+      std::to_string(species) + " and " + std::to_string(settings.MixtureGases.size()) +
+      "). Give one gas for each array.");
+  }
   requireFinite("DensityScale", settings.DensityScale);
-  const std::vector<const schlieren::Gas*> gases = gasesOfMixture(settings);
-  const bool allNamed = std::find(gases.begin(), gases.end() - 1, nullptr) == gases.end() - 1;
 
   GasMixture model;
   model.densityScale = settings.DensityScale;
   model.ofVolumes = settings.FractionType == 1;
-  if (!allNamed)
+  for (const std::string& gas : settings.MixtureGases)
   {
-    requireOneEach("MixtureConstants", constants.size(), species);
-    if (model.ofVolumes && molarMasses.empty())
-    {
-      throw std::runtime_error("MixtureMolarMasses is empty, but volume fractions weigh by the "
-                               "gases' masses. Give the molar mass of each gas in kg/mol (helium: "
-                               "0.0040026), or set FractionType to Mass.");
-    }
-    if (model.ofVolumes)
-    {
-      requireOneEach("MixtureMolarMasses", molarMasses.size(), species);
-    }
+    model.mixture.species.push_back(componentFrom("MixtureGases", gas, settings));
   }
-  const auto component = [&](std::size_t i)
-  {
-    schlieren::Component part;
-    if (gases[i])
-    {
-      part.constant = gases[i]->constantAt(wavelengthOfGases(settings));
-      part.molarMass = gases[i]->molarMass;
-      return part;
-    }
-    const bool isBackground = i == species;
-    part.constant = isBackground ? settings.BackgroundConstant : constants[i];
-    requireConstant(isBackground ? "BackgroundConstant" : "MixtureConstants", part.constant);
-    if (model.ofVolumes)
-    {
-      part.molarMass = isBackground ? settings.BackgroundMolarMass : molarMasses[i];
-      requireMolarMass(isBackground ? "BackgroundMolarMass" : "MixtureMolarMasses", part.molarMass);
-    }
-    return part;
-  };
-  for (std::size_t i = 0; i < species; ++i)
-  {
-    model.mixture.species.push_back(component(i));
-  }
-  model.mixture.background = component(species);
+  model.mixture.background = componentFrom("BackgroundGas", settings.BackgroundGas, settings);
   return model;
 }
 
 CiddorAir ciddorAir(const MediumSettings& settings)
 {
-  requireFinite("TemperatureScale", settings.TemperatureScale);
   requireFinite("PressureScale", settings.PressureScale);
   if (!(settings.UniformPressure >= 0) || std::isinf(settings.UniformPressure))
   {
@@ -179,7 +97,7 @@ CiddorAir ciddorAir(const MediumSettings& settings)
     throw std::runtime_error("Wavelength is " + textOf(settings.Wavelength) +
       " nm, where Ciddor's equations do not hold. Set it between 300 and 1700 nm.");
   }
-  return { schlieren::MoistAir::at(wavelength), settings.TemperatureScale, settings.PressureScale,
+  return { schlieren::MoistAir::at(wavelength), kelvinsOf(settings), settings.PressureScale,
     settings.UniformPressure, settings.isIsentropic() ? settings.StagnationTemperature : 0,
     settings.StagnationPressure, hasHumidity, humidity };
 }
@@ -237,8 +155,8 @@ std::string CiddorAir::warning(const std::string& fraction) const
   return fraction +
     " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to "
     "120 kPa, relative humidity to 1). There they are continued towards the ideal gas. "
-    "If so many surprise you, check that TemperatureScale and PressureScale give K and "
-    "Pa, and that humidity is from 0 to 1.";
+    "If so many surprise you, check that Temperature is in K, that PressureScale gives Pa, and "
+    "that humidity is from 0 to 1.";
 }
 
 //------------------------------------------------------------------------------

@@ -62,7 +62,7 @@ schlieren::BackgroundPattern backgroundFrom(
     pattern.distance = settings.BackgroundDistance;
   }
   pattern.period = settings.BackgroundPeriod;
-  pattern.angle = settings.BackgroundAngle;
+  pattern.angle = settings.FringeAngle;
   if (pattern.kind == schlieren::PatternKind::Image)
   {
     if (settings.BackgroundImage.empty())
@@ -196,7 +196,6 @@ schlieren::Scene sceneFrom(
     scene.memoryBudget = std::max(scene.memoryBudget, memoryForWaves());
   }
   scene.bandwidth = metresPerNanometre * settings.Bandwidth;
-  scene.coherenceSamples = settings.CoherenceSamples;
   if (scene.cutoff == schlieren::Cutoff::PhaseContrast)
   {
     scene.phasePlate = phasePlateFrom(settings);

@@ -63,7 +63,8 @@ void chooseMixture(Filter* filter)
   filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE);
   choose(filter, vtkRefractiveIndex::DENSITY, "rho");
   filter->AddMixtureArray("Y_He");
-  filter->AddMixtureConstant(helium);
+  filter->AddMixtureGas("1.95e-4");
+  filter->SetBackgroundGas("2.26e-4");
 }
 
 template <class Filter>
@@ -131,7 +132,7 @@ TEST(Mixture, DensityScaleAndBackgroundCount)
 {
   auto filter = mixture(flow());
   filter->SetDensityScale(3);
-  filter->SetBackgroundConstant(2e-4);
+  filter->SetBackgroundGas("2e-4");
   EXPECT_LT(largestError(filter,
               [](const Vec& x)
               { return 3 * density(x) * (helium * fraction(x) + 2e-4 * (1 - fraction(x))); }),
@@ -145,7 +146,7 @@ TEST(Mixture, OfThreeGases)
   addPointArray(image, "Y_CO2", [](const Vec& x) { return 0.05 + 0.05 * x[2]; });
   auto filter = mixture(image);
   filter->AddMixtureArray("Y_CO2");
-  filter->AddMixtureConstant(2.3e-4);
+  filter->AddMixtureGas("2.3e-4");
   EXPECT_LT(largestError(filter,
               [](const Vec& x)
               {
@@ -161,7 +162,9 @@ TEST(Mixture, OfVolumes)
 {
   auto filter = mixture(flow());
   filter->SetFractionType(vtkRefractiveIndex::VOLUME);
-  filter->AddMixtureMolarMass(heliumMass);
+  filter->ClearMixtureGases();
+  filter->AddMixtureGas("1.95e-4 0.0040026");
+  filter->SetBackgroundGas("  2.26E-4\t28.9647e-3 "); // any spaces and ways to write numbers
   EXPECT_LT(largestError(filter,
               [](const Vec& x)
               {
@@ -346,10 +349,10 @@ TEST(Ciddor, PressureOfIsentropicAirIsEnough)
 TEST(Ciddor, ScalesAndWavelengthCount)
 {
   auto image = cube(4);
-  addPointArray(image, "T", [](const Vec&) { return 293.15 * 1.8; }); // degrees Rankine
-  addPointArray(image, "p", [](const Vec&) { return 1013.25; });      // hPa
+  addPointArray(image, "T [degR]", [](const Vec&) { return 293.15 * 1.8; }); // degrees Rankine
+  addPointArray(image, "p", [](const Vec&) { return 1013.25; });             // hPa
   auto filter = ciddor(image);
-  filter->SetTemperatureScale(1 / 1.8);
+  choose(filter, vtkRefractiveIndex::TEMPERATURE, "T [degR]");
   filter->SetPressureScale(100);
   filter->SetWavelength(532);
   EXPECT_LT(
@@ -422,31 +425,43 @@ void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; 
 void addSecond(Index* f, const char* name)
 {
   f->AddMixtureArray(name);
-  f->AddMixtureConstant(air);
+  f->AddMixtureGas("air");
+}
+
+std::function<void(Index*)> setGas(const char* gas)
+{
+  return [gas](Index* f)
+  {
+    f->ClearMixtureGases();
+    f->AddMixtureGas(gas);
+  };
+}
+
+std::function<void(Index*)> setVolumes(const char* gas, const char* background)
+{
+  return [gas, background](Index* f)
+  {
+    f->SetFractionType(Index::VOLUME);
+    f->SetBackgroundGas(background);
+    setGas(gas)(f);
+  };
 }
 
 void backToOne(Index* f)
 {
   f->ClearMixtureArrays();
-  f->ClearMixtureConstants();
   f->AddMixtureArray("Y_He");
-  f->AddMixtureConstant(helium);
+  setGas("helium")(f);
 }
 
-void setConstant(Index* f, double constant)
+/// A gas that is none, and what the message says to do.
+Mistake noGas(const char* name, const char* text)
 {
-  f->ClearMixtureConstants();
-  f->AddMixtureConstant(constant);
+  return { name, false, setGas(text),
+    { std::string("MixtureGases holds '") + text + "'", "not in the table", "helium (He)",
+      "such as 2.3e-4 0.044" },
+    backToOne };
 }
-
-void setMolarMass(Index* f, double molarMass)
-{
-  f->SetFractionType(Index::VOLUME);
-  f->ClearMixtureMolarMasses();
-  f->AddMixtureMolarMass(molarMass);
-}
-
-void correctMolarMass(Index* f) { setMolarMass(f, heliumMass); }
 
 std::vector<Mistake> mistakes()
 {
@@ -460,36 +475,33 @@ std::vector<Mistake> mistakes()
       backToOne },
     { "Vectors", false, [](Index* f) { addSecond(f, "U"); },
       { "'U' has 3 components", "MixtureArrays" }, backToOne },
-    { "NoConstants", false, [](Index* f) { f->ClearMixtureConstants(); },
-      { "MixtureArrays and MixtureConstants differ in length (1 and 0)" }, backToOne },
-    { "TooManyConstants", false, [](Index* f) { f->AddMixtureConstant(1e-4); },
-      { "MixtureConstants differ in length (1 and 2)" }, backToOne },
-    { "NegativeConstant", false, [](Index* f) { setConstant(f, -1e-4); },
-      { "MixtureConstants", "-0.0001", "negative" }, backToOne },
-    { "NanConstant", false, [](Index* f) { setConstant(f, notANumber); },
-      { "MixtureConstants", "finite" }, backToOne },
-    { "NegativeBackground", false, [](Index* f) { f->SetBackgroundConstant(-1); },
-      { "BackgroundConstant", "negative" }, [](Index* f) { f->SetBackgroundConstant(air); } },
+    { "NoGases", false, [](Index* f) { f->ClearMixtureGases(); },
+      { "MixtureArrays and MixtureGases differ in length (1 and 0)" }, backToOne },
+    { "TooManyGases", false, [](Index* f) { f->AddMixtureGas("1e-4"); },
+      { "MixtureGases differ in length (1 and 2)" }, backToOne },
+    noGas("Empty", ""),
+    noGas("Custom", "Custom"),
+    noGas("NanConstant", "nan"),
+    noGas("InfiniteConstant", "1e999"),
+    noGas("DecimalComma", "2,3e-4"),
+    noGas("CommaBetween", "2.3e-4, 0.044"),
+    noGas("Unit", "2.3e-4 m3/kg"),
+    noGas("NanMolarMass", "2.3e-4 nan"),
+    noGas("ThreeNumbers", "2.3e-4 0.044 1"),
+    { "NegativeConstant", false, setGas("-1e-4"), { "MixtureGases holds '-1e-4'", "negative" },
+      backToOne },
+    { "NegativeBackground", false, [](Index* f) { f->SetBackgroundGas("-1 0.03"); },
+      { "BackgroundGas holds '-1 0.03'", "negative" },
+      [](Index* f) { f->SetBackgroundGas("N2"); } },
     { "NanDensityScale", false, [](Index* f) { f->SetDensityScale(notANumber); },
       { "DensityScale", "finite" }, [](Index* f) { f->SetDensityScale(1); } },
-    { "NoMolarMasses", false, [](Index* f) { f->SetFractionType(Index::VOLUME); },
-      { "MixtureMolarMasses", "kg/mol" }, correctMolarMass },
-    { "TooManyMolarMasses", false,
-      [](Index* f)
-      {
-        setMolarMass(f, heliumMass);
-        f->AddMixtureMolarMass(airMass);
-      },
-      { "MixtureMolarMasses differ in length (1 and 2)" }, correctMolarMass },
-    { "ZeroMolarMass", false, [](Index* f) { setMolarMass(f, 0); },
-      { "MixtureMolarMasses", "positive" }, correctMolarMass },
-    { "NanBackgroundMolarMass", false,
-      [](Index* f)
-      {
-        setMolarMass(f, heliumMass);
-        f->SetBackgroundMolarMass(notANumber);
-      },
-      { "BackgroundMolarMass", "finite" }, [](Index* f) { f->SetBackgroundMolarMass(airMass); } },
+    { "NoMolarMass", false, setVolumes("2.3e-4", "air"),
+      { "MixtureGases holds '2.3e-4'", "kg/mol, such as 2.3e-4 0.044", "FractionType to Mass" },
+      setVolumes("2.3e-4 0.044", "air") },
+    { "NoBackgroundMolarMass", false, setVolumes("He", "2.3e-4"),
+      { "BackgroundGas holds '2.3e-4'", "kg/mol" }, setVolumes("He", "2.3e-4 0.044") },
+    { "ZeroMolarMass", false, setVolumes("2.3e-4 0", "air"),
+      { "MixtureGases holds '2.3e-4 0'", "positive" }, setVolumes("2.3e-4 0.044", "air") },
     { "NoSuchPressure", true, [](Index* f) { choose(f, Index::PRESSURE, "P"); },
       { "no array 'P'", "Pressure", "T" }, [](Index* f) { choose(f, Index::PRESSURE, "p"); } },
     { "NoSuchHumidity", true, [](Index* f) { choose(f, Index::HUMIDITY, "dew"); },
@@ -503,8 +515,6 @@ std::vector<Mistake> mistakes()
       { "Wavelength", "300 and 1700 nm" }, [](Index* f) { f->SetWavelength(632.8); } },
     { "NanWavelength", true, [](Index* f) { f->SetWavelength(notANumber); }, { "Wavelength", "nm" },
       [](Index* f) { f->SetWavelength(300); } },
-    { "NanTemperatureScale", true, [](Index* f) { f->SetTemperatureScale(notANumber); },
-      { "TemperatureScale", "finite" }, [](Index* f) { f->SetTemperatureScale(1); } },
     { "InfinitePressureScale", true, [](Index* f) { f->SetPressureScale(HUGE_VAL); },
       { "PressureScale", "finite" }, [](Index* f) { f->SetPressureScale(1); } },
   };

@@ -323,7 +323,9 @@ TEST_F(Scene, WhiteLightDispersesAsTheGasDoes)
   EXPECT_GT(atBlue(), 1.005);
   this->medium->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE);
   this->medium->AddMixtureGas("helium");
-  EXPECT_EQ(atBlue(), 1); // the background is custom
+  EXPECT_DOUBLE_EQ(atBlue(), ofGas("air")); // as the background
+  this->medium->SetBackgroundGas("2.3e-4");
+  EXPECT_EQ(atBlue(), 1);
   this->medium->SetBackgroundGas("nitrogen");
   EXPECT_DOUBLE_EQ(atBlue(), ofGas("nitrogen"));
   this->medium->SetIndexModel(vtkRefractiveIndex::CIDDOR);
@@ -342,7 +344,7 @@ TEST_F(Scene, BackgroundIsAPattern)
   this->filter->SetBackgroundPattern(Filter::STRIPES);
   this->filter->SetBackgroundDistance(0);
   this->filter->SetBackgroundPeriod(0.2);
-  this->filter->SetBackgroundAngle(45);
+  this->filter->SetFringeAngle(45);
   const schlieren::BackgroundPattern pattern = this->scene().background;
   EXPECT_EQ(pattern.kind, schlieren::PatternKind::Stripes);
   EXPECT_EQ(pattern.distance.value_or(-1), 0);

@@ -248,9 +248,7 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
     density(f);
     f->SetIndexModel(R::GLADSTONE_DALE_MIXTURE);
     f->AddMixtureArray("Y");
-    f->AddMixtureGas("Custom");
-    f->AddMixtureConstant(1e-4);
-    f->AddMixtureMolarMass(0.004);
+    f->AddMixtureGas("1e-4 0.004");
   };
   const auto isentropicAir = [](F* f)
   {
@@ -300,24 +298,9 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
         f->ClearMixtureGases();
         f->AddMixtureGas("argon");
       } },
-    { "MixtureConstants", mixture,
-      [](F* f)
-      {
-        f->ClearMixtureConstants();
-        f->AddMixtureConstant(2e-4);
-      } },
-    { "MixtureMolarMasses", mixture,
-      [](F* f)
-      {
-        f->ClearMixtureMolarMasses();
-        f->AddMixtureMolarMass(0.04);
-      } },
     { "BackgroundGas", mixture, [](F* f) { f->SetBackgroundGas("helium"); } },
-    { "BackgroundConstant", mixture, [](F* f) { f->SetBackgroundConstant(1e-4); } },
-    { "BackgroundMolarMass", mixture, [](F* f) { f->SetBackgroundMolarMass(0.03); } },
     { "FractionType", mixture, [](F* f) { f->SetFractionType(R::VOLUME); } },
     { "Temperature", moistAir, [](F* f) { array(f, R::TEMPERATURE, "p"); } },
-    { "TemperatureScale", moistAir, [](F* f) { f->SetTemperatureScale(1.1); } },
     { "PressureScale", moistAir, [](F* f) { f->SetPressureScale(1.1); } },
     { "UniformPressure", moistAir, [](F* f) { f->SetUniformPressure(9e4); } },
     { "StagnationTemperature", moistAir, [](F* f) { f->SetStagnationTemperature(300); } },
@@ -345,8 +328,6 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
       } },
     { "RefractivityScale", fields, [](F* f) { f->SetRefractivityScale(1e-4); } },
     { "Mask", nullptr, [](F* f) { array(f, R::MASK, "mask"); } },
-    { "MaskThreshold", [](F* f) { array(f, R::MASK, "mask"); },
-      [](F* f) { f->SetMaskThreshold(0.1); } },
     { "MaskedSide", [](F* f) { array(f, R::MASK, "mask"); },
       [](F* f) { f->SetMaskedSide(R::MASKED_BELOW); } },
     { "Depth", nullptr, [](F* f) { f->SetDepth(0.3); } },
