@@ -195,8 +195,9 @@ for value, blocked in (("Blocks", 1), ("Passes", 0)):
 
 # A mask: light ends where rho is high, and only then.
 top = 0.9 * source.GetDataInformation().GetPointDataInformation().GetArrayInformation("rho").GetComponentRange(0)[1]
-masked = Schlieren(Calculator(source, ResultArrayName="dense", Function=f"rho - {top} + 0.5"),
-                   Density=["POINTS", "rho"], ImageSize=[16, 16])
+dense = Calculator(source, ResultArrayName="dense", Function=f"rho - {top} + 0.5")
+dense.UpdatePipeline()
+masked = Schlieren(dense, Density=["POINTS", "rho"], ImageSize=[16, 16])
 assert masked.Mask[1] == "None", masked.Mask
 assert image_array(masked, "BlockedFraction").max() == 0
 masked.Mask = ["POINTS", "dense"]
