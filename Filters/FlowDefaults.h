@@ -116,9 +116,8 @@ VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaults(
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowSpecies(
   const std::vector<FlowArray>& arrays, FlowArray::Association association);
 
-/// Chooses an array that marks bodies or gas by its name, with values on both sides of `threshold`.
-VTKSCHLIERENFILTERS_EXPORT MaskDefault flowMask(
-  const std::vector<FlowArray>& arrays, double threshold = MediumSettings().MaskThreshold);
+/// Chooses an array that marks bodies or gas by its name, with values on both sides of maskThreshold.
+VTKSCHLIERENFILTERS_EXPORT MaskDefault flowMask(const std::vector<FlowArray>& arrays);
 
 /// Returns whether the array's name says that it marks gas, not bodies.
 VTKSCHLIERENFILTERS_EXPORT bool marksGas(const std::string& array);

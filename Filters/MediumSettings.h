@@ -75,6 +75,9 @@ struct MediumSettings
   /// Air in visible light, m^3/kg.
   static constexpr double defaultConstant = 2.26e-4;
 
+  /// Between gas and bodies in a mask.
+  static constexpr double maskThreshold = 0.5;
+
   std::array<ArraySelection, 6> Arrays;
   int IndexModel = Auto;
   std::string Gas = "Custom";
@@ -94,8 +97,7 @@ struct MediumSettings
   std::vector<TransferCurve> TransferFunctions;
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
-  double MaskThreshold = 0.5;
-  int MaskedSide = -1; ///< -1: by the mask's name, 0: above the threshold, 1: below
+  int MaskedSide = -1; ///< -1: by the mask's name, 0: where it is maskThreshold or more, 1: less
   double Depth = 0;
   int Symmetry = 0;     ///< 0: none, 1: axisymmetric
   int SymmetryAxis = 0; ///< 0: chosen; 1 to 3: x, y, z
@@ -144,7 +146,6 @@ struct MediumSettings
     use("TransferFunctions", &S::TransferFunctions);
     use("FieldRanges", &S::FieldRanges);
     use("RefractivityScale", &S::RefractivityScale);
-    use("MaskThreshold", &S::MaskThreshold);
     use("MaskedSide", &S::MaskedSide);
     use("Depth", &S::Depth);
     use("Symmetry", &S::Symmetry);

@@ -345,26 +345,18 @@ public:
   ///@{
   /**
    * Regions without gas, by an array of points or cells (SetInputArrayToProcess(MASK, ...)): with
-   * MASKED_ABOVE where it is MaskThreshold or more, such as an array `solid`; with MASKED_BELOW
+   * MASKED_ABOVE where it is 0.5 or more, such as an array `solid`; with MASKED_BELOW
    * where it is less, such as `iblank` or a cell's gas fraction; with MASKED_AUTO (the default) on
    * the side that the array's name means, above for unknown names. NaN is not gas, either. These
    * regions block light, and their values are not used: points are hidden, or cells if the field
    * belongs to cells (those with a hidden point). Blocks without the array are all gas; it is an
    * error if all blocks are.
    *
-   * If no array is chosen, one is that has such a name and values on both sides of MaskThreshold;
+   * If no array is chosen, one is that has such a name and values on both sides of 0.5;
    * GetArraysUsed() lists it. The name None chooses none.
    */
   vtkSetClampMacro(MaskedSide, int, MASKED_AUTO, MASKED_BELOW);
   vtkGetMacro(MaskedSide, int);
-  ///@}
-
-  ///@{
-  /**
-   * Threshold of MaskedSide. Default: 0.5.
-   */
-  vtkSetMacro(MaskThreshold, double);
-  vtkGetMacro(MaskThreshold, double);
   ///@}
 
   /**

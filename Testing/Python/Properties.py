@@ -6,7 +6,7 @@ import os
 import sys
 
 import numpy as np
-from paraview.simple import AppendDatasets, Clip, Sphere
+from paraview.simple import AppendDatasets, Calculator, Clip, Sphere
 from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkRefractiveIndex, vtkSchlierenFilter
 
@@ -194,11 +194,13 @@ for value, blocked in (("Blocks", 1), ("Passes", 0)):
     assert image_array(outside, "BlockedFraction")[8, 1] == blocked, value
 
 # A mask: light ends where rho is high, and only then.
-masked = Schlieren(source, Density=["POINTS", "rho"], ImageSize=[16, 16])
+top = 0.9 * source.GetDataInformation().GetPointDataInformation().GetArrayInformation("rho").GetComponentRange(0)[1]
+dense = Calculator(source, ResultArrayName="dense", Function=f"rho - {top} + 0.5")
+dense.UpdatePipeline()
+masked = Schlieren(dense, Density=["POINTS", "rho"], ImageSize=[16, 16])
 assert masked.Mask[1] == "None", masked.Mask
 assert image_array(masked, "BlockedFraction").max() == 0
-top = 0.9 * source.GetDataInformation().GetPointDataInformation().GetArrayInformation("rho").GetComponentRange(0)[1]
-masked.Mask, masked.MaskThreshold = ["POINTS", "rho"], top
+masked.Mask = ["POINTS", "dense"]
 assert 0 < image_array(masked, "BlockedFraction").mean() < 0.5
 masked.MaskedSide = "Below"
 assert image_array(masked, "BlockedFraction").mean() > 0.5

@@ -340,7 +340,7 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
   ArraySelection& mask = settings.Arrays[S::MaskArray];
   if (!mask.isChosen())
   {
-    const MaskDefault found = flowMask(known, settings.MaskThreshold);
+    const MaskDefault found = flowMask(known);
     mask = { found.array, -1, found.association == FlowArray::Cells };
   }
   if (settings.MaskedSide < 0)

@@ -183,11 +183,12 @@ FlowDefaults flowSpecies(const std::vector<FlowArray>& arrays, FlowArray::Associ
 }
 
 //------------------------------------------------------------------------------
-MaskDefault flowMask(const std::vector<FlowArray>& arrays, double threshold)
+MaskDefault flowMask(const std::vector<FlowArray>& arrays)
 {
   const auto found = std::find_if(arrays.begin(), arrays.end(),
-    [threshold](const FlowArray& array)
+    [](const FlowArray& array)
     {
+      constexpr double threshold = MediumSettings::maskThreshold;
       const bool isMask = marksGas(array.name) || solids.count(ArrayName(array.name).Joined()) > 0;
       return array.components == 1 && isMask && array.range[0] < threshold &&
         array.range[1] >= threshold;

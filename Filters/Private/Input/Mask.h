@@ -15,13 +15,13 @@ struct Mask
 {
   vtkDataArray* values; // one component
   bool ofCells;
-  double threshold;
-  bool hidesAbove; // hides values at or above the threshold instead of those below it
+  bool hidesAbove; // hides values from the threshold on instead of those below it
 
   /// Hides NaN, too.
   bool hides(double value) const
   {
-    return this->hidesAbove ? !(value < this->threshold) : !(value >= this->threshold);
+    constexpr double threshold = MediumSettings::maskThreshold;
+    return this->hidesAbove ? !(value < threshold) : !(value >= threshold);
   }
 };
 

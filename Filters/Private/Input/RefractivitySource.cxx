@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
@@ -249,12 +248,6 @@ void applyMask(const MediumSettings& settings, bool isChosen,
     return;
   }
   const Selection selection = selectionOf(settings, MediumSettings::MaskArray);
-  if (!std::isfinite(settings.MaskThreshold))
-  {
-    throw std::runtime_error(
-      "MaskThreshold is not a finite number, so Mask hides nothing. Set it, for "
-      "instance to 0.5.");
-  }
   bool isFound = false;
   for (Leaf& leaf : source.leaves)
   {
@@ -265,8 +258,8 @@ void applyMask(const MediumSettings& settings, bool isChosen,
     }
     isFound = true;
     requireScalars(found[0], { selection }, dataSets);
-    const vtkSmartPointer<vtkDataSet> masked = hideMasked(leaf,
-      { found[0].arrays[0], found[0].ofCells, settings.MaskThreshold, settings.MaskedSide == 0 });
+    const vtkSmartPointer<vtkDataSet> masked =
+      hideMasked(leaf, { found[0].arrays[0], found[0].ofCells, settings.MaskedSide == 0 });
     if (source.image == leaf.data)
     {
       source.image = vtkImageData::SafeDownCast(masked);

@@ -322,7 +322,7 @@ TEST(FlowDefaults, MasksByTheirNames)
   // Nothing is masked; not a mask; and a mask is no density.
   EXPECT_EQ(flowMask({ density, scalar("solid", 0, 0) }).array, "");
   EXPECT_EQ(flowMask({ density, scalar("solid", 0, 0.3) }).array, "");
-  EXPECT_EQ(flowMask({ density, scalar("solid", 0, 0.3) }, 0.2).array, "solid");
+  EXPECT_EQ(flowMask({ density, scalar("solid", 0, 0.5) }).array, "solid");
   EXPECT_EQ(flowMask({ density, scalar("solid stress", 0, 1) }).array, "");
   EXPECT_TRUE(isNoDensity(scalar("solid", 0, 1)));
 }

@@ -328,8 +328,6 @@ TEST(SharedMedium, EveryPropertyMakesAnother)
       } },
     { "RefractivityScale", fields, [](F* f) { f->SetRefractivityScale(1e-4); } },
     { "Mask", nullptr, [](F* f) { array(f, R::MASK, "mask"); } },
-    { "MaskThreshold", [](F* f) { array(f, R::MASK, "mask"); },
-      [](F* f) { f->SetMaskThreshold(0.1); } },
     { "MaskedSide", [](F* f) { array(f, R::MASK, "mask"); },
       [](F* f) { f->SetMaskedSide(R::MASKED_BELOW); } },
     { "Depth", nullptr, [](F* f) { f->SetDepth(0.3); } },

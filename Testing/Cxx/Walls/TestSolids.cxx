@@ -404,11 +404,12 @@ TEST(Solids, BadMasksAreMistakes)
   EXPECT_NE(mistakeOf().find("no array 'iblank'. Set Mask to one of"), std::string::npos);
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "mask");
-  filter->SetMaskThreshold(std::nan(""));
-  EXPECT_NE(mistakeOf().find("MaskThreshold"), std::string::npos);
-  filter->SetMaskThreshold(0);
+  addPointArray(image, "all", [](const Vec&) { return 0.5; });
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "all");
   EXPECT_NE(mistakeOf().find("no valid value"), std::string::npos); // all is hidden
-  filter->SetMaskThreshold(0.5);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "mask");
   filter->Update();
   EXPECT_FALSE(isEmpty(filter));
 }
