@@ -271,7 +271,7 @@ def take_tiles(take, frame, options, scratch):
     shift = shot["BackgroundDisplacement"]
     add("shift", "How much higher the place is that is seen", "black to white: -8 to 8 pixels",
         signed(shift[..., 1], 8 * pixel), shot)
-    stripes = take.shoot(**dict(dots, BackgroundPattern="Stripes", BackgroundAngle=90))
+    stripes = take.shoot(**dict(dots, BackgroundPattern="Stripes", FringeAngle=90))
     add("stripes", "Stripes through the flow", "horizontal ones", grey(stripes["Intensity"], 1), stripes)
 
     group("Line of sight and refraction, on the screen where the light focuses")

@@ -88,7 +88,7 @@ def jet_with_levels():
                         SampleRateI=2, SampleRateJ=2, SampleRateK=2)
     levels = ImageDataToAMR(jet, Numberoflevels=2)
     return dict(Input=levels, Density=["POINTS", "rho"], Cutoff="Background Oriented", BackgroundPattern="Stripes",
-                BackgroundAngle=90, BackgroundDistance=0.1, FocalPoint=[0.0118, 0, 0], ParallelScale=0.0088)
+                FringeAngle=90, BackgroundDistance=0.1, FocalPoint=[0.0118, 0, 0], ParallelScale=0.0088)
 
 
 FLOWS = (

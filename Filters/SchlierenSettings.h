@@ -92,7 +92,6 @@ struct OpticsSettings
   int BackgroundPattern = 0;
   double BackgroundDistance = -1;
   double BackgroundPeriod = 0;
-  double BackgroundAngle = 0;
   std::string BackgroundImage;
   double FNumber = 0;
   double LensFocalLength = 50;
@@ -133,7 +132,6 @@ struct OpticsSettings
     use("BackgroundPattern", this->BackgroundPattern);
     use("BackgroundDistance", this->BackgroundDistance);
     use("BackgroundPeriod", this->BackgroundPeriod);
-    use("BackgroundAngle", this->BackgroundAngle);
     use("BackgroundImage", this->BackgroundImage);
     use("FNumber", this->FNumber);
     use("LensFocalLength", this->LensFocalLength);

@@ -531,7 +531,7 @@ public:
    * Fringes of an interferogram. FringeSpacing 0, the default: they are infinite, undisturbed light
    * is bright everywhere. Otherwise a tilted reference beam adds straight fringes, so far apart
    * (data units on the film; negative: so many are in the image's height) along FringeAngle
-   * (degrees; 0, the default, is u, 90 is v). Beams that cross at an angle have the spacing
+   * (degrees; 0, the default, is u, 90 is v), as a background's stripes are. Beams that cross at an angle have the spacing
    * wavelength / (2 sin(angle / 2)).
    */
   vtkSetMacro(FringeSpacing, double);
@@ -634,8 +634,7 @@ public:
    * BackgroundDistance behind the side of the data where light enters (data units; negative, the
    * default: one data depth); dots and stripes BackgroundPeriod apart (data units; 0, the default:
    * eight pixels; they fade below four and vanish at two), which stand in the world: a bright stripe
-   * and a corner of dots' cells are where u = v = 0; stripes across BackgroundAngle
-   * (degrees; 0, the default: u); PICTURE: BackgroundImage, given as ColorFilterImage is; SCENE:
+   * and a corner of dots' cells are where u = v = 0; stripes along FringeAngle; PICTURE: BackgroundImage, given as ColorFilterImage is; SCENE:
    * that of SetBackgroundScene().
    */
   vtkSetClampMacro(BackgroundPattern, int, DOTS, SCENE);
@@ -644,8 +643,6 @@ public:
   vtkGetMacro(BackgroundDistance, double);
   vtkSetMacro(BackgroundPeriod, double);
   vtkGetMacro(BackgroundPeriod, double);
-  vtkSetMacro(BackgroundAngle, double);
-  vtkGetMacro(BackgroundAngle, double);
   vtkSetStdStringFromCharMacro(BackgroundImage);
   vtkGetCharFromStdStringMacro(BackgroundImage);
   ///@}

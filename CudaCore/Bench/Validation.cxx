@@ -250,7 +250,7 @@ void validateLight(const Scene& scene, const Frame& frame)
     require(scene.background.period >= 0 && std::isfinite(scene.background.period),
       "BackgroundPeriod is ", scene.background.period,
       ". Set it to a positive number of data units, or to 0 for eight pixels.");
-    require(std::isfinite(scene.background.angle), "BackgroundAngle is ", scene.background.angle,
+    require(std::isfinite(scene.background.angle), "FringeAngle is ", scene.background.angle,
       ". Set it to an angle in degrees.");
     if (scene.background.kind == PatternKind::Image)
     {

@@ -90,16 +90,16 @@ for item in properties.values():
             listed = {int(number) for number in (decorator.get("values") or decorator.get("value")).split()}
             if decorator.get("inverse") == "1":
                 listed = set(CUTOFFS.values()) - listed
-            assert shown_with.setdefault(item.name, listed) == listed, item.name
+            shown_with[item.name] = shown_with.get(item.name, set()) | listed
 for shown, names in (
         (WITH_K, "AutoKScale LockK KScale KFromOptics FocalLength SourceWidth FitKAgain FitKOverSeries"),
         (WITH_K | WITH_FRINGES, "Sensitivity"),
         (WITH_EDGE, "KnifeEdgeAngle CutoffOffset CutoffPosition"),
         (WITH_EDGE | {vtkSchlierenFilter.PHASE_CONTRAST}, "InvertCutoff"),
         ({vtkSchlierenFilter.PHASE_CONTRAST}, "PhasePlateDiameter PhasePlateDelay PhasePlateTransmission"),
-        (WITH_FRINGES, "Wavelength FringeSpacing FringeAngle WhiteLight"),
+        (WITH_FRINGES, "Wavelength FringeSpacing WhiteLight"), (WITH_FRINGES | WITH_BACKGROUND, "FringeAngle"),
         (WITH_SCREEN, "ScreenDistance"), (set(CUTOFFS.values()) - WITH_SCREEN, "FocusOffset"),
-        (WITH_BACKGROUND, "BackgroundPattern BackgroundDistance BackgroundPeriod BackgroundAngle BackgroundImage"),
+        (WITH_BACKGROUND, "BackgroundPattern BackgroundDistance BackgroundPeriod BackgroundImage"),
         ({vtkSchlierenFilter.GRADED_FILTER}, "GradedFilter"), ({vtkSchlierenFilter.COLOR_FILTER}, "ColorFilterImage")):
     assert shown, names
     for name in names.split():

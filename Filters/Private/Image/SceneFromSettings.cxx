@@ -61,7 +61,7 @@ schlieren::BackgroundPattern backgroundFrom(const OpticsSettings& settings, RgbI
     pattern.distance = settings.BackgroundDistance;
   }
   pattern.period = settings.BackgroundPeriod;
-  pattern.angle = settings.BackgroundAngle;
+  pattern.angle = settings.FringeAngle;
   if (pattern.kind == schlieren::PatternKind::Image)
   {
     if (settings.BackgroundImage.empty())

@@ -325,7 +325,7 @@ TEST(BackgroundMistakes, AreReported)
   expectError({ PatternKind::Dots, nan, 0, 0, nullptr }, "BackgroundDistance");
   expectError({ PatternKind::Dots, 1e31, 0, 0, nullptr }, "BackgroundDistance");
   expectError({ PatternKind::Dots, {}, -1, 0, nullptr }, "BackgroundPeriod");
-  expectError({ PatternKind::Stripes, {}, 0, nan, nullptr }, "BackgroundAngle");
+  expectError({ PatternKind::Stripes, {}, 0, nan, nullptr }, "FringeAngle");
   expectError({ PatternKind::Image, {}, 0, 0, nullptr }, "BackgroundImage");
   expectError(
     { PatternKind::Image, {}, 0, 0, std::make_shared<RgbImage>(RgbImage{ 2, 2, { 1, 2, 3 } }) },

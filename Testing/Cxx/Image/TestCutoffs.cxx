@@ -135,7 +135,7 @@ TEST(Cutoffs, ABackgroundIsSeenWhereRaysMeetIt)
   auto filter = benchOf(bending(0.002, -0.004), Filter::BACKGROUND_ORIENTED, 1);
   filter->SetBackgroundPattern(Filter::STRIPES);
   filter->SetBackgroundPeriod(1.2);
-  filter->SetBackgroundAngle(90);
+  filter->SetFringeAngle(90);
   for (const double distance : { -1., 5. })
   {
     filter->SetBackgroundDistance(distance);

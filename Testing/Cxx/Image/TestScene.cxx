@@ -343,7 +343,7 @@ TEST_F(Scene, BackgroundIsAPattern)
   this->filter->SetBackgroundPattern(Filter::STRIPES);
   this->filter->SetBackgroundDistance(0);
   this->filter->SetBackgroundPeriod(0.2);
-  this->filter->SetBackgroundAngle(45);
+  this->filter->SetFringeAngle(45);
   const schlieren::BackgroundPattern pattern = this->scene().background;
   EXPECT_EQ(pattern.kind, schlieren::PatternKind::Stripes);
   EXPECT_EQ(pattern.distance.value_or(-1), 0);
