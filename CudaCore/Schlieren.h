@@ -164,8 +164,6 @@ struct Scene
   LightModel lightModel = LightModel::Rays;
   double bandwidth =
     0; ///< full width of the spectrum around wavelength of waves, metres; less than wavelength
-  int coherenceSamples =
-    32; ///< points of an extended source that is not on a screen, whose waves do not interfere; 1 ... 1024
   double smoothingRadius =
     0;                     ///< of the image, pixels: twice a Gaussian's standard deviation; 0: none
   int histogramSize = 0;   ///< bins along each axis of Image::histogram; 0: none

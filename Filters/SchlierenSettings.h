@@ -85,7 +85,6 @@ struct OpticsSettings
   int SourceShape = 0;
   int LightModel = lightOfRays;
   double Bandwidth = 0;
-  int CoherenceSamples = 32;
   double PhasePlateDiameter = 0;
   double PhasePlateDelay = 0.25;
   double PhasePlateTransmission = 1;
@@ -125,7 +124,6 @@ struct OpticsSettings
     use("SourceShape", this->SourceShape);
     use("LightModel", this->LightModel);
     use("Bandwidth", this->Bandwidth);
-    use("CoherenceSamples", this->CoherenceSamples);
     use("PhasePlateDiameter", this->PhasePlateDiameter);
     use("PhasePlateDelay", this->PhasePlateDelay);
     use("PhasePlateTransmission", this->PhasePlateTransmission);

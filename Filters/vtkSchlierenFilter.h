@@ -604,16 +604,6 @@ public:
 
   ///@{
   /**
-   * Points of the source of waves that is not a POINT, and of a knife edge's, whose waves do not
-   * interfere: the image is the mean of theirs. 1 to 1024; 1 is a laser. Default: 32, whose error
-   * is below 0.01 of the light. A SHADOWGRAPH takes the whole source.
-   */
-  vtkSetClampMacro(CoherenceSamples, int, 1, 1024);
-  vtkGetMacro(CoherenceSamples, int);
-  ///@}
-
-  ///@{
-  /**
    * The plate of PHASE_CONTRAST, a disc in the plane where undisturbed light is a point: its
    * diameter in millimetres, with FocalLength (default: 0, which undisturbed light alone passes),
    * by how many waves it delays light (default: 0.25; -0.25 makes dark what 0.25 makes bright) and

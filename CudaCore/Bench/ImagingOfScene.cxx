@@ -6,6 +6,7 @@
 #include "Math/Units.h"
 #include "Optics/Cutoffs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <iomanip>
@@ -21,15 +22,21 @@ namespace schlieren
 namespace
 {
 
+/// Points of an extended source, whose waves do not interfere. Behind a knife edge the error of the light is 2e-4 to 6e-3 (rms),
+/// for sources as wide as 5 to 250 times the wavelength by the image's width, and falls as 1 by the number of points. Of a disc
+/// with a filter it is 1e-3, with a reference beam out of focus 5e-3.
+constexpr int pointsOfSource = 32;
+
 /// Points across the image of a knife edge's source, which is 1/k wide: as the edge sees them, those of a disc have as much
-/// light as it is long there.
-std::vector<SourcePoint> pointsAcross(const Scene& scene, double k)
+/// light as it is long there. A source whose light is in step all over the image is one point, a laser's.
+std::vector<SourcePoint> pointsAcross(const Scene& scene, double k, bool isLaser)
 {
+  const int count = isLaser ? 1 : pointsOfSource;
   std::vector<SourcePoint> points;
   double all = 0;
-  for (int number = 0; number < scene.coherenceSamples; ++number)
+  for (int number = 0; number < count; ++number)
   {
-    const double place = (number + 0.5) / scene.coherenceSamples - 0.5;
+    const double place = (number + 0.5) / count - 0.5;
     const double angle = scene.knifeEdgeAngle * radiansPerDegree;
     const bool isDisc = scene.source.shape == SourceShape::Disc;
     points.push_back({ { place / k * std::cos(angle), place / k * std::sin(angle) },
@@ -45,7 +52,7 @@ std::vector<SourcePoint> pointsAcross(const Scene& scene, double k)
 
 std::vector<SourcePoint> pointsOf(const Scene& scene)
 {
-  const int count = scene.source.shape == SourceShape::Point ? 1 : scene.coherenceSamples;
+  const int count = scene.source.shape == SourceShape::Point ? 1 : pointsOfSource;
   std::vector<SourcePoint> points;
   for (int number = 0; number < count; ++number)
   {
@@ -96,13 +103,15 @@ EvenPhase carrierOf(const Scene& scene, double wavelength, double pixelSize)
 
 } // namespace
 
-Imaging imagingOf(const Scene& scene, double k, double wavelength, double pixelSize)
+Imaging imagingOf(
+  const Scene& scene, double k, double wavelength, double pixelSize, double lengthScale)
 {
+  const double width = lengthScale * pixelSize * std::max(scene.view.width, scene.view.height);
   switch (scene.cutoff)
   {
     case Cutoff::KnifeEdge:
       return { edgeMask(scene.knifeEdgeAngle, scene.cutoffOffset / k, scene.invertCutoff),
-        pointsAcross(scene, k) };
+        pointsAcross(scene, k, scene.wavelength * k > width) };
     case Cutoff::PhaseContrast:
       return { plateMask(scene, wavelength), pointsOf(scene) };
     case Cutoff::Interferogram:

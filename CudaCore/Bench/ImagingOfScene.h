@@ -12,8 +12,9 @@ namespace schlieren
 {
 
 /// How the light of one wavelength makes the image of a scene that has a plane in focus. `k`: of techniques that have one;
-/// `wavelength`: metres; `pixelSize`: data units.
-Imaging imagingOf(const Scene& scene, double k, double wavelength, double pixelSize);
+/// `wavelength`: metres; `pixelSize`: data units; `lengthScale`: metres in one.
+Imaging imagingOf(
+  const Scene& scene, double k, double wavelength, double pixelSize, double lengthScale);
 
 /// For what rays would do instead of waves; empty where their widths say it. `width`: wavelength times k, metres.
 std::string noteOnRays(Cutoff cutoff, double width);

@@ -28,8 +28,6 @@ constexpr double raysPerFresnelWidth = 8;
 constexpr int leastRaysPerPixel = 2;
 constexpr int mostRaysPerPixel = 4;
 
-constexpr int mostCoherenceSamples = 1024;
-
 constexpr const char* orRays = " or LightModel to Rays.";
 
 /// The largest slope of diverging light, at the image's corners. Scaling is that of small angles: of this one the width of
@@ -168,11 +166,6 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
   {
     return "Bandwidth is " + std::to_string(scene.bandwidth / scene.wavelength) +
       " times Wavelength. Set it to 0 or more, but to less than Wavelength.";
-  }
-  if (scene.coherenceSamples < 1 || scene.coherenceSamples > mostCoherenceSamples)
-  {
-    return "CoherenceSamples is " + std::to_string(scene.coherenceSamples) +
-      ". Set it between 1 and " + std::to_string(mostCoherenceSamples) + ".";
   }
   const PhasePlate& plate = scene.phasePlate;
   if (scene.cutoff == Cutoff::PhaseContrast &&
@@ -416,7 +409,8 @@ std::vector<float> WaveStage<Real>::makeLight(
       "LightModel to Rays.");
   }
   image.lightNote = noteOnRays(scene.cutoff, screen.wavelength * image.kScale);
-  const Imaging imaging = imagingOf(scene, image.kScale, screen.wavelength, image.frame.pixelSize);
+  const Imaging imaging = imagingOf(
+    scene, image.kScale, screen.wavelength, image.frame.pixelSize, request_.field.lengthScale);
   if (imaging.mask)
   {
     image.undisturbedLevel = undisturbedLight(imaging);

@@ -38,7 +38,7 @@ SETTINGS = {"Wavelength": 500.0, "Cutoff": "Color Filter", "KnifeEdgeAngle": 30.
             "SourceWidth": 0.5, "SourceLength": 5.0, "CutoffPosition": 0.25, "ColorFilterImage": FILTER,
             "FringeSpacing": 0.125, "FringeAngle": 45.0,
             "WhiteLight": 1, "ScreenDistance": 3.0, "FocusOffset": 0.5, "SourceDistance": 30.0, "SourceShape": "Slit", "LightModel": "Waves",
-            "Bandwidth": 5.0, "CoherenceSamples": 3, "PhasePlateDiameter": 0.5, "PhasePlateDelay": -0.25,
+            "Bandwidth": 5.0, "PhasePlateDiameter": 0.5, "PhasePlateDelay": -0.25,
             "PhasePlateTransmission": 0.5, "BackgroundPattern": "Picture",
             "BackgroundDistance": 4.0, "BackgroundPeriod": 0.25,
             "BackgroundImage": as_text(png([[WHITE, RED]])), "SmoothingRadius": 1.5}

@@ -195,7 +195,6 @@ schlieren::Scene sceneFrom(
     scene.memoryBudget = std::max(scene.memoryBudget, memoryForWaves());
   }
   scene.bandwidth = metresPerNanometre * settings.Bandwidth;
-  scene.coherenceSamples = settings.CoherenceSamples;
   if (scene.cutoff == schlieren::Cutoff::PhaseContrast)
   {
     scene.phasePlate = phasePlateFrom(settings);

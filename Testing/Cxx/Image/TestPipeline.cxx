@@ -382,20 +382,19 @@ TEST(Pipeline, PrintSelfNamesEveryProperty)
   vtkNew<vtkSchlierenFilter> filter;
   std::ostringstream text;
   filter->Print(text);
-  for (const char* name :
-    { "IndexModel", "GladstoneDaleConstant", "DensityScale", "Depth", "Symmetry", "SymmetryAxis",
-      "SymmetryOrigin", "Outside", "MediumTolerance", "MediumMemory", "LengthScale",
-      "AmbientRefractivity", "ViewDirection", "ViewUp", "FaceFlatData", "FocalPoint",
-      "ParallelScale", "ImageSize", "Wavelength", "Cutoff", "KnifeEdgeAngle", "CutoffOffset",
-      "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale", "KFromOptics", "FocalLength",
-      "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter", "ColorFilterImage",
-      "FringeSpacing", "FringeAngle", "WhiteLight", "ScreenDistance", "FocusOffset",
-      "SourceDistance", "SourceShape", "LightModel", "Bandwidth", "CoherenceSamples",
-      "PhasePlateDiameter", "PhasePlateDelay", "PhasePlateTransmission", "BackgroundPattern",
-      "BackgroundDistance", "BackgroundPeriod", "BackgroundImage", "FNumber", "LensFocalLength",
-      "FocusDistance", "SensorWidth", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth",
-      "Quality", "PathModel", "StepSize", "HomogeneityTolerance", "SamplesPerPixel", "Precision",
-      "TargetError", "ErrorEstimate", "Device", "NumberOfThreads", "SmoothingRadius" })
+  for (const char* name : { "IndexModel", "GladstoneDaleConstant", "DensityScale", "Depth",
+         "Symmetry", "SymmetryAxis", "SymmetryOrigin", "Outside", "MediumTolerance", "MediumMemory",
+         "LengthScale", "AmbientRefractivity", "ViewDirection", "ViewUp", "FaceFlatData",
+         "FocalPoint", "ParallelScale", "ImageSize", "Wavelength", "Cutoff", "KnifeEdgeAngle",
+         "CutoffOffset", "InvertCutoff", "AutoKScale", "LockK", "LockedK", "KScale", "KFromOptics",
+         "FocalLength", "SourceWidth", "SourceLength", "CutoffPosition", "GradedFilter",
+         "ColorFilterImage", "FringeSpacing", "FringeAngle", "WhiteLight", "ScreenDistance",
+         "FocusOffset", "SourceDistance", "SourceShape", "LightModel", "Bandwidth",
+         "PhasePlateDiameter", "PhasePlateDelay", "PhasePlateTransmission", "BackgroundPattern",
+         "BackgroundDistance", "BackgroundPeriod", "BackgroundImage", "FNumber", "LensFocalLength",
+         "FocusDistance", "SensorWidth", "FullWell", "Exposure", "ReadNoise", "Gamma", "BitDepth",
+         "Quality", "PathModel", "StepSize", "HomogeneityTolerance", "SamplesPerPixel", "Precision",
+         "TargetError", "ErrorEstimate", "Device", "NumberOfThreads", "SmoothingRadius" })
   {
     EXPECT_NE(text.str().find(std::string(name) + ": "), std::string::npos) << name;
   }
