@@ -499,6 +499,20 @@ public:
   vtkBooleanMacro(ColorByField, bool);
   ///@}
 
+  ///@{
+  /// Red, green and blue, 0 to 1, of each of the Fields. Default: none.
+  void AddFieldColor(double value)
+  {
+    this->FieldColors.emplace_back(value);
+    this->Modified();
+  }
+  void ClearFieldColors()
+  {
+    this->FieldColors.clear();
+    this->Modified();
+  }
+  ///@}
+
   /// Values of PathModel.
   enum PathModels
   {

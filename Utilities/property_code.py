@@ -128,7 +128,7 @@ def declares(text, item, what):
         return re.search(rf"^ +[\w:<>, ]+ {name}(\[\d\])?( = .*)?;", text, re.MULTILINE) is not None
     if what == "visits":
         return re.search(rf'use\("{name}"', text) is not None
-    return re.search(rf"\b(Set{name}|{item.command})\(|Set\w*Macro\({name},", text) is not None
+    return re.search(rf"\bvoid (Set{name}|{item.command})\(|Set\w*Macro\({name},", text) is not None
 
 
 def header(text, properties, bases=""):
