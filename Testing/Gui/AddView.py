@@ -58,6 +58,7 @@ assert len(benches) == 2 and max(len(text) for text in benches) < 40e3, [len(tex
 # It is the image of the filter that a script makes, seen in another size than in the window, with a legend.
 assert display.SchlierenLegend == 1
 frame_view(view, 0.015)
+view.ViewSize = SIZE  # a narrow one has no room for the legend
 display.SchlierenLegend = 1
 with_legend = pixels_of(view, SIZE)
 display.SchlierenLegend = 0
