@@ -37,7 +37,7 @@ struct MaskDefault
 /// The index model and arrays that a filter uses by default.
 struct FlowDefaults
 {
-  MediumSettings::Models indexModel = MediumSettings::GladstoneDale;
+  MediumSettings::IndexModels indexModel = MediumSettings::GLADSTONE_DALE;
   FlowArray::Association association = FlowArray::Points;
 
   /// Properties and their arrays; the first is the one to show the flow by. Empty: no array fits,
@@ -110,7 +110,7 @@ VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaultsFromRest(
 
 /// Chooses arrays for a given index model.
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaults(
-  const std::vector<FlowArray>& arrays, MediumSettings::Models model);
+  const std::vector<FlowArray>& arrays, MediumSettings::IndexModels model);
 
 /// Chooses only the fractions of known gases among the arrays of points or cells.
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowSpecies(
@@ -136,7 +136,7 @@ VTKSCHLIERENFILTERS_EXPORT std::string arraysInWords(const std::vector<FlowArray
 /// The input of implausible().
 struct FlowInUse
 {
-  MediumSettings::Models indexModel = MediumSettings::GladstoneDale;
+  MediumSettings::IndexModels indexModel = MediumSettings::GLADSTONE_DALE;
   /// The densities, or for moist air temperature and pressure, with the ranges in use.
   std::vector<FlowArray> arrays;
   std::vector<double> scales; ///< factors to SI units

@@ -45,17 +45,20 @@ struct TransferCurve
 /// meaning, and its setters for their ranges. Equal settings and data give the same medium.
 struct MediumSettings
 {
-  /// Values of IndexModel; see vtkFlowAlgorithm::IndexModels.
-  enum Models
+  // values: IndexModel
+  /// Values of IndexModel.
+  enum IndexModels
   {
-    Auto = -1,
-    GladstoneDale = 0,
-    RefractiveIndex = 1,
-    Refractivity = 2,
-    Mixture = 3,
-    Ciddor = 4,
-    Curves = 5
+    AUTO = -1,
+    GLADSTONE_DALE = 0,
+    REFRACTIVE_INDEX = 1,
+    REFRACTIVITY = 2,
+    GLADSTONE_DALE_MIXTURE = 3,
+    CIDDOR = 4,
+    TRANSFER_FUNCTIONS = 5
   };
+
+  // end
 
   /// Indices of Arrays; see vtkFlowAlgorithm::InputArrays.
   enum ArrayIndex
@@ -110,12 +113,12 @@ struct MediumSettings
   /// Returns whether the model needs a pressure that no array has.
   bool hasUniformPressure() const
   {
-    return this->IndexModel == Ciddor && this->UniformPressure > 0;
+    return this->IndexModel == CIDDOR && this->UniformPressure > 0;
   }
   /// Returns whether the model needs a temperature that the pressure gives.
   bool isIsentropic() const
   {
-    return this->IndexModel == Ciddor && this->StagnationTemperature > 0 &&
+    return this->IndexModel == CIDDOR && this->StagnationTemperature > 0 &&
       !this->hasUniformPressure();
   }
   bool isAxisymmetric() const { return this->Symmetry == 1; }

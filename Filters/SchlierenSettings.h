@@ -74,10 +74,34 @@ struct AccuracySettings
 /// All but the graded filter, which is an object.
 struct SchlierenSettings : ViewSettings, AccuracySettings
 {
-  // Values without an enumeration in the tracer.
-  static constexpr int kAutomatic = 0, kAutomaticKept = 1, kValue = 2, kBench = 3; // KMode
-  static constexpr int scenePattern = 3; // BackgroundPattern
-  static constexpr int lightOfRays = 0;  // LightModel
+  // values: KMode, BackgroundPattern, LightModel
+  /// Values of KMode.
+  enum KModes
+  {
+    K_AUTOMATIC = 0,
+    K_AUTOMATIC_KEPT = 1,
+    K_VALUE = 2,
+    K_BENCH = 3
+  };
+
+  /// Values of BackgroundPattern.
+  enum BackgroundPatterns
+  {
+    DOTS = 0,
+    STRIPES = 1,
+    PICTURE = 2,
+    SCENE = 3
+  };
+
+  /// Values of LightModel.
+  enum LightModels
+  {
+    LIGHT_RAYS = 0,
+    LIGHT_WAVES = 1,
+    LIGHT_AUTO = 2
+  };
+
+  // end
 
   double Wavelength = 632.8;
   int PreviewReduction = 1;

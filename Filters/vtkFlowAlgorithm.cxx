@@ -18,13 +18,6 @@
 
 using namespace filters;
 
-static_assert(vtkFlowAlgorithm::AUTO == static_cast<int>(MediumSettings::Auto) &&
-  vtkFlowAlgorithm::GLADSTONE_DALE == static_cast<int>(MediumSettings::GladstoneDale) &&
-  vtkFlowAlgorithm::REFRACTIVE_INDEX == static_cast<int>(MediumSettings::RefractiveIndex) &&
-  vtkFlowAlgorithm::REFRACTIVITY == static_cast<int>(MediumSettings::Refractivity) &&
-  vtkFlowAlgorithm::GLADSTONE_DALE_MIXTURE == static_cast<int>(MediumSettings::Mixture) &&
-  vtkFlowAlgorithm::CIDDOR == static_cast<int>(MediumSettings::Ciddor) &&
-  vtkFlowAlgorithm::TRANSFER_FUNCTIONS == static_cast<int>(MediumSettings::Curves));
 static_assert(vtkFlowAlgorithm::DENSITY == static_cast<int>(MediumSettings::DensityArray) &&
   vtkFlowAlgorithm::INDEX_ARRAY == static_cast<int>(MediumSettings::IndexArray) &&
   vtkFlowAlgorithm::TEMPERATURE == static_cast<int>(MediumSettings::TemperatureArray) &&

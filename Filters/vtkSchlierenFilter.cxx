@@ -68,11 +68,6 @@ static_assert(sameValue(Self::EXIT_AUTO, schlieren::ExitInto::Auto) &&
   sameValue(Self::EXIT_SURROUNDINGS, schlieren::ExitInto::Surroundings) &&
   sameValue(Self::EXIT_AIR, schlieren::ExitInto::Air) &&
   sameValue(Self::EXIT_CUSTOM, schlieren::ExitInto::Custom));
-static_assert(Self::K_AUTOMATIC == SchlierenSettings::kAutomatic &&
-  Self::K_AUTOMATIC_KEPT == SchlierenSettings::kAutomaticKept &&
-  Self::K_VALUE == SchlierenSettings::kValue && Self::K_BENCH == SchlierenSettings::kBench);
-static_assert(Self::SCENE == SchlierenSettings::scenePattern &&
-  Self::LIGHT_RAYS == SchlierenSettings::lightOfRays);
 
 /// The direction of both outputs, which since VTK 9.3 would else be the input's.
 constexpr double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };

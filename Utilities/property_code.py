@@ -6,6 +6,7 @@ A header has it between a line such as
 
     // members: View             the members of a group of the panel, with their defaults
     // visits: StepSize, Gamma   use("StepSize", &S::StepSize), for these properties
+    // values: KMode             the enumeration of a property
     // setters: rest             setters and getters of what no other section of this file has
 
 and // end. `members` and `visits` of MediumSettings.h are those of RefractiveIndex.xml and of what Schlieren.xml has of
@@ -17,7 +18,7 @@ import re
 import textwrap
 
 WIDTH = 100
-SECTION = re.compile(r"^( *)// (members|visits|setters): (.*)\n(?:.*\n)*?^ *// end\n", re.MULTILINE)
+SECTION = re.compile(r"^( *)// (members|visits|setters|values): (.*)\n(?:.*\n)*?^ *// end\n", re.MULTILINE)
 TYPES_OF_RANGES = {"double": "Double", "int": "Int"}
 TYPES = {"Double": "double", "Int": "int", "String": "std::string"}
 
@@ -135,8 +136,8 @@ def header(text, properties, bases=""):
     """A header with its sections as they should be. `properties`: in order; `bases`: text that it follows."""
     by_hand = SECTION.sub("", text) + bases
     named = set()
-    for _, _, chosen in SECTION.findall(text):
-        named.update(name.strip() for name in chosen.split(","))
+    for _, what, chosen in SECTION.findall(text):
+        named.update(name.strip() for name in chosen.split(",") if what != "values")
 
     def replace(match):
         indent, what, chosen = match.groups()
@@ -147,7 +148,9 @@ def header(text, properties, bases=""):
             is_rest = "rest" in names and item.name not in named and item.group not in named
             if not type_of(item) or not (is_named or is_rest):
                 continue
-            if declares(by_hand, item, what):
+            if what == "values":
+                blocks.append(enumeration(item)[0][:-1])
+            elif declares(by_hand, item, what):
                 blocks.append(enumeration(item)[0][:-1] if what == "setters" and size_of(item) else [])
             elif what == "setters":
                 blocks.append(setters(item))
@@ -155,7 +158,7 @@ def header(text, properties, bases=""):
                 blocks.append([member(item) if what == "members" else f'use("{item.name}", &S::{item.name});'])
         lines = []
         for block in filter(None, blocks):
-            lines += block + ([""] if what == "setters" else [])
+            lines += block + ([""] if what in ("setters", "values") else [])
         body = "".join(f"{indent}{line}\n" if line else "\n" for line in lines)
         return f"{indent}// {what}: {chosen}\n{body}{indent}// end\n"
 

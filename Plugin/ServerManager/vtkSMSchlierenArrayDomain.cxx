@@ -28,10 +28,10 @@ FlowDefaults defaultsFor(const std::string& property, const std::vector<FlowArra
   }
   if (property != "IndexArray")
   {
-    return flowDefaults(arrays, MediumSettings::Ciddor);
+    return flowDefaults(arrays, MediumSettings::CIDDOR);
   }
-  const FlowDefaults index = flowDefaults(arrays, MediumSettings::RefractiveIndex);
-  return index.arrays.empty() ? flowDefaults(arrays, MediumSettings::Refractivity) : index;
+  const FlowDefaults index = flowDefaults(arrays, MediumSettings::REFRACTIVE_INDEX);
+  return index.arrays.empty() ? flowDefaults(arrays, MediumSettings::REFRACTIVITY) : index;
 }
 
 /// Chooses an array; an empty name: none is known.

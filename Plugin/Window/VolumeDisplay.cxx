@@ -45,7 +45,7 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
     const double byUnit = scaleByUnit("Density", defaults.arrayOf("Density"));
     switch (given < 0 ? defaults.indexModel : given)
     {
-      case MediumSettings::GladstoneDale:
+      case MediumSettings::GLADSTONE_DALE:
         if (!gas || !*gas || std::strcmp(gas, "Custom") == 0)
         {
           return ambient[0] /
@@ -55,9 +55,9 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
                                 : 1));
         }
         break;
-      case MediumSettings::RefractiveIndex:
+      case MediumSettings::REFRACTIVE_INDEX:
         return 1 + ambient[0];
-      case MediumSettings::Refractivity:
+      case MediumSettings::REFRACTIVITY:
         return ambient[0];
       default:
         break;

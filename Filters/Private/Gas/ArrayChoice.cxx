@@ -75,8 +75,8 @@ std::string inWords(const MediumSettings& settings)
     text += "; isentropic, at rest " + textOf(settings.StagnationTemperature, 6) + " K and " +
       textOf(settings.StagnationPressure, 6) + " Pa";
   }
-  for (std::size_t i = 0; settings.IndexModel == S::Mixture && i < settings.MixtureArrays.size();
-       ++i)
+  for (std::size_t i = 0;
+       settings.IndexModel == S::GLADSTONE_DALE_MIXTURE && i < settings.MixtureArrays.size(); ++i)
   {
     text += (i > 0 ? ", '" : "; fractions: '") + settings.MixtureArrays[i] + "'";
   }
@@ -190,7 +190,7 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
 {
   switch (settings.IndexModel)
   {
-    case S::Ciddor:
+    case S::CIDDOR:
       if (settings.hasUniformPressure())
       {
         return { S::TemperatureArray, S::HumidityArray };
@@ -200,10 +200,10 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
         return { S::PressureArray, S::HumidityArray };
       }
       return { S::TemperatureArray, S::PressureArray, S::HumidityArray };
-    case S::Curves:
+    case S::TRANSFER_FUNCTIONS:
       return {};
-    case S::RefractiveIndex:
-    case S::Refractivity:
+    case S::REFRACTIVE_INDEX:
+    case S::REFRACTIVITY:
       return { S::IndexArray };
     default:
       return { S::DensityArray };
@@ -220,8 +220,8 @@ double kelvinsOf(const MediumSettings& settings)
 //------------------------------------------------------------------------------
 bool isOpen(const MediumSettings& settings)
 {
-  return settings.IndexModel == S::Auto ||
-    (settings.IndexModel == S::Mixture && settings.MixtureArrays.empty()) ||
+  return settings.IndexModel == S::AUTO ||
+    (settings.IndexModel == S::GLADSTONE_DALE_MIXTURE && settings.MixtureArrays.empty()) ||
     lacksArrays(settings) || !settings.Arrays[S::MaskArray].isChosen();
 }
 
@@ -234,7 +234,7 @@ FlowDefaults chooseArrays(
   const MediumSettings& given, const std::vector<FlowArray>& known, MediumChoice& choice)
 {
   MediumSettings& settings = choice.settings;
-  const bool isAuto = given.IndexModel == S::Auto;
+  const bool isAuto = given.IndexModel == S::AUTO;
   const std::vector<FlowArray> arrays = given.UniformPressure > 0
     ? withUniformPressure(known, given.UniformPressure)
     : given.StagnationTemperature > 0 ? withStagnation(known, given.StagnationTemperature)
@@ -248,11 +248,12 @@ FlowDefaults chooseArrays(
   else
   {
     settings.IndexModel = !isAuto   ? given.IndexModel
-      : given.MixtureArrays.empty() ? S::GladstoneDale
-                                    : S::Mixture;
+      : given.MixtureArrays.empty() ? S::GLADSTONE_DALE
+                                    : S::GLADSTONE_DALE_MIXTURE;
     if (lacksArrays(settings))
     {
-      defaults = flowDefaults(arrays, static_cast<MediumSettings::Models>(settings.IndexModel));
+      defaults =
+        flowDefaults(arrays, static_cast<MediumSettings::IndexModels>(settings.IndexModel));
     }
   }
   for (const std::size_t index : arraysOfModel(settings))
@@ -277,15 +278,16 @@ FlowDefaults chooseArrays(
 void chooseMixture(
   const MediumSettings& given, const std::vector<FlowArray>& known, MediumSettings& settings)
 {
-  const bool isAuto = given.IndexModel == S::Auto;
+  const bool isAuto = given.IndexModel == S::AUTO;
   // A gas of the user's own excludes mixtures.
   const bool isOneGas =
     !isCustom(given.Gas) || given.GladstoneDaleConstant != MediumSettings::defaultConstant;
-  const bool mayBeMixture = settings.IndexModel == S::Mixture ||
-    (isAuto && settings.IndexModel == S::GladstoneDale && !isOneGas);
-  if (isAuto && isOneGas && settings.IndexModel == S::Mixture && given.MixtureArrays.empty())
+  const bool mayBeMixture = settings.IndexModel == S::GLADSTONE_DALE_MIXTURE ||
+    (isAuto && settings.IndexModel == S::GLADSTONE_DALE && !isOneGas);
+  if (isAuto && isOneGas && settings.IndexModel == S::GLADSTONE_DALE_MIXTURE &&
+    given.MixtureArrays.empty())
   {
-    settings.IndexModel = S::GladstoneDale;
+    settings.IndexModel = S::GLADSTONE_DALE;
   }
   else if (mayBeMixture && given.MixtureArrays.empty())
   {
@@ -293,7 +295,7 @@ void chooseMixture(
       known, settings.Arrays[S::DensityArray].cellsFirst ? FlowArray::Cells : FlowArray::Points);
     if (!species.fractions.empty())
     {
-      settings.IndexModel = S::Mixture;
+      settings.IndexModel = S::GLADSTONE_DALE_MIXTURE;
       settings.MixtureArrays = species.fractions;
       settings.MixtureGases = given.MixtureGases.empty() ? species.gases : given.MixtureGases;
       settings.FractionType = species.ofVolume ? 1 : 0;
@@ -311,16 +313,17 @@ void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, Med
     const std::string& name = settings.Arrays[index].name;
     const double byUnit = scaleByUnit(property, name);
     // A unit that is concluded from values, such as hPa, belongs to the default arrays only.
-    const bool isOfDefaults = given.IndexModel == S::Auto && name == defaults.arrayOf(property);
+    const bool isOfDefaults = given.IndexModel == S::AUTO && name == defaults.arrayOf(property);
     const double byValues = isOfDefaults ? scaleIn(defaults, property + "Scale") : 0;
     choice.isScaleKnown = scale != 0 || byUnit != 0 || byValues != 0;
     return scale != 0 ? scale : byUnit != 0 ? byUnit : byValues != 0 ? byValues : 1;
   };
-  if (settings.IndexModel == S::Ciddor)
+  if (settings.IndexModel == S::CIDDOR)
   {
     settings.PressureScale = scaleOf(S::PressureArray, given.PressureScale);
   }
-  else if (settings.IndexModel == S::GladstoneDale || settings.IndexModel == S::Mixture)
+  else if (settings.IndexModel == S::GLADSTONE_DALE ||
+    settings.IndexModel == S::GLADSTONE_DALE_MIXTURE)
   {
     settings.DensityScale = scaleOf(S::DensityArray, given.DensityScale);
   }

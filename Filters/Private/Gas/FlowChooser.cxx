@@ -109,19 +109,19 @@ bool FlowChooser::choose()
 }
 
 //------------------------------------------------------------------------------
-bool FlowChooser::choose(MediumSettings::Models model)
+bool FlowChooser::choose(MediumSettings::IndexModels model)
 {
   this->Result.indexModel = model;
   switch (model)
   {
-    case MediumSettings::RefractiveIndex:
+    case MediumSettings::REFRACTIVE_INDEX:
       return this->refractiveIndex();
-    case MediumSettings::Refractivity:
+    case MediumSettings::REFRACTIVITY:
       return this->refractivity();
-    case MediumSettings::Ciddor:
+    case MediumSettings::CIDDOR:
       return this->moistAir();
     default:
-      return this->density(model == MediumSettings::Mixture);
+      return this->density(model == MediumSettings::GLADSTONE_DALE_MIXTURE);
   }
 }
 
@@ -224,7 +224,7 @@ bool FlowChooser::refractivity()
   {
     return false;
   }
-  this->take(MediumSettings::Refractivity, array->association, { { "IndexArray", array->name } });
+  this->take(MediumSettings::REFRACTIVITY, array->association, { { "IndexArray", array->name } });
   this->Result.message = "Refractivity n - 1: " + quoted(array->name) + ".";
   return true;
 }
@@ -238,7 +238,7 @@ bool FlowChooser::refractiveIndex()
     return false;
   }
   this->take(
-    MediumSettings::RefractiveIndex, array->association, { { "IndexArray", array->name } });
+    MediumSettings::REFRACTIVE_INDEX, array->association, { { "IndexArray", array->name } });
   this->Result.message = "Refractive index n: " + quoted(array->name) + ".";
   return true;
 }
@@ -316,7 +316,7 @@ void FlowChooser::species()
       list += (list.empty() ? "" : ", ") + quoted(fraction.array);
     }
   }
-  this->Result.indexModel = MediumSettings::Mixture;
+  this->Result.indexModel = MediumSettings::GLADSTONE_DALE_MIXTURE;
   this->Result.message += this->Result.ofVolume ? "; volume" : "; mass";
   this->Result.message += " fractions: " + list;
 }
@@ -375,7 +375,7 @@ bool FlowChooser::moistAir(FlowArray::Association association)
   {
     pascals = 1000;
   }
-  this->take(MediumSettings::Ciddor, association,
+  this->take(MediumSettings::CIDDOR, association,
     { { "Temperature", temperature.array->name }, { "Pressure", pressure.array->name } });
   this->Result.message = "Air; temperature: " + quoted(temperature.array->name);
   if (kelvins == 1)
@@ -418,7 +418,7 @@ void FlowChooser::humidity(FlowArray::Association association)
 }
 
 //------------------------------------------------------------------------------
-void FlowChooser::take(MediumSettings::Models model, FlowArray::Association association,
+void FlowChooser::take(MediumSettings::IndexModels model, FlowArray::Association association,
   std::vector<std::pair<std::string, std::string>> arrays)
 {
   this->Result.indexModel = model;

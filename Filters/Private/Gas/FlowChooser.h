@@ -45,7 +45,7 @@ public:
 
   /// Chooses what gives the index; of a model, its arrays. Returns whether there are some.
   bool choose();
-  bool choose(MediumSettings::Models model);
+  bool choose(MediumSettings::IndexModels model);
   /// Chooses the fractions alone.
   void chooseSpecies(FlowArray::Association association);
 
@@ -78,7 +78,7 @@ private:
   /// Chooses a relative humidity between 0 and 1, not one in percent.
   void humidity(FlowArray::Association association);
 
-  void take(MediumSettings::Models model, FlowArray::Association association,
+  void take(MediumSettings::IndexModels model, FlowArray::Association association,
     std::vector<std::pair<std::string, std::string>> arrays);
 
   std::vector<FlowArray> Arrays;

@@ -164,7 +164,7 @@ FlowDefaults flowDefaultsFromRest(const std::vector<FlowArray>& arrays, double k
 }
 
 //------------------------------------------------------------------------------
-FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays, MediumSettings::Models model)
+FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays, MediumSettings::IndexModels model)
 {
   FlowChooser chooser(arrays);
   const bool isFound = chooser.choose(model);

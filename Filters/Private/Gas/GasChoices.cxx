@@ -53,11 +53,11 @@ std::string noteOn(const schlieren::Gas& gas, double wavelength)
 std::vector<std::string> namesUsed(const MediumSettings& settings)
 {
   std::vector<std::string> names;
-  if (settings.IndexModel == MediumSettings::GladstoneDale)
+  if (settings.IndexModel == MediumSettings::GLADSTONE_DALE)
   {
     names = { settings.Gas };
   }
-  else if (settings.IndexModel == MediumSettings::Mixture)
+  else if (settings.IndexModel == MediumSettings::GLADSTONE_DALE_MIXTURE)
   {
     names = settings.MixtureGases;
     names.push_back(settings.BackgroundGas);
@@ -163,14 +163,14 @@ double wavelengthOfGases(const MediumSettings& settings)
 bool usesWavelength(const MediumSettings& settings)
 {
   const std::vector<std::string> names = namesUsed(settings);
-  return settings.IndexModel == MediumSettings::Ciddor ||
+  return settings.IndexModel == MediumSettings::CIDDOR ||
     std::any_of(names.begin(), names.end(), schlieren::findGas);
 }
 
 //------------------------------------------------------------------------------
 std::function<double(double)> dispersionOfGases(const MediumSettings& settings, double reference)
 {
-  if (settings.IndexModel == MediumSettings::Ciddor)
+  if (settings.IndexModel == MediumSettings::CIDDOR)
   {
     const auto at = [](double wavelength) { return schlieren::MoistAir::at(wavelength).dry; };
     return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };

@@ -67,7 +67,7 @@ Implausible ofDensity(const FlowInUse& flow)
         "of it." };
   }
   const double low = array.range[0] * flow.scales[0], high = array.range[1] * flow.scales[0];
-  if (low == high && flow.indexModel == MediumSettings::GladstoneDale)
+  if (low == high && flow.indexModel == MediumSettings::GLADSTONE_DALE)
   {
     return { "constant",
       "The density '" + array.name + "' is " + textOf(array.range[0], 3) +
@@ -167,10 +167,10 @@ Implausible implausible(const FlowInUse& flow)
   }
   switch (flow.indexModel)
   {
-    case MediumSettings::GladstoneDale:
-    case MediumSettings::Mixture:
+    case MediumSettings::GLADSTONE_DALE:
+    case MediumSettings::GLADSTONE_DALE_MIXTURE:
       return flow.arrays.size() == 1 ? ofDensity(flow) : Implausible();
-    case MediumSettings::Ciddor:
+    case MediumSettings::CIDDOR:
       return flow.arrays.size() == 2 ? ofMoistAir(flow) : Implausible();
     default:
       return {};

@@ -162,7 +162,7 @@ std::string CiddorAir::warning(const std::string& fraction) const
 //------------------------------------------------------------------------------
 FieldMean fieldMeanFrom(const MediumSettings& settings)
 {
-  const bool isModel = settings.IndexModel == MediumSettings::Curves;
+  const bool isModel = settings.IndexModel == MediumSettings::TRANSFER_FUNCTIONS;
   const auto& functions = settings.TransferFunctions;
   const std::vector<double>& ranges = settings.FieldRanges;
   const std::size_t fields = settings.Fields.size();
@@ -198,15 +198,15 @@ Model modelFrom(const MediumSettings& settings)
 {
   switch (settings.IndexModel)
   {
-    case MediumSettings::GladstoneDale:
+    case MediumSettings::GLADSTONE_DALE:
       return gladstoneDale(settings);
-    case MediumSettings::Mixture:
+    case MediumSettings::GLADSTONE_DALE_MIXTURE:
       return gasMixture(settings);
-    case MediumSettings::Ciddor:
+    case MediumSettings::CIDDOR:
       return ciddorAir(settings);
-    case MediumSettings::Curves:
+    case MediumSettings::TRANSFER_FUNCTIONS:
       return fieldMeanFrom(settings);
-    case MediumSettings::RefractiveIndex:
+    case MediumSettings::REFRACTIVE_INDEX:
       return Linear{ 1, -1 };
     default:
       return Linear();
@@ -226,17 +226,17 @@ std::vector<Selection> selectionsFrom(const MediumSettings& settings)
   std::vector<Selection> selections;
   switch (settings.IndexModel)
   {
-    case S::GladstoneDale:
+    case S::GLADSTONE_DALE:
       selections = { selectionOf(settings, S::DensityArray) };
       break;
-    case S::Mixture:
+    case S::GLADSTONE_DALE_MIXTURE:
       selections = { selectionOf(settings, S::DensityArray) };
       for (const std::string& name : settings.MixtureArrays)
       {
         selections.push_back({ "MixtureArrays", { name, -1, selections[0].cellsFirst } });
       }
       break;
-    case S::Ciddor:
+    case S::CIDDOR:
       for (const std::size_t index : arraysOfModel(settings))
       {
         if (index != S::HumidityArray || settings.Arrays[index].isNamed())
@@ -245,7 +245,7 @@ std::vector<Selection> selectionsFrom(const MediumSettings& settings)
         }
       }
       break;
-    case S::Curves:
+    case S::TRANSFER_FUNCTIONS:
       for (const std::string& name : settings.Fields)
       {
         selections.push_back({ "Fields", { name } });

@@ -59,8 +59,8 @@ bool usesK(const SchlierenSettings& optics) { return techniqueOf(optics).hasK();
 bool choosesK(const SchlierenSettings& optics)
 {
   return usesK(optics) &&
-    (optics.KMode == SchlierenSettings::kAutomatic ||
-      optics.KMode == SchlierenSettings::kAutomaticKept);
+    (optics.KMode == SchlierenSettings::K_AUTOMATIC ||
+      optics.KMode == SchlierenSettings::K_AUTOMATIC_KEPT);
 }
 
 //------------------------------------------------------------------------------
@@ -82,7 +82,7 @@ double offsetOfOptics(const SchlierenSettings& optics)
 void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
 {
   scene.cutoffOffset = optics.CutoffOffset;
-  if (optics.KMode == SchlierenSettings::kBench)
+  if (optics.KMode == SchlierenSettings::K_BENCH)
   {
     requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
     requirePositive("SourceWidth", optics.SourceWidth, "mm", "the source's image");
@@ -94,7 +94,7 @@ void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
     scene.kScale = kOfOptics(optics);
     scene.cutoffOffset = offsetOfOptics(optics);
   }
-  else if (optics.KMode == SchlierenSettings::kValue)
+  else if (optics.KMode == SchlierenSettings::K_VALUE)
   {
     scene.kScale = optics.KScale;
   }
@@ -144,7 +144,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
     words += "; optics: " + textOf(focalLength, 4) + " m focal length, source " +
       textOf(focalLength / k / metresPerMillimetre, 4) + " mm wide";
   }
-  if (settings.KMode == SchlierenSettings::kBench && technique.hasEdge)
+  if (settings.KMode == SchlierenSettings::K_BENCH && technique.hasEdge)
   {
     words += ", the edge " + textOf(settings.CutoffPosition, 4) + " mm in (offset " +
       textOf(offsetOfOptics(settings), 4) + ")";

@@ -52,7 +52,7 @@ schlieren::BackgroundPattern backgroundFrom(
   const SchlierenSettings& settings, RgbImageReader& images)
 {
   schlieren::BackgroundPattern pattern;
-  if (settings.BackgroundPattern == SchlierenSettings::scenePattern)
+  if (settings.BackgroundPattern == SchlierenSettings::SCENE)
   {
     return pattern; // addBackground() sets it
   }
@@ -234,7 +234,7 @@ schlieren::Scene sceneFrom(
     : schlieren::Interpolation::Quadratic;
   // A target error chooses steps itself; waves take so many rays that a longer time for each counts.
   const bool areExact = scene.precision == schlieren::Precision::Double &&
-    settings.LightModel == SchlierenSettings::lightOfRays;
+    settings.LightModel == SchlierenSettings::LIGHT_RAYS;
   scene.integrator =
     !hasTarget && areExact ? schlieren::Integrator::Adaptive : schlieren::Integrator::Leapfrog;
   scene.estimatesErrors = settings.ErrorEstimate;
@@ -267,7 +267,7 @@ void addBackground(
   schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background)
 {
   if (!schlieren::isOfCamera(scene.cutoff) ||
-    settings.BackgroundPattern != SchlierenSettings::scenePattern)
+    settings.BackgroundPattern != SchlierenSettings::SCENE)
   {
     return;
   }

@@ -69,7 +69,7 @@ std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& n
     this->Last->medium == now.medium &&
     (this->Last->data == now.data || isAtOtherTime(*this->Last, now)) &&
     (!this->Origin || this->Origin->rays == now.rays || isAtOtherTime(*this->Origin, now) ||
-      mode == SchlierenSettings::kAutomaticKept);
+      mode == SchlierenSettings::K_AUTOMATIC_KEPT);
   if (this->Last && !holds)
   {
     this->Drop();

@@ -228,8 +228,8 @@ std::string labelOf(const Arrays& arrays, const std::vector<Selection>& selectio
 vtkDataArray* computedBefore(
   const MediumSettings& settings, vtkImageData* image, const Selection& selection)
 {
-  if (!image || settings.IndexModel == MediumSettings::RefractiveIndex ||
-    (settings.IndexModel == MediumSettings::Curves && !settings.Fields.empty()))
+  if (!image || settings.IndexModel == MediumSettings::REFRACTIVE_INDEX ||
+    (settings.IndexModel == MediumSettings::TRANSFER_FUNCTIONS && !settings.Fields.empty()))
   {
     return nullptr;
   }
@@ -374,22 +374,22 @@ std::vector<std::string> arraysOf(const MediumSettings& settings)
 Implausible implausibleIn(const Source& source)
 {
   const MediumSettings& settings = source.choice.settings;
-  if (source.isComputed || settings.IndexModel == MediumSettings::Curves)
+  if (source.isComputed || settings.IndexModel == MediumSettings::TRANSFER_FUNCTIONS)
   {
     return {};
   }
   FlowInUse flow;
-  flow.indexModel = static_cast<MediumSettings::Models>(settings.IndexModel);
+  flow.indexModel = static_cast<MediumSettings::IndexModels>(settings.IndexModel);
   flow.isScaleGiven = source.choice.isScaleKnown;
-  const bool isIndex = settings.IndexModel == MediumSettings::RefractiveIndex ||
-    settings.IndexModel == MediumSettings::Refractivity;
-  flow.scales = settings.IndexModel == MediumSettings::Ciddor
+  const bool isIndex = settings.IndexModel == MediumSettings::REFRACTIVE_INDEX ||
+    settings.IndexModel == MediumSettings::REFRACTIVITY;
+  flow.scales = settings.IndexModel == MediumSettings::CIDDOR
     ? std::vector<double>{ kelvinsOf(settings), settings.PressureScale }
     : std::vector<double>{ isIndex ? 1 : settings.DensityScale };
   const bool isOfTable = !isCustom(settings.Gas);
-  flow.isGas = settings.IndexModel == MediumSettings::Mixture || isOfTable ||
+  flow.isGas = settings.IndexModel == MediumSettings::GLADSTONE_DALE_MIXTURE || isOfTable ||
     settings.GladstoneDaleConstant == MediumSettings::defaultConstant;
-  if (isOfTable && settings.IndexModel == MediumSettings::GladstoneDale)
+  if (isOfTable && settings.IndexModel == MediumSettings::GLADSTONE_DALE)
   {
     flow.constant = gasFrom("Gas", settings.Gas)->constantAt(wavelengthOfGases(settings));
   }

@@ -52,14 +52,14 @@ MediumSettings settingsOfField(
   const MediumSettings& medium, std::size_t field, const std::vector<FieldMean::Range>& ranges)
 {
   MediumSettings settings;
-  settings.IndexModel = MediumSettings::Curves;
+  settings.IndexModel = MediumSettings::TRANSFER_FUNCTIONS;
   settings.RefractivityScale = 1;
   settings.Depth = medium.Depth;
   settings.Symmetry = medium.Symmetry;
   settings.SymmetryAxis = medium.SymmetryAxis;
   std::copy_n(medium.SymmetryOrigin, 3, settings.SymmetryOrigin);
   settings.Fields = { medium.Fields[field] };
-  if (medium.IndexModel == MediumSettings::Curves && !medium.TransferFunctions.empty())
+  if (medium.IndexModel == MediumSettings::TRANSFER_FUNCTIONS && !medium.TransferFunctions.empty())
   {
     settings.TransferFunctions = { medium.TransferFunctions[field] };
   }

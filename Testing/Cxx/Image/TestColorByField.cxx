@@ -265,7 +265,7 @@ TEST(ColorByField, FieldsEndWithTheGas)
   {
     SCOPED_TRACE(data->GetClassName());
     filters::MediumMaker maker;
-    maker.settings.IndexModel = MediumSettings::Refractivity;
+    maker.settings.IndexModel = MediumSettings::REFRACTIVITY;
     maker.settings.Arrays[MediumSettings::IndexArray].name = "N";
     maker.settings.Fields = { "A" };
     const auto source = maker.make(maker.choose(data), body, true)->Source;

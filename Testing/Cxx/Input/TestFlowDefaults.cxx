@@ -25,7 +25,7 @@ const FlowArray velocity = { "U", FlowArray::Points, 3, { -1, 1 } };
 double densityScaleOf(const std::string& name)
 {
   const FlowDefaults chosen = flowDefaults({ scalar("Mach", 0, 3), scalar(name, 0.1, 2) });
-  if (chosen.indexModel != MediumSettings::GladstoneDale ||
+  if (chosen.indexModel != MediumSettings::GLADSTONE_DALE ||
     chosen.arrays != Arrays{ { "Density", name } })
   {
     return 0;
@@ -99,7 +99,7 @@ TEST(FlowDefaults, PointsBeforeCellsAndNeverBoth)
   EXPECT_EQ(points.association, FlowArray::Points);
 
   const FlowDefaults noMixture = flowDefaults({ ofCells, scalar("Y_He", 0, 1) });
-  EXPECT_EQ(noMixture.indexModel, MediumSettings::GladstoneDale);
+  EXPECT_EQ(noMixture.indexModel, MediumSettings::GLADSTONE_DALE);
   EXPECT_TRUE(noMixture.fractions.empty());
 }
 
@@ -107,7 +107,7 @@ TEST(FlowDefaults, MixtureOfGasesThatAreKnown)
 {
   const FlowDefaults chosen = flowDefaults({ scalar("rho", 0.2, 1.2), scalar("Y_He", 0, 1),
     scalar("YCO2", -1e-6, 0.4), scalar("Y_OH", 0, 0.1), velocity, scalar("T", 300, 400) });
-  EXPECT_EQ(chosen.indexModel, MediumSettings::Mixture);
+  EXPECT_EQ(chosen.indexModel, MediumSettings::GLADSTONE_DALE_MIXTURE);
   EXPECT_EQ(chosen.arrays, (Arrays{ { "Density", "rho" } }));
   EXPECT_EQ(chosen.fractions, (Strings{ "Y_He", "YCO2" }));
   EXPECT_EQ(chosen.gases, (Strings{ "He", "CO2" }));
@@ -145,12 +145,12 @@ TEST(FlowDefaults, MoistAirWhereThereIsNoDensity)
 {
   const FlowDefaults chosen =
     flowDefaults({ scalar("p", 9e4, 1.1e5), scalar("T", 280, 1500), velocity });
-  EXPECT_EQ(chosen.indexModel, MediumSettings::Ciddor);
+  EXPECT_EQ(chosen.indexModel, MediumSettings::CIDDOR);
   EXPECT_EQ(chosen.arrays, (Arrays{ { "Temperature", "T" }, { "Pressure", "p" } }));
   EXPECT_TRUE(chosen.scales.empty());
   EXPECT_EQ(flowDefaults({ scalar("p", 9e4, 1.1e5), scalar("T", 280, 300), scalar("rho", 1, 2) })
               .indexModel,
-    MediumSettings::GladstoneDale);
+    MediumSettings::GLADSTONE_DALE);
 }
 
 TEST(FlowDefaults, PressureUnits)
@@ -158,7 +158,7 @@ TEST(FlowDefaults, PressureUnits)
   const auto scaleOf = [](const FlowArray& pressure) -> double
   {
     const FlowDefaults chosen = flowDefaults({ pressure, scalar("Temperature", 280, 320) });
-    if (chosen.indexModel != MediumSettings::Ciddor)
+    if (chosen.indexModel != MediumSettings::CIDDOR)
     {
       return 0;
     }
@@ -210,19 +210,19 @@ TEST(FlowDefaults, RefractiveIndexByNameAndRange)
   for (const char* name : { "n", "RefractiveIndex", "Index of Refraction", "IOR" })
   {
     const FlowDefaults chosen = flowDefaults({ scalar("rho", 1, 2), scalar(name, 1.33, 1.5) });
-    EXPECT_EQ(chosen.indexModel, MediumSettings::RefractiveIndex) << name;
+    EXPECT_EQ(chosen.indexModel, MediumSettings::REFRACTIVE_INDEX) << name;
     EXPECT_EQ(chosen.arrays, (Arrays{ { "IndexArray", name } }));
   }
   // A number density.
   EXPECT_EQ(flowDefaults({ scalar("n", 0, 1e20), scalar("rho", 1, 2) }).indexModel,
-    MediumSettings::GladstoneDale);
+    MediumSettings::GLADSTONE_DALE);
 }
 
 TEST(FlowDefaults, WhatTheFilterMadeIsTakenAsItIs)
 {
   const FlowDefaults chosen =
     flowDefaults({ scalar("vtkValidPointMask", 0, 1), scalar("Refractivity", 0, 3e-4) });
-  EXPECT_EQ(chosen.indexModel, MediumSettings::Refractivity);
+  EXPECT_EQ(chosen.indexModel, MediumSettings::REFRACTIVITY);
   EXPECT_EQ(chosen.arrays, (Arrays{ { "IndexArray", "Refractivity" } }));
 }
 
@@ -278,7 +278,7 @@ TEST(FlowDefaults, SetsOfArraysThatSolversWrite)
   // Combustion: the fractions of known gases, too.
   const FlowDefaults flame = flowDefaults({ scalar("density", .2, 1.1), scalar("temp", 298, 1580),
     scalar("Y(H2)", 0, .1), scalar("Y(O2)", 0, .23), scalar("Y(OH)", 0, .01) });
-  EXPECT_EQ(flame.indexModel, MediumSettings::Mixture);
+  EXPECT_EQ(flame.indexModel, MediumSettings::GLADSTONE_DALE_MIXTURE);
   EXPECT_EQ(flame.fractions, (Strings{ "Y(H2)", "Y(O2)" }));
   EXPECT_EQ(flame.gases, (Strings{ "H2", "O2" }));
 }
@@ -288,13 +288,13 @@ TEST(FlowDefaults, ArraysOfAModelThatIsGiven)
   const std::vector<FlowArray> all = { scalar("p", 9e4, 1e5), scalar("T", 280, 300),
     scalar("RH", 0, 0.8), scalar("rho", 1, 1.2), scalar("ior", 1, 1.0003),
     scalar("Refractivity", 0, 3e-4) };
-  const FlowDefaults air = flowDefaults(all, MediumSettings::Ciddor);
+  const FlowDefaults air = flowDefaults(all, MediumSettings::CIDDOR);
   EXPECT_EQ(
     air.arrays, (Arrays{ { "Temperature", "T" }, { "Pressure", "p" }, { "Humidity", "RH" } }));
-  EXPECT_EQ(flowDefaults(all, MediumSettings::GladstoneDale).arrayOf("Density"), "rho");
-  EXPECT_EQ(flowDefaults(all, MediumSettings::RefractiveIndex).arrayOf("IndexArray"), "ior");
-  EXPECT_EQ(flowDefaults(all, MediumSettings::Refractivity).arrayOf("IndexArray"), "Refractivity");
-  EXPECT_TRUE(flowDefaults({ scalar("f", 0, 1) }, MediumSettings::Ciddor).arrays.empty());
+  EXPECT_EQ(flowDefaults(all, MediumSettings::GLADSTONE_DALE).arrayOf("Density"), "rho");
+  EXPECT_EQ(flowDefaults(all, MediumSettings::REFRACTIVE_INDEX).arrayOf("IndexArray"), "ior");
+  EXPECT_EQ(flowDefaults(all, MediumSettings::REFRACTIVITY).arrayOf("IndexArray"), "Refractivity");
+  EXPECT_TRUE(flowDefaults({ scalar("f", 0, 1) }, MediumSettings::CIDDOR).arrays.empty());
 }
 
 TEST(FlowDefaults, NothingToChooseFrom)
@@ -344,7 +344,7 @@ std::string kindOf(
 std::string kindOfAir(const FlowArray& temperature, const FlowArray& pressure, double pascals = 1)
 {
   FlowInUse flow;
-  flow.indexModel = MediumSettings::Ciddor;
+  flow.indexModel = MediumSettings::CIDDOR;
   flow.arrays = { temperature, pressure };
   flow.scales = { 1, pascals };
   return implausible(flow).kind;
@@ -378,7 +378,7 @@ TEST(Implausible, LiquidsOfWhichTheUserGivesTheIndexOrTheConstant)
   EXPECT_EQ(implausible(water).kind, "dense");
   water.isGas = false;
   EXPECT_EQ(implausible(water).kind, "");
-  water.indexModel = MediumSettings::RefractiveIndex;
+  water.indexModel = MediumSettings::REFRACTIVE_INDEX;
   water.arrays = { scalar("n", 1.33, 1.33) };
   EXPECT_EQ(implausible(water).kind, "");
 }
@@ -407,7 +407,7 @@ TEST(FlowDefaults, StagnationTemperatureCompletesAPressure)
   EXPECT_NE(flowDefaults(sound).message.find("StagnationTemperature"), std::string::npos);
   EXPECT_TRUE(flowDefaultsAt(sound, pressureOfRoom).arrays.empty());
   const FlowDefaults room = flowDefaultsFromRest(sound, temperatureOfRoom);
-  EXPECT_EQ(room.indexModel, MediumSettings::Ciddor);
+  EXPECT_EQ(room.indexModel, MediumSettings::CIDDOR);
   EXPECT_EQ(room.arrays, (Arrays{ { "Pressure", "Pressure" } }));
   EXPECT_EQ(room.stagnationTemperature, 293.15);
   EXPECT_TRUE(room.isSure);
@@ -429,7 +429,7 @@ TEST(FlowDefaults, UniformPressureCompletesATemperature)
   const std::vector<FlowArray> warm = { velocity, scalar("T", 290, 320, FlowArray::Cells) };
   EXPECT_TRUE(flowDefaults(warm).arrays.empty());
   const FlowDefaults room = flowDefaultsAt(warm, pressureOfRoom);
-  EXPECT_EQ(room.indexModel, MediumSettings::Ciddor);
+  EXPECT_EQ(room.indexModel, MediumSettings::CIDDOR);
   EXPECT_EQ(room.association, FlowArray::Cells);
   EXPECT_EQ(room.arrays, (Arrays{ { "Temperature", "T" } }));
   EXPECT_EQ(room.uniformPressure, 101325);

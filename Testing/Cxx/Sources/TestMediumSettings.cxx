@@ -81,7 +81,7 @@ TEST(MediumSettings, AreThoseOfTheFilter)
   curve->AddPoint(0.5, 3, 0.25, 1);
   filter->AddTransferFunction(curve);
   expected.Arrays[MediumSettings::MaskArray] = { "iblank", -1, true };
-  expected.IndexModel = MediumSettings::Curves;
+  expected.IndexModel = MediumSettings::TRANSFER_FUNCTIONS;
   expected.Fields = { "p" };
   expected.TransferFunctions = { { { { 0, 2, 0.5, 0 }, { 0.5, 3, 0.25, 1 } }, true, false } };
   EXPECT_TRUE(filter->GetMediumSettings() == expected) << printed(filter->GetMediumSettings());

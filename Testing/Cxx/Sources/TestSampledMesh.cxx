@@ -24,7 +24,7 @@ struct Sampled
 Sampled sampled(vtkDataObject* mesh, int n = 21, int threads = 2)
 {
   filters::MediumMaker maker;
-  maker.settings.IndexModel = MediumSettings::Refractivity;
+  maker.settings.IndexModel = MediumSettings::REFRACTIVITY;
   maker.settings.Arrays[MediumSettings::IndexArray].name = "N";
   maker.settings.Outside = static_cast<int>(filters::Outside::Passes);
   maker.numberOfThreads = threads;

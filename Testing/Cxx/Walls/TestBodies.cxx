@@ -96,7 +96,7 @@ Shadow shadowOf(vtkSchlierenFilter* filter)
 std::vector<bool> solidsOf(vtkImageData* flow, vtkDataObject* bodies)
 {
   filters::MediumMaker maker;
-  maker.settings.IndexModel = MediumSettings::Refractivity;
+  maker.settings.IndexModel = MediumSettings::REFRACTIVITY;
   maker.settings.Arrays[MediumSettings::IndexArray].name = "N";
   const auto source = maker.make(maker.choose(flow), bodies)->Source;
   schlieren::Lattice lattice;
