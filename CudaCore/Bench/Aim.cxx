@@ -9,65 +9,37 @@ namespace schlieren
 {
 
 template <class Real>
-Pilot<Real>& Bench::Stages::pilotFor(MediumOnDevices<Real>& onDevices, const Light& light,
-  const UnfinishedImage& request, Image& image)
-{
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
-  const bool wantsAllPixels = scene.estimatesErrors;
-  const RaysOfView ofView = raysFor(onDevices, light, request, image);
-  const Projection projection = projectionFor(ofView.settings, light, request, image);
-  return targets.pilotOf<Real>(
-    { ofView.key, field.lengthScale, projection, scene.seed, wantsAllPixels },
-    [&]
-    {
-      const PilotBench<Real> bench{ &onDevices.medium, light, scene, projection, ofView.settings,
-        ofView.margin };
-      return std::make_unique<Pilot<Real>>(
-        bench, deflectionErrors(onDevices.medium, light, field, image), wantsAllPixels);
-    });
-}
-
-template <class Real>
 bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
 {
   const Field& field = ofImage.field;
   Scene& scene = ofImage.scene;
   UnfinishedImage request(field, scene);
-  Image image = begin(request);
   MediumInUse<Real> inUse(media, field, clearedFor(request));
-  const Light light = prepareMedium(inUse, request, watch, image);
-  if (watch.isAborted())
+  const std::optional<ViewSetup<Real>> view = setUp(inUse, request, watch);
+  if (!view)
   {
     return true;
   }
-  if (inUse.seesChange())
-  {
-    clearRays();
-  }
-  const Medium<Real>& medium = inUse.medium();
-  Pilot<Real>& pilot = pilotFor(inUse.onDevices(), light, request, image);
+  Pilot<Real>& pilot = targets.pilotOf<Real>(
+    { view->key, field.lengthScale, view->projection, scene.seed, scene.estimatesErrors },
+    [&] { return std::make_unique<Pilot<Real>>(*view, scene); });
   const double k = scene.kScale.value_or(
     automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
-  const PixelPlaces pixels = pixelPlacesOf(image.frame, scene.view, light);
   if (ofImage.isPaused)
   {
     pilot.resume();
   }
   else
   {
-    pilot.begin(scene, k, pixels);
+    pilot.begin(scene, k);
   }
-  const KnownErrors known = knownErrors(
-    pilot.bench(), pilot.view(), deflectionErrors(medium, light, field, image).medium, k);
-  if (refine(known, image.medium.isMemoryShort, scene))
+  const KnownErrors known = knownErrors(pilot, k);
+  const bool isMemoryShort = inUse.medium().tree && inUse.medium().tree->statistics().isMemoryShort;
+  if (refine(known, isMemoryShort, scene))
   {
     return false;
   }
-  const bool hasWalls =
-    !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
-  AccurateSettings chosen =
-    chooseFor(pilot, hasWalls, known, targets.lastFor(scene), watch.monitor());
+  AccurateSettings chosen = chooseFor(pilot, known, targets.lastFor(scene), watch.monitor());
   ofImage.isPaused = pilot.isPaused();
   if (watch.isAborted() || ofImage.isPaused)
   {
@@ -149,7 +121,7 @@ Image Bench::Stages::renderAim(const Monitor& monitor)
   {
     return abortedImage();
   }
-  Image nothing = begin(UnfinishedImage(ofImage.field, ofImage.scene));
+  Image nothing = imageOf(UnfinishedImage(ofImage.field, ofImage.scene));
   nothing.finished = false;
   aim = std::move(ofImage);
   return nothing;

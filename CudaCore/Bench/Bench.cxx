@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/Stages.h"
 
+#include "Bench/MovedLight.h"
+#include "Bench/PassLoop.h"
+#include "Bench/StageSettings.h"
 #include "Bench/Validation.h"
 #include "Bench/WaveStage.h"
 #include "Device/DeviceError.h"
@@ -19,12 +22,6 @@ namespace
 
 /// How much of an image's progress belongs to making the medium's voxels, where some are to be made.
 constexpr double fractionOfVoxels = 0.3;
-
-template <class Real>
-ExitFaces facesOf(const Medium<Real>& medium, const Scene& scene)
-{
-  return exitFacesOf(scene, medium.ambient, medium.largestN);
-}
 
 /// A monitor for making voxels.
 Monitor monitorOfVoxels(UnfinishedImage& request, const Monitor& monitor)
@@ -53,7 +50,80 @@ double homogeneityLimit(const Medium<Real>& medium, const Scene& scene)
 
 } // namespace
 
-Image Bench::Stages::begin(const UnfinishedImage& request) const
+template <class Real>
+std::optional<ViewSetup<Real>> Bench::Stages::setUp(
+  MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch)
+{
+  const Field& field = request.field;
+  const Scene& scene = request.scene;
+  const Frame frame = frameOf(field.grid, scene.view);
+  const auto faces = [&]
+  { return exitFacesOf(scene, inUse.medium().ambient, inUse.medium().largestN); };
+  Light light = lightOf(scene, field.grid, frame, faces());
+  if (field.source)
+  {
+    const std::int64_t around = pixelsOfFresnelMargin(field, scene, frame, light.faces);
+    inUse.refine(columnOf(scene, light, frame, around), monitorOfVoxels(request, watch.monitor()));
+    light.faces = faces(); // of all voxels
+  }
+  if (watch.isAborted())
+  {
+    return {};
+  }
+  if (inUse.seesChange())
+  {
+    clearRays();
+    request.beginAnew();
+  }
+
+  MediumOnDevices<Real>& onDevices = inUse.onDevices();
+  const Medium<Real>& medium = onDevices.medium;
+  RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
+  const ViewKey key{ frame, scene.view.width, scene.view.height, settings.kernel,
+    LightKey::of(scene, frame, filmDistance(scene, frame, light.faces), light.faces),
+    onDevices.changes };
+  const auto look = [&]
+  {
+    RaySettings coarse = settings;
+    coarse.stepVoxels = longestStep;
+    coarse.adaptiveTolerance = std::max(settings.adaptiveTolerance, usualTolerance);
+    return lookAtLight(
+      makeTask<Real>(medium, nullptr, {}, light, coarse), scene.view, scene.threads);
+  };
+  const std::int64_t margin =
+    marginFor(isOfCamera(scene.cutoff) ? std::vector<MovedRay>{} : rays.movedIn(key, look), scene,
+      frame, light);
+
+  // An adaptive step is as long as the medium lets it be without a map.
+  const HomogeneityMap<Real>* map = nullptr;
+  double bound = 0;
+  if (!field.source && settings.kernel.integrator != Integrator::Adaptive &&
+    scene.homogeneityTolerance > 0)
+  {
+    const double limit = homogeneityLimit(medium, scene);
+    map = onDevices.mapFor(limit, scene.interpolation, scene.threads);
+    bound = light.faces.ratio * skippingBound(medium, light, limit, scene.interpolation);
+    settings.homogeneityTolerance = scene.homogeneityTolerance;
+  }
+
+  const double exitRefractivity = exitRefractivityOf(scene, medium.ambient);
+  // Of straight rays all is of first order, and the bend makes nothing longer.
+  const bool bends = settings.kernel.path != PathModel::Straight;
+  const double ofVoxels = medium.tree ? medium.tree->statistics().deflectionError : 0;
+  return ViewSetup<Real>{ onDevices, key, light, settings,
+    makeTask<Real>(medium, map, medium.gradientsOf(field), light, settings), margin,
+    exitRefractivity, bound,
+    { light.faces.ratio * noiseFloor(medium, field, light), light.faces.ratio * ofVoxels },
+    projectionOf(scene, frame, light, bends ? (1 + exitRefractivity) * field.lengthScale : 0),
+    pixelPlacesOf(frame, scene.view, light) };
+}
+
+template std::optional<ViewSetup<float>> Bench::Stages::setUp(
+  MediumInUse<float>&, UnfinishedImage&, const Watch&);
+template std::optional<ViewSetup<double>> Bench::Stages::setUp(
+  MediumInUse<double>&, UnfinishedImage&, const Watch&);
+
+Image Bench::Stages::imageOf(const UnfinishedImage& request) const
 {
   const Scene& scene = request.scene;
   Image image;
@@ -65,84 +135,39 @@ Image Bench::Stages::begin(const UnfinishedImage& request) const
   image.threads = threadCount(scene.threads);
   image.samplesPerPixel = scene.samplesPerPixel;
   image.stepSize = scene.stepSize;
-  image.processes = request.device == Device::Cpu && processes ? processes->others() + 1 : 1;
-  return image;
-}
-
-template <class Real>
-RaysOfView Bench::Stages::raysFor(MediumOnDevices<Real>& onDevices, const Light& light,
-  const UnfinishedImage& request, Image& image)
-{
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
-  const Medium<Real>& medium = onDevices.medium;
-  image.steepestChange = medium.steepest.perVoxel;
-  image.steepestPlace =
-    placeOf(field.grid, { medium.steepest.at[0], medium.steepest.at[1], medium.steepest.at[2] });
-  const RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
-  image.pathModel = settings.kernel.path;
-  image.integrator = settings.kernel.integrator;
-  const ViewKey key{ image.frame, scene.view.width, scene.view.height, settings.kernel,
-    LightKey::of(scene, image.frame, filmDistance(scene, image.frame, light.faces), light.faces),
-    onDevices.changes };
-  const auto look = [&]
-  {
-    RaySettings coarse = settings;
-    coarse.stepVoxels = longestStep;
-    coarse.adaptiveTolerance = std::max(settings.adaptiveTolerance, usualTolerance);
-    return lookAtLight(
-      makeTask<Real>(medium, nullptr, {}, light, coarse), scene.view, scene.threads);
-  };
-  const bool mayMove = !isOfCamera(scene.cutoff);
-  return { key, settings,
-    marginFor(
-      mayMove ? rays.movedIn(key, look) : std::vector<MovedRay>{}, scene, image.frame, light) };
-}
-
-template <class Real>
-RaysOfImage<Real> Bench::Stages::prepareRays(
-  MediumOnDevices<Real>& onDevices, const Light& light, UnfinishedImage& request, Image& image)
-{
-  const Field& field = request.field;
-  const Scene& scene = request.scene;
-  const View& view = scene.view;
-  const Medium<Real>& medium = onDevices.medium;
-  const auto [viewKey, settings, margin] = raysFor(onDevices, light, request, image);
-
-  // An adaptive step is as long as the medium lets it be without a map.
-  const double skips = field.source || settings.kernel.integrator == Integrator::Adaptive
-    ? 0
-    : scene.homogeneityTolerance;
-  const HomogeneityMap<Real>* map = nullptr;
-  if (skips > 0)
-  {
-    const double limit = homogeneityLimit(medium, scene);
-    map = onDevices.mapFor(limit, scene.interpolation, scene.threads);
-    image.skippingBound =
-      light.faces.ratio * skippingBound(medium, light, limit, scene.interpolation);
-  }
-
-  RaysKey key{ image.frame, view.width, view.height, settings, skips, scene.seed, request.device,
-    {}, viewKey.light };
-  if (field.gradients.count > 0)
-  {
-    key.gradients = field.gradients.version;
-  }
-  work.raySets += rays.prepare(key, margin) ? 1 : 0;
-  return { onDevices, makeTask<Real>(medium, map, medium.gradientsOf(field), light, settings),
-    margin, deflectionErrors(medium, light, field, image),
-    projectionFor(settings, light, request, image), pixelPlacesOf(image.frame, scene.view, light) };
-}
-
-bool Bench::Stages::develop(
-  bool hasAllPasses, UnfinishedImage& request, const Watch& watch, Image& image)
-{
-  ProgressiveImage& progressive = *request.image;
   image.kScale = request.kScale;
   image.momentumDrift = request.momentumDrift;
   image.accuracy = request.accuracy;
   image.traceSeconds = request.traceSeconds;
-  image.finished = hasAllPasses && progressive.passes() == request.scene.samplesPerPixel;
+  const bool areOthersUsed =
+    processes && (request.device == Device::Cpu || processes->ofRays().hasCuda.value_or(false));
+  image.processes = areOthersUsed ? processes->others() + 1 : 1;
+  return image;
+}
+
+template <class Real>
+Image Bench::Stages::imageOf(const UnfinishedImage& request, const ViewSetup<Real>& view) const
+{
+  const Medium<Real>& medium = view.medium.medium;
+  Image image = imageOf(request);
+  image.ambient = medium.ambient;
+  image.exitRefractivity = view.exitRefractivity;
+  image.steepestChange = medium.steepest.perVoxel;
+  image.steepestPlace = placeOf(
+    request.field.grid, { medium.steepest.at[0], medium.steepest.at[1], medium.steepest.at[2] });
+  image.pathModel = view.settings.kernel.path;
+  image.integrator = view.settings.kernel.integrator;
+  image.skippingBound = view.skippingBound;
+  if (medium.tree)
+  {
+    image.medium = medium.tree->statistics();
+  }
+  return image;
+}
+
+bool Bench::Stages::develop(UnfinishedImage& request, const Watch& watch, Image& image)
+{
+  ProgressiveImage& progressive = *request.image;
   request.hasBeenSilent = !image.finished && !request.isNewImageThere();
   if (request.scene.histogramSize > 0 && !request.hasBeenSilent)
   {
@@ -176,65 +201,30 @@ const Scene& Bench::Stages::clearedFor(const UnfinishedImage& request)
 }
 
 template <class Real>
-Light Bench::Stages::prepareMedium(
-  MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch, Image& image)
-{
-  const Scene& scene = request.scene;
-  image.ambient = inUse.medium().ambient;
-  image.exitRefractivity = exitRefractivityOf(scene, image.ambient);
-  Light light = lightOf(scene, request.field.grid, image.frame, facesOf(inUse.medium(), scene));
-  if (request.field.source)
-  {
-    const std::int64_t around =
-      pixelsOfFresnelMargin(request.field, scene, image.frame, light.faces);
-    inUse.refine(
-      columnOf(scene, light, image.frame, around), monitorOfVoxels(request, watch.monitor()));
-    image.medium = inUse.medium().tree->statistics();
-  }
-  light.faces = facesOf(inUse.medium(), scene); // of all voxels
-  return light;
-}
-
-template RaysOfView Bench::Stages::raysFor(
-  MediumOnDevices<float>&, const Light&, const UnfinishedImage&, Image&);
-template RaysOfView Bench::Stages::raysFor(
-  MediumOnDevices<double>&, const Light&, const UnfinishedImage&, Image&);
-template Light Bench::Stages::prepareMedium(
-  MediumInUse<float>&, UnfinishedImage&, const Watch&, Image&);
-template Light Bench::Stages::prepareMedium(
-  MediumInUse<double>&, UnfinishedImage&, const Watch&, Image&);
-
-template <class Real>
 Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
 {
-  Image image = begin(request);
   MediumInUse<Real> inUse(media, request.field, clearedFor(request));
-  const Light light = prepareMedium(inUse, request, watch, image);
-  if (watch.isAborted())
+  const std::optional<ViewSetup<Real>> view = setUp(inUse, request, watch);
+  if (!view)
   {
     return abortedImage();
   }
-  if (inUse.seesChange())
+  RaysKey key{ view->key, view->settings, request.scene.seed, request.device, {} };
+  if (request.field.gradients.count > 0)
   {
-    clearRays();
-    request.beginAnew();
+    key.gradients = request.field.gradients.version;
   }
-
-  MediumOnDevices<Real>& medium = inUse.onDevices();
-  const RaysOfImage<Real> ofImage = prepareRays(medium, light, request, image);
+  work.raySets += rays.prepare(key, view->margin) ? 1 : 0;
   const bool hasAllPasses =
-    PassLoop<Real>(ofImage, request, watch, rays, cutoffs, processes, work).run();
+    PassLoop<Real>(*view, request, watch, rays, cutoffs, processes, work).run();
   if (watch.isAborted())
   {
     return abortedImage();
   }
-  if (request.device == Device::Cuda && processes)
-  {
-    image.processes = processes->ofRays().hasCuda.value_or(false) ? processes->others() + 1 : 1;
-  }
-  return develop(hasAllPasses, request, watch, image) &&
-      (!image.finished ||
-        WaveStage<Real>{ medium, light, request, watch, waveRays, work }.run(image))
+  Image image = imageOf(request, *view);
+  image.finished = hasAllPasses && request.image->passes() == request.scene.samplesPerPixel;
+  return develop(request, watch, image) &&
+      (!image.finished || WaveStage<Real>{ *view, request, watch, waveRays, work }.run(image))
     ? std::move(image)
     : abortedImage();
 }

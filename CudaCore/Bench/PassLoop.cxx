@@ -11,9 +11,9 @@ namespace schlieren
 {
 
 template <class Real>
-PassLoop<Real>::PassLoop(const RaysOfImage<Real>& ofImage, UnfinishedImage& request,
+PassLoop<Real>::PassLoop(const ViewSetup<Real>& ofView, UnfinishedImage& request,
   const Watch& watch, RayCache& rays, CutoffMaker& cutoffs, Processes* processes, Work& work)
-  : ofImage_(ofImage)
+  : view_(ofView)
   , request_(request)
   , watch_(watch)
   , rays_(rays)
@@ -53,7 +53,7 @@ bool PassLoop<Real>::addPass()
   ProgressiveImage& image = *request_.image;
   const std::int64_t number = image.passes();
   Monitor monitor = monitorOfPass(number);
-  aimPass(pass_, number, scene, ofImage_.task.light);
+  aimPass(pass_, number, scene, view_.task.light);
   const double tracedBefore = request_.traceSeconds;
   const TracedPass* traced = rays_.raysOf(number, pass_, request_.device,
     request_.field.gradients.count, request_.keepsRays ? scene.memoryBudget : 0,
@@ -65,7 +65,7 @@ bool PassLoop<Real>::addPass()
   }
   request_.momentumDrift = std::max(request_.momentumDrift, traced->worstDrift);
   const TracedRays rays{ pass_, traced->exits.data(), traced->gathered.data() };
-  rays_.request(*traced, rays, number, scene, ofImage_.errors);
+  rays_.request(*traced, rays, number, scene, view_.errors);
   if (!image.isBegun())
   {
     begin(rays);
@@ -107,9 +107,9 @@ void PassLoop<Real>::begin(const TracedRays& rays)
       : automaticK(rays_.strongDeflection(), techniqueOf(scene.cutoff).fullScale);
   }
   const View& view = scene.view;
-  const std::int64_t margin = ofImage_.margin;
+  const std::int64_t margin = view_.margin;
   request_.image->begin(
-    { cutoffs_.cutoffOf(scene, request_.kScale, ofImage_.pixels), ofImage_.projection, margin,
+    { cutoffs_.cutoffOf(scene, request_.kScale, view_.pixels), view_.projection, margin,
       (view.width + 2 * margin) * (view.height + 2 * margin) *
         passesToHold(scene.samplesPerPixel) },
     rays_.tintOf(rays, request_.field, scene));
@@ -120,7 +120,7 @@ bool PassLoop<Real>::trace(TracedPass& traced, bool isWantedOnHost, const Monito
 {
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t countedBefore = traced.tilesDone > 0 ? traced.crossed : 0;
-  const RayTask<Real>& task = ofImage_.task;
+  const RayTask<Real>& task = view_.task;
   const int threads = request_.scene.threads;
   bool isTraced = false;
   if (request_.device == Device::Cuda)
@@ -129,7 +129,7 @@ bool PassLoop<Real>::trace(TracedPass& traced, bool isWantedOnHost, const Monito
   }
   else if (processes_)
   {
-    isTraced = ofImage_.medium.processTracer().trace(
+    isTraced = view_.medium.processTracer().trace(
       task, pass_, versions(), *processes_, traced, threads, monitor);
   }
   else
@@ -150,17 +150,17 @@ bool PassLoop<Real>::traceOnCuda(TracedPass& traced, bool isWantedOnHost, const 
 {
   using Exits = typename CudaTracer<Real>::Exits;
   const Exits exits = isWantedOnHost ? Exits::OnHost : Exits::OnDevice;
-  CudaTracer<Real>& tracer = ofImage_.medium.cudaTracer();
+  CudaTracer<Real>& tracer = view_.medium.cudaTracer();
   return processes_ && ProcessTracer<Real>::haveCuda(*processes_)
-    ? ofImage_.medium.processTracer().traceOnCuda(
-        tracer, exits, ofImage_.task, pass_, versions(), *processes_, traced, monitor)
-    : tracer.trace(ofImage_.task, pass_, versions(), exits, traced, monitor);
+    ? view_.medium.processTracer().traceOnCuda(
+        tracer, exits, view_.task, pass_, versions(), *processes_, traced, monitor)
+    : tracer.trace(view_.task, pass_, versions(), exits, traced, monitor);
 }
 
 template <class Real>
 TaskVersions PassLoop<Real>::versions() const
 {
-  return { request_.field.gradients.version, ofImage_.medium.mapTolerance() };
+  return { request_.field.gradients.version, view_.medium.mapTolerance() };
 }
 
 template class PassLoop<float>;

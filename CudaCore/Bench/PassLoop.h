@@ -3,12 +3,10 @@
 #pragma once
 
 #include "Bench/CutoffMaker.h"
-#include "Bench/MediumCache.h"
 #include "Bench/RayCache.h"
 #include "Bench/UnfinishedImage.h"
+#include "Bench/ViewSetup.h"
 #include "Bench/Watch.h"
-#include "Optics/AutomaticK.h"
-#include "Rays/March/RayTask.h"
 #include "Schlieren.h"
 
 #include <cstdint>
@@ -16,25 +14,13 @@
 namespace schlieren
 {
 
-/// The rays of an image: what they are traced by, and where they start.
-template <class Real>
-struct RaysOfImage
-{
-  MediumOnDevices<Real>& medium;
-  RayTask<Real> task;
-  std::int64_t margin; ///< pixels around the image from which light may be bent into it
-  DeflectionErrors errors;
-  Projection projection; ///< of the film
-  PixelPlaces pixels;
-};
-
 /// Traces and exposes the passes of an image until all are on the film or the monitor stops it.
 template <class Real>
 class PassLoop
 {
 public:
   /// All stay with their owner. `processes`: null where there are no others.
-  PassLoop(const RaysOfImage<Real>& ofImage, UnfinishedImage& request, const Watch& watch,
+  PassLoop(const ViewSetup<Real>& view, UnfinishedImage& request, const Watch& watch,
     RayCache& rays, CutoffMaker& cutoffs, Processes* processes, Work& work);
 
   /// False if aborted or paused before all of a pass was on the film.
@@ -54,7 +40,7 @@ private:
   bool traceOnCuda(TracedPass& traced, bool isWantedOnHost, const Monitor& monitor);
   TaskVersions versions() const;
 
-  const RaysOfImage<Real>& ofImage_;
+  const ViewSetup<Real>& view_;
   UnfinishedImage& request_;
   const Watch& watch_;
   RayCache& rays_;

@@ -18,11 +18,11 @@ namespace schlieren
 {
 
 template <class Real>
-Pilot<Real>::Pilot(PilotBench<Real> bench, const DeflectionErrors& errors, bool wantsAllPixels)
-  : bench_(std::move(bench))
-  , scouts_(taskFor(longestStep), bench_.light, bench_.settings.lengthScale, bench_.scene,
-      bench_.projection, errors)
-  , layout_(layOutPatches(scouts_, bench_.scene.view, bench_.margin, wantsAllPixels))
+Pilot<Real>::Pilot(const ViewSetup<Real>& setup, const Scene& scene)
+  : setup_(setup)
+  , scene_(scene)
+  , scouts_(taskFor(longestStep), setup_, scene_)
+  , layout_(layOutPatches(scouts_, scene_.view, setup_.margin, scene_.estimatesErrors))
 {
   for (std::size_t set = 0; set < 2; ++set)
   {
@@ -36,10 +36,10 @@ Pilot<Real>::Pilot(PilotBench<Real> bench, const DeflectionErrors& errors, bool 
 template <class Real>
 RayTask<Real> Pilot<Real>::taskFor(double step) const
 {
-  RaySettings settings = bench_.settings;
+  RaySettings settings = setup_.settings;
   settings.stepVoxels = step;
   settings.adaptiveTolerance = adaptiveToleranceFor(step, settings.adaptiveTolerance);
-  return makeTask<Real>(*bench_.medium, nullptr, {}, bench_.light, settings);
+  return makeTask<Real>(setup_.medium.medium, nullptr, {}, setup_.light, settings);
 }
 
 template <class Real>
@@ -47,7 +47,7 @@ Pass Pilot<Real>::passOf(const Patch& patch, std::int64_t number) const
 {
   Pass pass{ -patch.margin, -patch.margin, patch.columns + 2 * patch.margin,
     patch.rows + 2 * patch.margin, { 0, 0 } };
-  aimPass(pass, number, bench_.scene, bench_.light);
+  aimPass(pass, number, scene_, setup_.light);
   return pass;
 }
 
@@ -69,24 +69,24 @@ const typename Pilot<Real>::Traced* Pilot<Real>::trace(
     const Patch& patch = places[n];
     RayTask<Real> task = whole;
     task.light = lightOfPart(
-      bench_.light, static_cast<double>(patch.fromColumn), static_cast<double>(patch.fromRow), 1);
+      setup_.light, static_cast<double>(patch.fromColumn), static_cast<double>(patch.fromRow), 1);
     const Pass rays = passOf(patch, pass.in(n));
     TracedPass& ofPatch = traced.rays[n];
     ofPatch.resize(rays, 0);
-    traceOnCpu(task, rays, ofPatch, layout_.isWhole ? bench_.scene.threads : 1, {});
+    traceOnCpu(task, rays, ofPatch, layout_.isWhole ? scene_.threads : 1, {});
     const double shift[2] = { static_cast<double>(patch.fromColumn - patch.column),
       static_cast<double>(patch.fromRow - patch.row) };
     for (RayExit& exit : ofPatch.exits)
     {
       for (std::size_t axis = 0; axis < 2; ++axis)
       {
-        exit.displacement[axis] += static_cast<float>(shift[axis] / bench_.projection.perDataUnit);
+        exit.displacement[axis] += static_cast<float>(shift[axis] / setup_.projection.perDataUnit);
       }
     }
   };
   if (traced.done < count)
   {
-    traced.done = parallelFrom(traced.done, count, 1, bench_.scene.threads,
+    traced.done = parallelFrom(traced.done, count, 1, scene_.threads,
       [&](std::int64_t begin, std::int64_t end)
       {
         for (std::int64_t n = begin; n < end; ++n)
@@ -108,12 +108,12 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
   Exposed& exposed = group.exposed[set];
   for (std::size_t n = exposed.films.size(); n < places.size() && exposed.pixels.empty(); ++n)
   {
-    exposed.films.emplace_back(places[n], bench_.scene, cutoff_, bench_.projection, set.samples,
-      layout_.isWhole ? bench_.scene.threads : 1);
+    exposed.films.emplace_back(places[n], scene_, cutoff_, setup_.projection, set.samples,
+      layout_.isWhole ? scene_.threads : 1);
   }
   const auto withEach = [&](const auto& work)
   {
-    parallelFor(static_cast<std::int64_t>(exposed.films.size()), 1, bench_.scene.threads,
+    parallelFor(static_cast<std::int64_t>(exposed.films.size()), 1, scene_.threads,
       [&](std::int64_t begin, std::int64_t end)
       {
         for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
@@ -125,8 +125,7 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
   const auto isTooMuch = [&](const Traced& traced)
   {
     return layout_.isWhole &&
-      static_cast<std::size_t>(set.samples) * traced.rays.front().bytes() >
-      bench_.scene.memoryBudget;
+      static_cast<std::size_t>(set.samples) * traced.rays.front().bytes() > scene_.memoryBudget;
   };
   while (!exposed.films.empty() && exposed.films.front().passes() < set.samples)
   {
@@ -176,7 +175,7 @@ Differences Pilot<Real>::compare(
     const RaySet raysOfA = raysOf(a);
     RaySet raysOfB = raysOf(b);
     const bool isOfRays = raysOfB.samples > raysOfA.samples;
-    const bool isOfAperture = bench_.light.pupilTilt > 0; // whose points are as many as the rays
+    const bool isOfAperture = setup_.light.pupilTilt > 0; // whose points are as many as the rays
     if (isOfRays && !isOfAperture && !layout_.isWhole)
     {
       constexpr int moreAtBodies = 4, most = 16; // what steps are compared with, too
@@ -198,8 +197,8 @@ Differences Pilot<Real>::compare(
     }
     for (std::size_t patch = 0; patch < ofB->size(); ++patch)
     {
-      addDifferences((*ofA)[patch], (*ofB)[patch], (*group.patches)[patch], 1 / part, bench_.scene,
-        bench_.projection, all);
+      addDifferences((*ofA)[patch], (*ofB)[patch], (*group.patches)[patch], 1 / part, scene_,
+        setup_.projection, all);
     }
   }
   return all;
@@ -223,7 +222,7 @@ Differences Pilot<Real>::slopesAtEdges(
     }
     for (std::size_t patch = 0; patch < exposed->size(); ++patch)
     {
-      addSlopesAtEdges((*exposed)[patch], (*group.patches)[patch], bench_.scene, all);
+      addSlopesAtEdges((*exposed)[patch], (*group.patches)[patch], scene_, all);
     }
   }
   return all;

@@ -9,11 +9,8 @@
 #include "Bench/PatchFilm.h"
 #include "Bench/Patches.h"
 #include "Bench/Scouts.h"
-#include "Film/Shading.h"
-#include "Medium/Medium.h"
-#include "Optics/AutomaticK.h"
+#include "Bench/ViewSetup.h"
 #include "Optics/Cutoffs.h"
-#include "Rays/March/MakeTask.h"
 #include "Rays/TracedPass.h"
 #include "Schlieren.h"
 
@@ -26,18 +23,6 @@
 
 namespace schlieren
 {
-
-/// What the patches of an image are made with, apart from the settings that are tried.
-template <class Real>
-struct PilotBench
-{
-  const Medium<Real>* medium; ///< stays with its owner
-  Light light;
-  Scene scene;
-  Projection projection;
-  RaySettings settings;
-  std::int64_t margin; ///< pixels around the image from which light may be bent into it
-};
 
 /// The longest step that is tried, voxels.
 constexpr double longestStep = 2;
@@ -61,20 +46,21 @@ template <class Real>
 class Pilot
 {
 public:
-  /// Looks at the view. `errors`: see strongDeflection(); `wantsAllPixels`: the image is the only patch.
-  Pilot(PilotBench<Real> bench, const DeflectionErrors& errors, bool wantsAllPixels);
+  /// Looks at the view. Where the scene wants errors of all pixels the image is the only patch.
+  Pilot(const ViewSetup<Real>& setup, const Scene& scene);
   Pilot(const Pilot&) = delete; // groups know where the patches are
   Pilot& operator=(const Pilot&) = delete;
 
-  const PilotBench<Real>& bench() const { return bench_; }
+  const ViewSetup<Real>& setup() const { return setup_; }
+  const Scene& scene() const { return scene_; }
   const PilotView& view() const { return scouts_.view(); }
 
   /// Exposes patches by another cutoff of a scene with the same rays from now on. `k`: see Scene::kScale.
-  void begin(const Scene& scene, double k, const PixelPlaces& pixels)
+  void begin(const Scene& scene, double k)
   {
-    cutoff_ = cutoffs_.cutoffOf(scene, k, pixels);
+    cutoff_ = cutoffs_.cutoffOf(scene, k, setup_.pixels);
     resume();
-    bench_.scene = scene;
+    scene_ = scene;
     for (auto& set : groups_)
     {
       for (Group& group : set)
@@ -166,7 +152,8 @@ private:
   /// The images of all patches of a group; null if aborted or paused.
   const std::vector<PatchPixels>* expose(Group& group, const RaySet& rays, const Monitor& monitor);
 
-  PilotBench<Real> bench_;
+  ViewSetup<Real> setup_;
+  Scene scene_;
   CutoffMaker cutoffs_;
   Cutoffs cutoff_{};
   Scouts scouts_;

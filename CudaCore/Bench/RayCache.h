@@ -98,21 +98,17 @@ struct ViewKey
 /// What cached rays were traced with, the medium apart.
 struct RaysKey
 {
-  Frame frame;
-  int width, height;
+  ViewKey view;
   RaySettings settings;
-  double homogeneityTolerance;
   std::uint32_t seed;
   Device device;
   std::optional<std::uint64_t> gradients; ///< version of those that were gathered
-  LightKey light;
 
   auto tie() const
   {
-    return std::tuple_cat(light.tie(), tieOf(frame),
-      std::tie(width, height, settings.kernel.path, settings.kernel.integrator, settings.stepVoxels,
-        settings.adaptiveTolerance, settings.lengthScale, homogeneityTolerance, seed, device,
-        gradients));
+    return std::tuple_cat(view.tie(),
+      std::tie(settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale,
+        settings.homogeneityTolerance, seed, device, gradients));
   }
 };
 

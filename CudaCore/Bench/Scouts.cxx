@@ -33,17 +33,17 @@ Light lightOfPart(const Light& light, double column, double row, double stride)
 }
 
 template <class Real>
-Scouts::Scouts(RayTask<Real> task, const Light& light, double lengthScale, const Scene& scene,
-  const Projection& projection, const DeflectionErrors& errors)
+Scouts::Scouts(RayTask<Real> task, const ViewSetup<Real>& setup, const Scene& scene)
   : technique_(&techniqueOf(scene.cutoff))
-  , isOfCamera_(projection.isOfCamera)
-  , isExtended_(scene.source.shape != SourceShape::Point || light.pupilTilt > 0)
+  , isOfCamera_(setup.projection.isOfCamera)
+  , isExtended_(scene.source.shape != SourceShape::Point || setup.light.pupilTilt > 0)
 {
   const View& view = scene.view;
+  const Projection& projection = setup.projection;
   const double pixels = static_cast<double>(view.width) * view.height;
   stride_ = std::max<std::int64_t>(1, std::llround(std::sqrt(pixels / wantedScouts)));
   const double middle = 0.5 * static_cast<double>(stride_ - 1);
-  task.light = lightOfPart(light, middle, middle, static_cast<double>(stride_));
+  task.light = lightOfPart(setup.light, middle, middle, static_cast<double>(stride_));
   const Pass pass{ 0, 0, (view.width + stride_ - 1) / stride_,
     (view.height + stride_ - 1) / stride_, { 0, 0 } };
   TracedPass traced;
@@ -81,9 +81,10 @@ Scouts::Scouts(RayTask<Real> task, const Light& light, double lengthScale, const
     }
   }
   view_.path = view_.crossed > 0 ? highest - lowest : 0;
-  view_.steepestPath = exceededBy(mayExceed, slopes) * lengthScale / projection.perDataUnit;
+  view_.steepestPath =
+    exceededBy(mayExceed, slopes) * setup.settings.lengthScale / projection.perDataUnit;
   view_.strongDeflection = strongDeflection({ pass, traced.exits.data(), nullptr },
-    static_cast<int>(pass.columns), static_cast<int>(pass.rows), errors, threads);
+    static_cast<int>(pass.columns), static_cast<int>(pass.rows), setup.errors, threads);
 }
 
 const Scout* Scouts::at(std::int64_t column, std::int64_t row) const
@@ -146,9 +147,7 @@ std::vector<double> Scouts::variationsOnFilm() const
   return variations;
 }
 
-template Scouts::Scouts(
-  RayTask<float>, const Light&, double, const Scene&, const Projection&, const DeflectionErrors&);
-template Scouts::Scouts(
-  RayTask<double>, const Light&, double, const Scene&, const Projection&, const DeflectionErrors&);
+template Scouts::Scouts(RayTask<float>, const ViewSetup<float>&, const Scene&);
+template Scouts::Scouts(RayTask<double>, const ViewSetup<double>&, const Scene&);
 
 } // namespace schlieren

@@ -4,10 +4,8 @@
 // Rays that look at a view before its image is made: where its light is bent, blocked and displaced.
 #pragma once
 
-#include "Film/Shading.h"
-#include "Optics/AutomaticK.h"
+#include "Bench/ViewSetup.h"
 #include "Optics/Techniques.h"
-#include "Rays/March/MakeTask.h"
 #include "Rays/RayExit.h"
 #include "Schlieren.h"
 
@@ -43,10 +41,9 @@ Light lightOfPart(const Light& light, double column, double row, double stride);
 class Scouts
 {
 public:
-  /// Traces them. `task`: with the light of the image; `lengthScale`: metres per data unit; `errors`: see strongDeflection().
+  /// Traces them by a task with the light of the image.
   template <class Real>
-  Scouts(RayTask<Real> task, const Light& light, double lengthScale, const Scene& scene,
-    const Projection& projection, const DeflectionErrors& errors);
+  Scouts(RayTask<Real> task, const ViewSetup<Real>& setup, const Scene& scene);
 
   const PilotView& view() const { return view_; }
   const std::vector<Scout>& all() const { return scouts_; } ///< row by row

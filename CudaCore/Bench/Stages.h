@@ -7,11 +7,10 @@
 
 #include "Bench/CutoffMaker.h"
 #include "Bench/MediumCache.h"
-#include "Bench/PassLoop.h"
 #include "Bench/RayCache.h"
-#include "Bench/StageSettings.h"
 #include "Bench/TargetError.h"
 #include "Bench/UnfinishedImage.h"
+#include "Bench/ViewSetup.h"
 #include "Bench/Watch.h"
 #include "Schlieren.h"
 
@@ -33,36 +32,11 @@ struct Aim
   bool isShown = false; ///< with one ray per pixel
 };
 
-/// Which rays a view needs, and how they are to be traced.
-struct RaysOfView
-{
-  ViewKey key;
-  RaySettings settings;
-  std::int64_t margin; ///< pixels around the image from which light may be bent into it
-};
-
-inline Projection projectionFor(const RaySettings& settings, const Light& light,
-  const UnfinishedImage& request, const Image& image)
-{
-  // Of straight rays all is of first order, and the bend makes nothing longer.
-  const bool bends = settings.kernel.path != PathModel::Straight;
-  return projectionOf(request.scene, image.frame, light,
-    bends ? (1 + image.exitRefractivity) * request.field.lengthScale : 0);
-}
-
 inline Image abortedImage()
 {
   Image image;
   image.aborted = true;
   return image;
-}
-
-template <class Real>
-DeflectionErrors deflectionErrors(
-  const Medium<Real>& medium, const Light& light, const Field& field, const Image& image)
-{
-  return { light.faces.ratio * noiseFloor(medium, field, light),
-    light.faces.ratio * image.medium.deflectionError };
 }
 
 struct Bench::Stages
@@ -95,10 +69,6 @@ struct Bench::Stages
   Image render(std::unique_ptr<UnfinishedImage> request, const Monitor& monitor);
 
 private:
-  /// What finds the settings for an image in this medium.
-  template <class Real>
-  Pilot<Real>& pilotFor(MediumOnDevices<Real>& onDevices, const Light& light,
-    const UnfinishedImage& request, Image& image);
   /// Finds the settings with the medium of the scene. False if others are needed, which it then writes
   /// into the scene.
   template <class Real>
@@ -113,27 +83,21 @@ private:
   }
   /// Drops them where another medium is to be made.
   const Scene& clearedFor(const UnfinishedImage& request);
-  /// Which rays an image needs, and how they are to be traced; and where the medium is steepest.
+  /// Makes what a view needs of the medium and its rays. Nothing if aborted.
   template <class Real>
-  RaysOfView raysFor(MediumOnDevices<Real>& onDevices, const Light& light,
-    const UnfinishedImage& request, Image& image);
-  /// Finds the medium's voxels that a view needs, and its light.
-  template <class Real>
-  Light prepareMedium(
-    MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch, Image& image);
+  std::optional<ViewSetup<Real>> setUp(
+    MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch);
 
   /// The same on the device of the request, without an answer to its failures.
   template <class Real>
   Image proceed(UnfinishedImage& request, const Watch& watch);
 
   /// An image without light.
-  Image begin(const UnfinishedImage& request) const;
-  /// Finds what the rays of an image are traced by, and drops other rays.
+  Image imageOf(const UnfinishedImage& request) const;
   template <class Real>
-  RaysOfImage<Real> prepareRays(
-    MediumOnDevices<Real>& medium, const Light& light, UnfinishedImage& request, Image& image);
+  Image imageOf(const UnfinishedImage& request, const ViewSetup<Real>& view) const;
   /// Writes what there is of an image into it. False if aborted.
-  bool develop(bool hasAllPasses, UnfinishedImage& request, const Watch& watch, Image& image);
+  bool develop(UnfinishedImage& request, const Watch& watch, Image& image);
 
   /// What replaces a request that a device has failed; null where nothing can.
   static std::unique_ptr<UnfinishedImage> instead(

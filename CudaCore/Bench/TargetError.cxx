@@ -230,12 +230,14 @@ double toleranceForTarget(const Field& field, const Scene& scene)
 }
 
 template <class Real>
-KnownErrors knownErrors(
-  const PilotBench<Real>& bench, const PilotView& view, double deflectionError, double k)
+KnownErrors knownErrors(const Pilot<Real>& pilot, double k)
 {
   constexpr double roundingOfPath = 1.7e-7; // of itself, in single precision
   constexpr double typicalByLargest = 0.5;  // of a ray's error and the largest sum of its leaves'
-  const Scene& scene = bench.scene;
+  const Scene& scene = pilot.scene();
+  const PilotView& view = pilot.view();
+  const Projection& projection = pilot.setup().projection;
+  const double deflectionError = pilot.setup().errors.medium;
   const Technique& technique = techniqueOf(scene.cutoff);
   const double eps = typicalByLargest * deflectionError;
   KnownErrors known;
@@ -247,7 +249,7 @@ KnownErrors knownErrors(
   }
   else if (technique.plane == RecordedPlane::Background)
   {
-    known.voxels = eps * std::abs(bench.projection.distance) * bench.projection.perDataUnit;
+    known.voxels = eps * std::abs(projection.distance) * projection.perDataUnit;
   }
   else if (technique.hasK())
   {
@@ -283,9 +285,9 @@ bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene)
 
 /// Whether what is compared is of one ray per pixel, however many there are: of a pattern seen through a pinhole.
 template <class Real>
-bool needsOneRay(const PilotBench<Real>& bench)
+bool needsOneRay(const Pilot<Real>& pilot)
 {
-  return isOfCamera(bench.scene.cutoff) && !(bench.projection.pupilTilt > 0);
+  return isOfCamera(pilot.scene().cutoff) && !(pilot.setup().projection.pupilTilt > 0);
 }
 
 /// Finds what other patches say of settings, and writes it into them. Nothing if aborted.
@@ -294,14 +296,14 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   const KnownErrors& known, const Monitor& monitor)
 {
   using Patches = typename Pilot<Real>::Patches;
-  const Scene& scene = pilot.bench().scene;
+  const Scene& scene = pilot.scene();
   // No steps are traced that are finer than the shortest, whose error is half of that of twice its length at the most.
   const double step = std::max(settings.step, 2 * shortestStep);
   const double bySteps = errorByHalving * settings.step / step;
   const Differences ofSteps =
     pilot.compare(Patches::ToVerify, steps.with(step), steps.with(0.5 * step), monitor);
   Differences ofRays;
-  if (!needsOneRay(pilot.bench()))
+  if (!needsOneRay(pilot))
   {
     const auto compare = [&](int fewer, int more)
     {
@@ -340,17 +342,19 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
 }
 
 template <class Real>
-AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors& ofMedium,
+AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
   const AccurateSettings* before, const Monitor& monitor)
 {
-  const Scene& scene = pilot.bench().scene;
+  const Medium<Real>& medium = pilot.setup().medium.medium;
+  const bool hasWalls =
+    !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
+  const Scene& scene = pilot.scene();
   const double target = scene.targetError;
-  const bool hasFilm = !needsOneRay(pilot.bench());
-  const StepRange steps = stepsFor(*pilot.bench().medium, hasWalls, hasFilm);
+  const bool hasFilm = !needsOneRay(pilot);
+  const StepRange steps = stepsFor(medium, hasWalls, hasFilm);
   const auto isAborted = [&] { return monitor.aborted && monitor.aborted(); };
   KnownErrors known = ofMedium;
-  if (hasWalls && pilot.bench().medium->tree &&
-    techniqueOf(scene.cutoff).plane == RecordedPlane::Focus)
+  if (hasWalls && medium.tree && techniqueOf(scene.cutoff).plane == RecordedPlane::Focus)
   {
     constexpr double shiftOfEdges = 0.04; // pixels: how far voxels move edges, typically
     // Of the patches that are looked at in each view, whatever is chosen.
@@ -396,13 +400,11 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors&
   return settings;
 }
 
-template KnownErrors knownErrors(
-  const PilotBench<float>&, const PilotView&, double deflectionError, double k);
-template KnownErrors knownErrors(
-  const PilotBench<double>&, const PilotView&, double deflectionError, double k);
+template KnownErrors knownErrors(const Pilot<float>&, double k);
+template KnownErrors knownErrors(const Pilot<double>&, double k);
 template AccurateSettings chooseFor(
-  Pilot<float>&, bool hasWalls, const KnownErrors&, const AccurateSettings* before, const Monitor&);
-template AccurateSettings chooseFor(Pilot<double>&, bool hasWalls, const KnownErrors&,
-  const AccurateSettings* before, const Monitor&);
+  Pilot<float>&, const KnownErrors&, const AccurateSettings* before, const Monitor&);
+template AccurateSettings chooseFor(
+  Pilot<double>&, const KnownErrors&, const AccurateSettings* before, const Monitor&);
 
 } // namespace schlieren

@@ -43,10 +43,9 @@ struct AccurateSettings
 /// fringes that the data can make.
 double toleranceForTarget(const Field& field, const Scene& scene);
 
-/// The errors of a medium for a view. `k`: see Scene::kScale.
+/// The errors of a pilot's medium for its view. `k`: see Scene::kScale.
 template <class Real>
-KnownErrors knownErrors(
-  const PilotBench<Real>& bench, const PilotView& view, double deflectionError, double k);
+KnownErrors knownErrors(const Pilot<Real>& pilot, double k);
 
 /// Whether a medium with finer voxels, double precision or bent rays are needed: `scene` has its settings then.
 bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene);
@@ -55,7 +54,7 @@ bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene);
 /// shows that they do not keep the target. Begins with the settings of another image of the same technique, which may be
 /// null, and takes them where they keep it and are not much finer than it wants. Nothing is chosen if aborted.
 template <class Real>
-AccurateSettings chooseFor(Pilot<Real>& pilot, bool hasWalls, const KnownErrors& known,
+AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& known,
   const AccurateSettings* before, const Monitor& monitor);
 
 /// What a pilot's rays and patches are of.

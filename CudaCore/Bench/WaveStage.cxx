@@ -218,8 +218,8 @@ bool WaveStage<Real>::areWanted(Image& image) const
   {
     return false;
   }
-  std::string problem = problemOfWaves(request_.field, scene, image.frame);
-  if (problem.empty() && faces_.ratio != 1 && (image.frame.pupil > 0 || scene.source.distance))
+  std::string problem = problemOfWaves(request_.field, scene, frame_);
+  if (problem.empty() && faces_.ratio != 1 && (frame_.pupil > 0 || scene.source.distance))
   {
     problem =
       std::string(
@@ -243,9 +243,9 @@ bool WaveStage<Real>::areWanted(Image& image) const
   const Screen screen = screenOf(image);
   const double distance = parallelDistance(screen, screen.planeOtherwise);
   image.waves.fresnelWidth =
-    fresnelWidth(scene.wavelength / (1 + image.exitRefractivity), distance);
+    fresnelWidth(scene.wavelength / (1 + view_.exitRefractivity), distance);
   image.waves.blur =
-    blurOnScreen(screen.source, request_.field.lengthScale * image.frame.pixelSize, distance);
+    blurOnScreen(screen.source, request_.field.lengthScale * frame_.pixelSize, distance);
   return scene.lightModel == LightModel::Waves || isOfWavesAlone ||
     image.waves.blur < blurThatHidesWaves * image.waves.fresnelWidth;
 }
@@ -255,22 +255,22 @@ Screen WaveStage<Real>::screenOf(const Image& image) const
 {
   const Scene& scene = request_.scene;
   const double scale = request_.field.lengthScale;
-  const double depth = scale * (image.frame.exit - image.frame.entry) / faces_.ratio;
+  const double depth = scale * (frame_.exit - frame_.entry) / faces_.ratio;
   Screen screen;
   screen.wavelength = scene.wavelength;
-  screen.distance = scale * filmDistance(scene, image.frame, faces_);
+  screen.distance = scale * filmDistance(scene, frame_, faces_);
   screen.width = image.width;
   screen.height = image.height;
   screen.source = sourceOf(scene);
   screen.sourceAngle = scene.knifeEdgeAngle;
   screen.planeOtherwise = 0.5 * depth;
   screen.largestPlane = depth;
-  screen.pointSource = pointSourceOf(scene, image.frame, scale);
+  screen.pointSource = pointSourceOf(scene, frame_, scale);
   screen.memoryBudget = scene.memoryBudget;
   screen.threads = scene.threads;
   if (image.raysBlocked > 0)
   {
-    const double pixel = scale * image.frame.pixelSize;
+    const double pixel = scale * frame_.pixelSize;
     const double wanted = std::ceil(raysPerFresnelWidth * pixel /
       fresnelWidth(scene.wavelength, parallelDistance(screen, screen.planeOtherwise)));
     screen.raysPerPixel =
@@ -283,13 +283,13 @@ template <class Real>
 std::int64_t WaveStage<Real>::borderOf(const Image& image, const Screen& screen) const
 {
   const Scene& scene = request_.scene;
-  const double pixel = request_.field.lengthScale * image.frame.pixelSize;
+  const double pixel = request_.field.lengthScale * frame_.pixelSize;
   const double farthest =
     std::max(std::abs(screen.distance), std::abs(screen.distance + screen.largestPlane));
   const double bent = farthest * largestDeflectionOf(image) / pixel;
   constexpr std::int64_t least = 4; // splines have four points
   const auto most = static_cast<double>(maxMargin(scene.view));
-  return least + pixelsOfFresnelMargin(request_.field, scene, image.frame, faces_) +
+  return least + pixelsOfFresnelMargin(request_.field, scene, frame_, faces_) +
     static_cast<std::int64_t>(std::ceil(std::min(bent, most)));
 }
 
@@ -348,13 +348,13 @@ bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
   const Scene scene = sceneOfRays(request_.scene, screen.raysPerPixel);
   const Frame frame = frameOf(field.grid, scene.view);
   const Light ofRays = lightOf(scene, field.grid, frame, faces_);
-  const RaySettings settings =
-    settingsOf(scene, field.lengthScale, medium_.medium.steepest.perVoxel);
-  const RayTask<Real> task =
-    makeTask<Real>(medium_.medium, nullptr, medium_.medium.gradientsOf(field), ofRays, settings);
+  const Medium<Real>& medium = view_.medium.medium;
+  const RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
+  const RayTask<Real> task = makeTask<Real>(medium, nullptr, {}, ofRays, settings);
   const std::int64_t border = borderOf(image, screen) * screen.raysPerPixel;
-  const RaysKey key{ frame, scene.view.width, scene.view.height, settings, 0, scene.seed,
-    Device::Cpu, {}, LightKey::of(scene, frame, 0, faces_) };
+  const RaysKey key{ { frame, scene.view.width, scene.view.height, settings.kernel,
+                       LightKey::of(scene, frame, 0, faces_), view_.medium.changes },
+    settings, scene.seed, Device::Cpu, {} };
   work_.raySets += rays_.prepare(key, border) ? 1 : 0;
   // Rays of a wider margin will do.
   const std::int64_t around = rays_.margin() - rays_.margin() % screen.raysPerPixel;
@@ -371,7 +371,7 @@ bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
     }
   }
   light.spacing = field.lengthScale * frame.pixelSize;
-  light.refractiveIndex = 1 + image.exitRefractivity;
+  light.refractiveIndex = 1 + view_.exitRefractivity;
   light.resize(pass.columns, pass.rows);
   const int perRay = screen.raysPerPixel * screen.raysPerPixel;
   const int passes = image.raysBlocked > 0 ? (scene.samplesPerPixel + perRay - 1) / perRay : 1;
@@ -409,8 +409,8 @@ std::vector<float> WaveStage<Real>::makeLight(
       "LightModel to Rays.");
   }
   image.lightNote = noteOnRays(scene.cutoff, screen.wavelength * image.kScale);
-  const Imaging imaging = imagingOf(
-    scene, image.kScale, screen.wavelength, image.frame.pixelSize, request_.field.lengthScale);
+  const Imaging imaging =
+    imagingOf(scene, image.kScale, screen.wavelength, frame_.pixelSize, request_.field.lengthScale);
   if (imaging.mask)
   {
     image.undisturbedLevel = undisturbedLight(imaging);

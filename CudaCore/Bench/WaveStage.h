@@ -5,9 +5,9 @@
 // the middle of the light source, and rays around the image; so they have passes of their own.
 #pragma once
 
-#include "Bench/MediumCache.h"
 #include "Bench/RayCache.h"
 #include "Bench/UnfinishedImage.h"
+#include "Bench/ViewSetup.h"
 #include "Bench/Watch.h"
 #include "Schlieren.h"
 #include "Waves/LightAtExit.h"
@@ -32,10 +32,11 @@ class WaveStage
 {
 public:
   /// All stay with their owner.
-  WaveStage(MediumOnDevices<Real>& medium, const Light& light, const UnfinishedImage& request,
-    const Watch& watch, RayCache& rays, Work& work)
-    : medium_(medium)
-    , faces_(light.faces)
+  WaveStage(const ViewSetup<Real>& ofView, const UnfinishedImage& request, const Watch& watch,
+    RayCache& rays, Work& work)
+    : view_(ofView)
+    , frame_(ofView.key.frame)
+    , faces_(ofView.light.faces)
     , request_(request)
     , watch_(watch)
     , rays_(rays)
@@ -66,8 +67,9 @@ private:
   bool addWavelengths(
     const LightAtExit& light, Screen screen, const Monitor& monitor, Image& image) const;
 
-  MediumOnDevices<Real>& medium_;
-  const ExitFaces faces_;
+  const ViewSetup<Real>& view_;
+  const Frame& frame_;
+  const ExitFaces& faces_;
   const UnfinishedImage& request_;
   const Watch& watch_;
   RayCache& rays_;

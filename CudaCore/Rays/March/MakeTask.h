@@ -24,7 +24,8 @@ struct RaySettings
   KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };
   double stepVoxels = 1;
   double adaptiveTolerance = usualTolerance;
-  double lengthScale = 1; ///< metres per data unit
+  double homogeneityTolerance = 0; ///< see Scene; 0: nothing is skipped
+  double lengthScale = 1;          ///< metres per data unit
 };
 
 /// `map`: null where nothing is to be skipped. Both stay the caller's.
