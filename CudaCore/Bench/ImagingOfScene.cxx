@@ -116,7 +116,7 @@ Imaging imagingOf(
       return { plateMask(scene, wavelength), pointsOf(scene) };
     case Cutoff::Interferogram:
       return { {}, pointsOf(scene), carrierOf(scene, wavelength, pixelSize) };
-    default:
+    default: // each technique whose light depends on the deflection alone
       return { maskOf(scene, k), pointsOf(scene) };
   }
 }
@@ -141,7 +141,7 @@ std::string noteOnRays(Cutoff cutoff, double width)
     case Cutoff::PhaseContrast:
       note << "rays do not show phases";
       break;
-    default:
+    default: // rays are right where paths and places alone count
       break;
   }
   return note.str();

@@ -97,7 +97,7 @@ double pqCutoff::transmission(const QPointF& deflection) const
       light[0] = this->Inverted ? 1 - fraction : fraction;
       break;
     }
-    default:
+    default: // what has no light by the deflection alone lets all pass
       break;
   }
   return light[0];

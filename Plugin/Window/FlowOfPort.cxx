@@ -93,9 +93,10 @@ FlowDefaults completed(const std::vector<FlowArray>& arrays, Completion completi
       return flowDefaultsAt(arrays, pressureOfRoom);
     case Completion::Isentropic:
       return flowDefaultsFromRest(arrays, temperatureOfRoom);
-    default:
-      return flowDefaults(arrays);
+    case Completion::None:
+      break;
   }
+  return flowDefaults(arrays);
 }
 
 //------------------------------------------------------------------------------

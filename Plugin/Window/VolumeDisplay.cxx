@@ -60,7 +60,7 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
       case MediumSettings::REFRACTIVITY:
         return ambient[0];
       default:
-        break;
+        break; // the scale of a density that is no longer alone, or of no density, is not known
     }
   }
   return std::nan("");

@@ -189,7 +189,7 @@ Real extrapolate(const Real* end, std::int64_t inward, std::int64_t degree)
       return 2 * end[0] - end[inward];
     case 2:
       return 3 * (end[0] - end[inward]) + end[2 * inward];
-    default:
+    default: // 3
       return 4 * (end[0] + end[2 * inward]) - 6 * end[inward] - end[3 * inward];
   }
 }

@@ -205,7 +205,7 @@ std::vector<char> RayWorker::answer(const std::vector<char>& request, int thread
       return {};
     case AskDevice:
       return messageOf(capabilityHere());
-    default:
+    default: // a task to trace
       break;
   }
   TraceHead head;

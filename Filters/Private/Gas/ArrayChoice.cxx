@@ -4,6 +4,7 @@
 
 #include "Common/NumberText.h"
 #include "Gas/GasChoices.h"
+#include "Gas/RefractivityModels.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -75,8 +76,9 @@ std::string inWords(const MediumSettings& settings)
     text += "; isentropic, at rest " + textOf(settings.StagnationTemperature, 6) + " K and " +
       textOf(settings.StagnationPressure, 6) + " Pa";
   }
-  for (std::size_t i = 0;
-       settings.IndexModel == S::GLADSTONE_DALE_MIXTURE && i < settings.MixtureArrays.size(); ++i)
+  for (std::size_t i = 0; kindOf(settings.IndexModel).gases == IndexGases::Mixture &&
+       i < settings.MixtureArrays.size();
+       ++i)
   {
     text += (i > 0 ? ", '" : "; fractions: '") + settings.MixtureArrays[i] + "'";
   }
@@ -188,9 +190,9 @@ std::vector<FlowArray> getArrays(Reader& message)
 //------------------------------------------------------------------------------
 std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
 {
-  switch (settings.IndexModel)
+  switch (kindOf(settings.IndexModel).arrays)
   {
-    case S::CIDDOR:
+    case IndexArrays::Air:
       if (settings.hasUniformPressure())
       {
         return { S::TemperatureArray, S::HumidityArray };
@@ -200,14 +202,14 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
         return { S::PressureArray, S::HumidityArray };
       }
       return { S::TemperatureArray, S::PressureArray, S::HumidityArray };
-    case S::TRANSFER_FUNCTIONS:
+    case IndexArrays::Fields:
       return {};
-    case S::REFRACTIVE_INDEX:
-    case S::REFRACTIVITY:
+    case IndexArrays::Index:
       return { S::IndexArray };
-    default:
-      return { S::DensityArray };
+    case IndexArrays::Density:
+      break;
   }
+  return { S::DensityArray };
 }
 
 //------------------------------------------------------------------------------
@@ -318,12 +320,12 @@ void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, Med
     choice.isScaleKnown = scale != 0 || byUnit != 0 || byValues != 0;
     return scale != 0 ? scale : byUnit != 0 ? byUnit : byValues != 0 ? byValues : 1;
   };
-  if (settings.IndexModel == S::CIDDOR)
+  const IndexArrays arrays = kindOf(settings.IndexModel).arrays;
+  if (arrays == IndexArrays::Air)
   {
     settings.PressureScale = scaleOf(S::PressureArray, given.PressureScale);
   }
-  else if (settings.IndexModel == S::GLADSTONE_DALE ||
-    settings.IndexModel == S::GLADSTONE_DALE_MIXTURE)
+  else if (arrays == IndexArrays::Density)
   {
     settings.DensityScale = scaleOf(S::DensityArray, given.DensityScale);
   }

@@ -3,6 +3,7 @@
 #include "Gas/FlowChooser.h"
 
 #include "Common/NumberText.h"
+#include "Gas/RefractivityModels.h"
 #include "Schlieren.h"
 
 #include <algorithm>
@@ -112,17 +113,20 @@ bool FlowChooser::choose()
 bool FlowChooser::choose(MediumSettings::IndexModels model)
 {
   this->Result.indexModel = model;
-  switch (model)
+  const IndexModelKind& kind = kindOf(model);
+  switch (kind.arrays)
   {
-    case MediumSettings::REFRACTIVE_INDEX:
-      return this->refractiveIndex();
-    case MediumSettings::REFRACTIVITY:
-      return this->refractivity();
-    case MediumSettings::CIDDOR:
+    case IndexArrays::Index:
+      return model == MediumSettings::REFRACTIVE_INDEX ? this->refractiveIndex()
+                                                       : this->refractivity();
+    case IndexArrays::Air:
       return this->moistAir();
-    default:
-      return this->density(model == MediumSettings::GLADSTONE_DALE_MIXTURE);
+    case IndexArrays::Density:
+      return this->density(kind.gases == IndexGases::Mixture);
+    case IndexArrays::Fields:
+      break; // no names are known for them
   }
+  return false;
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/GasChoices.h"
 
+#include "Gas/RefractivityModels.h"
 #include "MediumSettings.h"
 
 #include <algorithm>
@@ -52,17 +53,21 @@ std::string noteOn(const schlieren::Gas& gas, double wavelength)
 /// Lists the names of the gases that the index model uses.
 std::vector<std::string> namesUsed(const MediumSettings& settings)
 {
-  std::vector<std::string> names;
-  if (settings.IndexModel == MediumSettings::GLADSTONE_DALE)
+  switch (kindOf(settings.IndexModel).gases)
   {
-    names = { settings.Gas };
+    case IndexGases::One:
+      return { settings.Gas };
+    case IndexGases::Mixture:
+    {
+      std::vector<std::string> names = settings.MixtureGases;
+      names.push_back(settings.BackgroundGas);
+      return names;
+    }
+    case IndexGases::None:
+    case IndexGases::MoistAir:
+      break;
   }
-  else if (settings.IndexModel == MediumSettings::GLADSTONE_DALE_MIXTURE)
-  {
-    names = settings.MixtureGases;
-    names.push_back(settings.BackgroundGas);
-  }
-  return names;
+  return {};
 }
 
 std::string notInTable(const std::string& property, const std::string& name)
@@ -163,14 +168,14 @@ double wavelengthOfGases(const MediumSettings& settings)
 bool usesWavelength(const MediumSettings& settings)
 {
   const std::vector<std::string> names = namesUsed(settings);
-  return settings.IndexModel == MediumSettings::CIDDOR ||
+  return kindOf(settings.IndexModel).gases == IndexGases::MoistAir ||
     std::any_of(names.begin(), names.end(), schlieren::findGas);
 }
 
 //------------------------------------------------------------------------------
 std::function<double(double)> dispersionOfGases(const MediumSettings& settings, double reference)
 {
-  if (settings.IndexModel == MediumSettings::CIDDOR)
+  if (kindOf(settings.IndexModel).gases == IndexGases::MoistAir)
   {
     const auto at = [](double wavelength) { return schlieren::MoistAir::at(wavelength).dry; };
     return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };

@@ -4,6 +4,7 @@
 
 #include "Common/NumberText.h"
 #include "Gas/ArrayNames.h"
+#include "Gas/RefractivityModels.h"
 
 using filters::ArrayName;
 
@@ -165,14 +166,15 @@ Implausible implausible(const FlowInUse& flow)
       return {}; // another message covers that
     }
   }
-  switch (flow.indexModel)
+  switch (filters::kindOf(flow.indexModel).arrays)
   {
-    case MediumSettings::GLADSTONE_DALE:
-    case MediumSettings::GLADSTONE_DALE_MIXTURE:
+    case filters::IndexArrays::Density:
       return flow.arrays.size() == 1 ? ofDensity(flow) : Implausible();
-    case MediumSettings::CIDDOR:
+    case filters::IndexArrays::Air:
       return flow.arrays.size() == 2 ? ofMoistAir(flow) : Implausible();
-    default:
-      return {};
+    case filters::IndexArrays::Index:
+    case filters::IndexArrays::Fields:
+      break; // any number may be one of these
   }
+  return {};
 }

@@ -7,8 +7,11 @@
 #include "Gas/ArrayChoice.h"
 #include "Gas/GasChoices.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <type_traits>
 
@@ -29,17 +32,111 @@ void requireFinite(const std::string& name, double value)
   }
 }
 
-Linear gladstoneDale(const MediumSettings& settings)
+/// N of a density and the fractions of species.
+class GasMixture : public StateModel
+{
+public:
+  schlieren::Mixture mixture;
+  double densityScale = 1;
+  bool ofVolumes = false; // volume fractions instead of mass fractions
+
+  double refractivity(const double* values) const override
+  {
+    const double constant = this->ofVolumes ? this->mixture.constantByVolume(values + 1)
+                                            : this->mixture.constantByMass(values + 1);
+    return schlieren::gladstoneDaleRefractivity(constant, this->densityScale * values[0]);
+  }
+
+  bool isDoubtful(const double* values) const override
+  {
+    double sum = 0;
+    for (std::size_t i = 1; i <= this->mixture.species.size(); ++i)
+    {
+      sum += values[i];
+    }
+    return sum > maxOfAll;
+  }
+
+  std::string warning(const std::string& fraction) const override
+  {
+    return "The fractions of MixtureArrays add up to more than " + textOf(maxOfAll) + " in " +
+      fraction +
+      " of the points, which leaves less than nothing to the background gas. Check that they "
+      "are fractions of 1 and do not include the background.";
+  }
+};
+
+/// Returns the temperature of air that came from rest to this fraction of its pressure, or beyond, without heat.
+double isentropicTemperature(double atRest, double fraction)
+{
+  constexpr double exponent = 2. / 7; // 1 - 1 / 1.4
+  return atRest * std::pow(fraction, exponent);
+}
+
+/// N of temperature, pressure and, if hasHumidity, relative humidity.
+class CiddorAir : public StateModel
+{
+public:
+  schlieren::MoistAir air{};
+  double temperatureScale = 1, pressureScale = 1;
+  double uniformPressure = 0;       // 0: a value
+  double stagnationTemperature = 0; // 0: the first value; else it follows from the pressure
+  double stagnationPressure = 0;
+  bool hasHumidity = false;    // as last value
+  double relativeHumidity = 0; // used if not hasHumidity
+
+  double refractivity(const double* values) const override
+  {
+    return this->air.refractivity(
+      this->temperatureIn(values), this->pressureIn(values), this->humidityIn(values));
+  }
+
+  bool isDoubtful(const double* values) const override
+  {
+    return !schlieren::isWithinCiddorRange(this->temperatureIn(values), this->pressureIn(values)) ||
+      (this->hasHumidity && this->humidityIn(values) > maxOfAll);
+  }
+
+  std::string warning(const std::string& fraction) const override
+  {
+    return fraction +
+      " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to "
+      "120 kPa, relative humidity to 1). There they are continued towards the ideal gas. "
+      "If so many surprise you, check that Temperature is in K, that PressureScale gives Pa, and "
+      "that humidity is from 0 to 1.";
+  }
+
+private:
+  double temperatureIn(const double* values) const
+  {
+    return this->stagnationTemperature > 0 ? isentropicTemperature(this->stagnationTemperature,
+                                               this->pressureIn(values) / this->stagnationPressure)
+                                           : this->temperatureScale * values[0];
+  }
+  double pressureIn(const double* values) const
+  {
+    return this->uniformPressure > 0
+      ? this->uniformPressure
+      : this->pressureScale * values[this->stagnationTemperature > 0 ? 0 : 1];
+  }
+  double humidityIn(const double* values) const
+  {
+    const bool hasOneOther = this->uniformPressure > 0 || this->stagnationTemperature > 0;
+    return this->hasHumidity ? values[hasOneOther ? 1 : 2] : this->relativeHumidity;
+  }
+};
+
+Model gladstoneDale(const MediumSettings& settings)
 {
   const schlieren::Gas* gas = gasFrom("Gas", settings.Gas);
   const double constant =
     gas ? gas->constantAt(wavelengthOfGases(settings)) : settings.GladstoneDaleConstant;
   requireFinite("GladstoneDaleConstant", constant);
   requireFinite("DensityScale", settings.DensityScale);
-  return { constant * settings.DensityScale, 0 };
+  return Linear{ constant * settings.DensityScale, 0 };
 }
 
-GasMixture gasMixture(const MediumSettings& settings)
+Model gasMixture(const MediumSettings& settings)
 {
   const std::size_t species = settings.MixtureArrays.size();
   if (species == 0)
@@ -57,18 +154,18 @@ GasMixture gasMixture(const MediumSettings& settings)
   }
   requireFinite("DensityScale", settings.DensityScale);
 
-  GasMixture model;
-  model.densityScale = settings.DensityScale;
-  model.ofVolumes = settings.FractionType == 1;
+  auto model = std::make_shared<GasMixture>();
+  model->densityScale = settings.DensityScale;
+  model->ofVolumes = settings.FractionType == 1;
   for (const std::string& gas : settings.MixtureGases)
   {
-    model.mixture.species.push_back(componentFrom("MixtureGases", gas, settings));
+    model->mixture.species.push_back(componentFrom("MixtureGases", gas, settings));
   }
-  model.mixture.background = componentFrom("BackgroundGas", settings.BackgroundGas, settings);
-  return model;
+  model->mixture.background = componentFrom("BackgroundGas", settings.BackgroundGas, settings);
+  return OfState{ model };
 }
 
-CiddorAir ciddorAir(const MediumSettings& settings)
+Model ciddorAir(const MediumSettings& settings)
 {
   requireFinite("PressureScale", settings.PressureScale);
   if (!(settings.UniformPressure >= 0) || std::isinf(settings.UniformPressure))
@@ -97,66 +194,48 @@ CiddorAir ciddorAir(const MediumSettings& settings)
     throw std::runtime_error("Wavelength is " + textOf(settings.Wavelength) +
       " nm, where Ciddor's equations do not hold. Set it between 300 and 1700 nm.");
   }
-  return { schlieren::MoistAir::at(wavelength), kelvinsOf(settings), settings.PressureScale,
-    settings.UniformPressure, settings.isIsentropic() ? settings.StagnationTemperature : 0,
-    settings.StagnationPressure, hasHumidity, humidity };
+  auto model = std::make_shared<CiddorAir>();
+  model->air = schlieren::MoistAir::at(wavelength);
+  model->temperatureScale = kelvinsOf(settings);
+  model->pressureScale = settings.PressureScale;
+  model->uniformPressure = settings.UniformPressure;
+  model->stagnationTemperature = settings.isIsentropic() ? settings.StagnationTemperature : 0;
+  model->stagnationPressure = settings.StagnationPressure;
+  model->hasHumidity = hasHumidity;
+  model->relativeHumidity = humidity;
+  return OfState{ model };
 }
+
+Model refractiveIndex(const MediumSettings&) { return Linear{ 1, -1 }; }
+
+Model refractivity(const MediumSettings&) { return Linear(); }
+
+Model transferFunctions(const MediumSettings& settings) { return fieldMeanFrom(settings); }
+
+/// The table. A model that has not been chosen yet looks for a density.
+constexpr IndexModelKind kinds[] = {
+  { MediumSettings::AUTO, IndexArrays::Density, IndexGases::None, refractivity },
+  { MediumSettings::GLADSTONE_DALE, IndexArrays::Density, IndexGases::One, gladstoneDale },
+  { MediumSettings::REFRACTIVE_INDEX, IndexArrays::Index, IndexGases::None, refractiveIndex },
+  { MediumSettings::REFRACTIVITY, IndexArrays::Index, IndexGases::None, refractivity },
+  { MediumSettings::GLADSTONE_DALE_MIXTURE, IndexArrays::Density, IndexGases::Mixture, gasMixture },
+  { MediumSettings::CIDDOR, IndexArrays::Air, IndexGases::MoistAir, ciddorAir },
+  { MediumSettings::TRANSFER_FUNCTIONS, IndexArrays::Fields, IndexGases::None, transferFunctions },
+};
 
 } // namespace
 
 //------------------------------------------------------------------------------
-double GasMixture::refractivity(const double* values) const
+const IndexModelKind& kindOf(int indexModel)
 {
-  const double constant = this->ofVolumes ? this->mixture.constantByVolume(values + 1)
-                                          : this->mixture.constantByMass(values + 1);
-  return schlieren::gladstoneDaleRefractivity(constant, this->densityScale * values[0]);
-}
-
-bool GasMixture::isDoubtful(const double* values) const
-{
-  double sum = 0;
-  for (std::size_t i = 1; i <= this->mixture.species.size(); ++i)
+  const auto found = std::find_if(std::begin(kinds), std::end(kinds),
+    [indexModel](const IndexModelKind& kind) { return kind.value == indexModel; });
+  if (found == std::end(kinds))
   {
-    sum += values[i];
+    throw std::runtime_error("IndexModel is " + std::to_string(indexModel) +
+      ", which is no index model. Set it to one of the list.");
   }
-  return sum > maxOfAll;
-}
-
-std::string GasMixture::warning(const std::string& fraction) const
-{
-  return "The fractions of MixtureArrays add up to more than " + textOf(maxOfAll) + " in " +
-    fraction +
-    " of the points, which leaves less than nothing to the background gas. Check that they "
-    "are fractions of 1 and do not include the background.";
-}
-
-//------------------------------------------------------------------------------
-double isentropicTemperature(double atRest, double fraction)
-{
-  constexpr double exponent = 2. / 7; // 1 - 1 / 1.4
-  return atRest * std::pow(fraction, exponent);
-}
-
-//------------------------------------------------------------------------------
-double CiddorAir::refractivity(const double* values) const
-{
-  return this->air.refractivity(
-    this->temperatureIn(values), this->pressureIn(values), this->humidityIn(values));
-}
-
-bool CiddorAir::isDoubtful(const double* values) const
-{
-  return !schlieren::isWithinCiddorRange(this->temperatureIn(values), this->pressureIn(values)) ||
-    (this->hasHumidity && this->humidityIn(values) > maxOfAll);
-}
-
-std::string CiddorAir::warning(const std::string& fraction) const
-{
-  return fraction +
-    " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to "
-    "120 kPa, relative humidity to 1). There they are continued towards the ideal gas. "
-    "If so many surprise you, check that Temperature is in K, that PressureScale gives Pa, and "
-    "that humidity is from 0 to 1.";
+  return *found;
 }
 
 //------------------------------------------------------------------------------
@@ -194,26 +273,6 @@ FieldMean fieldMeanFrom(const MediumSettings& settings)
 }
 
 //------------------------------------------------------------------------------
-Model modelFrom(const MediumSettings& settings)
-{
-  switch (settings.IndexModel)
-  {
-    case MediumSettings::GLADSTONE_DALE:
-      return gladstoneDale(settings);
-    case MediumSettings::GLADSTONE_DALE_MIXTURE:
-      return gasMixture(settings);
-    case MediumSettings::CIDDOR:
-      return ciddorAir(settings);
-    case MediumSettings::TRANSFER_FUNCTIONS:
-      return fieldMeanFrom(settings);
-    case MediumSettings::REFRACTIVE_INDEX:
-      return Linear{ 1, -1 };
-    default:
-      return Linear();
-  }
-}
-
-//------------------------------------------------------------------------------
 Selection selectionOf(const MediumSettings& settings, std::size_t index)
 {
   return { MediumSettings::arrayProperties[index], settings.Arrays[index] };
@@ -222,42 +281,32 @@ Selection selectionOf(const MediumSettings& settings, std::size_t index)
 //------------------------------------------------------------------------------
 std::vector<Selection> selectionsFrom(const MediumSettings& settings)
 {
-  using S = MediumSettings;
+  const IndexModelKind& kind = kindOf(settings.IndexModel);
   std::vector<Selection> selections;
-  switch (settings.IndexModel)
+  for (const std::size_t index : arraysOfModel(settings))
   {
-    case S::GLADSTONE_DALE:
-      selections = { selectionOf(settings, S::DensityArray) };
-      break;
-    case S::GLADSTONE_DALE_MIXTURE:
-      selections = { selectionOf(settings, S::DensityArray) };
-      for (const std::string& name : settings.MixtureArrays)
-      {
-        selections.push_back({ "MixtureArrays", { name, -1, selections[0].cellsFirst } });
-      }
-      break;
-    case S::CIDDOR:
-      for (const std::size_t index : arraysOfModel(settings))
-      {
-        if (index != S::HumidityArray || settings.Arrays[index].isNamed())
-        {
-          selections.push_back(selectionOf(settings, index));
-        }
-      }
-      break;
-    case S::TRANSFER_FUNCTIONS:
-      for (const std::string& name : settings.Fields)
-      {
-        selections.push_back({ "Fields", { name } });
-      }
-      if (selections.empty())
-      {
-        selections.push_back({ "Fields", {} }); // named in the message
-      }
-      break;
-    default:
-      selections = { selectionOf(settings, S::IndexArray) };
-      break;
+    if (index != MediumSettings::HumidityArray || settings.Arrays[index].isNamed())
+    {
+      selections.push_back(selectionOf(settings, index));
+    }
+  }
+  if (kind.gases == IndexGases::Mixture)
+  {
+    for (const std::string& name : settings.MixtureArrays)
+    {
+      selections.push_back({ "MixtureArrays", { name, -1, selections[0].cellsFirst } });
+    }
+  }
+  if (kind.arrays == IndexArrays::Fields)
+  {
+    for (const std::string& name : settings.Fields)
+    {
+      selections.push_back({ "Fields", { name } });
+    }
+  }
+  if (selections.empty())
+  {
+    selections.push_back({ "Fields", {} }); // named in the message
   }
   return selections;
 }

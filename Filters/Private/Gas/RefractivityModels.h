@@ -8,17 +8,33 @@
 #include "Schlieren.h"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-/// Models of the refractivity at a point or cell as a function of its arrays. All but Linear have
-///   refractivity(values)  N; NaN for states that no gas can have
-///   isDoubtful(values)    whether the state deserves a warning
-///   warning(fraction)     the warning; the fraction is a text such as "12 %"
+/// Models of the refractivity at a point or cell as a function of its arrays, and the table of them.
 namespace filters
 {
+
+/// What of a gas an index model reads.
+enum class IndexArrays
+{
+  Density,
+  Index, ///< n or N itself
+  Air,   ///< temperature, pressure and humidity
+  Fields
+};
+
+/// Which gases of the table an index model may use, whose constants depend on wavelength.
+enum class IndexGases
+{
+  None,
+  One,     ///< that of Gas
+  Mixture, ///< those of MixtureGases and BackgroundGas, with fractions in MixtureArrays
+  MoistAir ///< by Ciddor's equations
+};
 
 /// N = a x + b of one array; separate from the others because it can be fast.
 struct Linear
@@ -27,65 +43,54 @@ struct Linear
   double offset = 0;
 };
 
-/// N of a density and the fractions of species.
-struct GasMixture
+/// N of several arrays.
+class StateModel
 {
-  schlieren::Mixture mixture;
-  double densityScale;
-  bool ofVolumes; // volume fractions instead of mass fractions
+public:
+  virtual ~StateModel() = default;
 
-  double refractivity(const double* values) const;
-  bool isDoubtful(const double* values) const;
-  std::string warning(const std::string& fraction) const;
+  /// Returns N; NaN for states that no gas can have.
+  virtual double refractivity(const double* values) const = 0;
+  /// Returns whether the state deserves a warning.
+  virtual bool isDoubtful(const double* values) const = 0;
+  /// Returns the warning; the fraction is a text such as "12 %".
+  virtual std::string warning(const std::string& fraction) const = 0;
 };
 
-/// Returns the temperature of air that came from rest to this fraction of its pressure, or beyond, without heat.
-double isentropicTemperature(double atRest, double fraction);
-
-/// N of temperature, pressure and, if hasHumidity, relative humidity.
-struct CiddorAir
+/// Any of them.
+struct OfState
 {
-  schlieren::MoistAir air;
-  double temperatureScale, pressureScale;
-  double uniformPressure;       // 0: a value
-  double stagnationTemperature; // 0: the first value; else it follows from the pressure
-  double stagnationPressure;
-  bool hasHumidity;        // as last value
-  double relativeHumidity; // used if not hasHumidity
+  std::shared_ptr<const StateModel> model;
 
-  double refractivity(const double* values) const;
-  bool isDoubtful(const double* values) const;
-  std::string warning(const std::string& fraction) const;
-
-private:
-  double temperatureIn(const double* values) const
-  {
-    return this->stagnationTemperature > 0 ? isentropicTemperature(this->stagnationTemperature,
-                                               this->pressureIn(values) / this->stagnationPressure)
-                                           : this->temperatureScale * values[0];
-  }
-  double pressureIn(const double* values) const
-  {
-    return this->uniformPressure > 0
-      ? this->uniformPressure
-      : this->pressureScale * values[this->stagnationTemperature > 0 ? 0 : 1];
-  }
-  double humidityIn(const double* values) const
-  {
-    const bool hasOneOther = this->uniformPressure > 0 || this->stagnationTemperature > 0;
-    return this->hasHumidity ? values[hasOneOther ? 1 : 2] : this->relativeHumidity;
-  }
+  double refractivity(const double* values) const { return this->model->refractivity(values); }
+  bool isDoubtful(const double* values) const { return this->model->isDoubtful(values); }
+  std::string warning(const std::string& fraction) const { return this->model->warning(fraction); }
 };
 
 /// Any model.
-using Model = std::variant<Linear, GasMixture, CiddorAir, FieldMean>;
+using Model = std::variant<Linear, OfState, FieldMean>;
+
+/// What a value of IndexModel has.
+struct IndexModelKind
+{
+  MediumSettings::IndexModels value;
+  IndexArrays arrays;
+  IndexGases gases;
+  Model (*make)(const MediumSettings& settings); ///< throws std::runtime_error
+};
+
+/// Looks up a value of IndexModel.
+const IndexModelKind& kindOf(int indexModel);
 
 /// Makes the curves of Fields, straight lines unless the model is Curves. Throws std::runtime_error
 /// for inconsistent settings.
 FieldMean fieldMeanFrom(const MediumSettings& settings);
 
 /// Makes the model of complete settings. Throws std::runtime_error for inconsistent ones.
-Model modelFrom(const MediumSettings& settings);
+inline Model modelFrom(const MediumSettings& settings)
+{
+  return kindOf(settings.IndexModel).make(settings);
+}
 
 /// An array to look for.
 struct Selection : ArraySelection
