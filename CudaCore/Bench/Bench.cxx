@@ -6,6 +6,7 @@
 #include "Bench/PassLoop.h"
 #include "Bench/StageSettings.h"
 #include "Bench/Validation.h"
+#include "Bench/WaveScene.h"
 #include "Bench/WaveStage.h"
 #include "Device/DeviceError.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/TargetError.h"
 
-#include "Bench/MediumCache.h"
+#include "Bench/Ladder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +18,6 @@ namespace
 
 constexpr double coarsestTolerance = 0.01, finestTolerance = 3e-4;
 
-constexpr double longestStepAtWalls = 1, shortestStep = 0.25; // voxels
-
-/// The error of a step by its difference to half of it: 4/3 of it for an order of 2. Beside walls the order is below 1.
-constexpr double errorByHalving = 1.5;
-/// By how much it falls from n to 4 n, at least.
-constexpr double leastGain = 3.5;
 /// For what the patches have not seen.
 constexpr double margin = 1.2;
 
@@ -31,123 +25,6 @@ double sumOf(double a, double b, double c = 0, double d = 0)
 {
   return std::sqrt(a * a + b * b + c * c + d * d);
 }
-
-/// Settings are chosen so that fewer of the pixels that are looked at exceed the target than may: these are a sample, and of
-/// edges of bodies in small images it can have too few.
-constexpr double mayExceedAsChosen = 0.8 * mayExceed;
-
-/// How steps are compared.
-struct StepRange
-{
-  double longest;   ///< voxels
-  int raysAtBodies; ///< per pixel; elsewhere one
-
-  /// How patches are made to compare a step with others.
-  PatchSettings with(double step) const { return { step, 1, raysAtBodies }; }
-  /// The error of steps in pixels with so many rays, from such patches. Few rays that go astray, as in glass, are in
-  /// many of these pixels.
-  double errorOf(const Differences& differences, int samples, double part) const
-  {
-    const int more = std::max(1, samples / raysAtBodies);
-    const double astray = exceededBy(part / more, differences) / more;
-    return std::max(exceededBy(part, differences), astray);
-  }
-};
-
-/// Steps move the edges of bodies by fractions of a pixel, which single rays do not see in nearly all pixels. Those that are
-/// longer than the data are one step as half of them is, which would not show their error.
-template <class Real>
-StepRange stepsFor(const Medium<Real>& medium, bool hasWalls, bool hasFilm)
-{
-  constexpr int raysAtWalls = 16;
-  StepRange steps = hasWalls ? StepRange{ longestStepAtWalls, hasFilm ? raysAtWalls : 1 }
-                             : StepRange{ longestStep, 1 };
-  if (!medium.tree)
-  {
-    const std::array<std::int64_t, 3>& points = medium.volume.dimensions;
-    const std::int64_t fewest = *std::min_element(points.begin(), points.end());
-    steps.longest = std::min(steps.longest, static_cast<double>(fewest - 1));
-  }
-  return steps;
-}
-
-/// Finds errors of steps and rays per pixel when they are requested.
-template <class Real>
-class Ladder
-{
-public:
-  using Patches = typename Pilot<Real>::Patches;
-
-  Ladder(Pilot<Real>& pilot, const StepRange& steps, bool hasFilm, const Monitor& monitor)
-    : pilot_(pilot)
-    , steps_(steps)
-    , hasFilm_(hasFilm)
-    , monitor_(monitor)
-  {
-  }
-
-  double longest() const { return steps_.longest; }
-
-  /// Looks at all patches from now on.
-  void lookAtAll() { looksAtAll_ = true; }
-
-  /// In pixels with so many rays.
-  double ofStep(double step, int samples)
-  {
-    if (step <= shortestStep) // not traced any finer
-    {
-      return 0.5 * ofStep(2 * step, samples);
-    }
-    const auto errorIn = [&](const Differences& differences)
-    { return steps_.errorOf(differences, samples, mayExceedAsChosen); };
-    return errorByHalving * differenceOf(steps_.with(step), steps_.with(0.5 * step), errorIn);
-  }
-
-  /// `allowed`: where the error of 16 rays is less than that by what 4 gain, it is not measured.
-  double ofRays(int samples, double allowed)
-  {
-    constexpr int cheap = 4, mostCompared = 16;
-    constexpr double trust = 0.7, most = 16;
-    if (!hasFilm_)
-    {
-      return 0;
-    }
-    if (samples > mostCompared)
-    {
-      return ofRays(samples / 4, 0) / leastGain;
-    }
-    if (samples > cheap)
-    {
-      const double before = ofRays(cheap, allowed);
-      const double gain =
-        before > 0 ? std::clamp(trust * ofRays(1, allowed) / before, leastGain, most) : leastGain;
-      if (before / gain <= allowed)
-      {
-        return before / gain;
-      }
-    }
-    const auto errorIn = [&](const Differences& differences)
-    { return exceededBy(mayExceedAsChosen, differences); };
-    return differenceOf(
-      { longest(), samples, samples }, { longest(), 4 * samples, 4 * samples }, errorIn);
-  }
-
-private:
-  template <class ErrorIn>
-  double differenceOf(const PatchSettings& a, const PatchSettings& b, const ErrorIn& errorIn)
-  {
-    const auto differenceIn = [&](Patches patches)
-    { return errorIn(pilot_.compare(patches, a, b, monitor_)); };
-    const double difference = differenceIn(Patches::ToChoose);
-    return looksAtAll_ ? std::max(difference, differenceIn(Patches::ToVerify)) : difference;
-  }
-
-  Pilot<Real>& pilot_;
-  bool looksAtAll_ = false;
-  StepRange steps_;
-  bool hasFilm_;
-  const Monitor& monitor_;
-};
 
 ErrorSource limitOf(double ofSteps, double ofRays, const KnownErrors& known)
 {

@@ -3,7 +3,7 @@
 #include "Bench/Validation.h"
 
 #include "Bench/StageSettings.h"
-#include "Bench/WaveStage.h"
+#include "Bench/WaveScene.h"
 #include "Film/Smoothing.h"
 #include "Math/Units.h"
 #include "Medium/Medium.h"
@@ -24,85 +24,58 @@ constexpr double shortestInSingle = 0.01; ///< with a path that is rounded by 2e
 constexpr double longestStep = 16;
 constexpr double largestDistance = 1e30; ///< of a film, data units: displacements are floats
 
-void validateTolerances(const Scene& scene)
+template <class... Message>
+void require(bool isGood, const Message&... message)
 {
-  const auto require = [](bool isGood, const char* name, double value, const char* remedy)
-  {
-    if (!isGood)
-    {
-      std::ostringstream text;
-      text << name << " is " << value << ". Set it " << remedy;
-      throw Error(text.str());
-    }
-  };
-  require(scene.adaptiveTolerance >= 1e-12 && scene.adaptiveTolerance <= 1, "adaptiveTolerance",
-    scene.adaptiveTolerance,
-    "between 1e-12 (smaller errors are lost in rounding) and 1 (all steps are as long as "
-    "StepSize).");
-  require(scene.homogeneityTolerance >= 0 && scene.homogeneityTolerance <= 1,
-    "HomogeneityTolerance", scene.homogeneityTolerance,
-    "between 0 (nothing is skipped) and 1 (all of the flow is), as a fraction of the "
-    "refractivity's "
-    "range.");
-  require(scene.mediumTolerance >= 0 && scene.mediumTolerance <= 1, "MediumTolerance",
-    scene.mediumTolerance,
-    "between 0 (voxels are as fine as the data) and 1, as a fraction of the largest deflection.");
-  require(scene.targetError >= 0 && std::isfinite(scene.targetError), "TargetError",
-    scene.targetError, "to a positive error, or to 0 for the settings as they are.");
-}
-
-void validateSource(const LightSource& source)
-{
-  if (!(source.width >= 0 && std::isfinite(source.width)) ||
-    !(source.length >= 0 && std::isfinite(source.length)))
+  if (!isGood)
   {
     std::ostringstream text;
-    text << "The light source is " << source.width << " by " << source.length
-         << " radians. Set SourceWidth and SourceLength to zero or more.";
+    (text << ... << message);
     throw Error(text.str());
   }
+}
+
+void validateTolerances(const Scene& scene)
+{
+  require(scene.adaptiveTolerance >= 1e-12 && scene.adaptiveTolerance <= 1, "adaptiveTolerance is ",
+    scene.adaptiveTolerance,
+    ". Set it between 1e-12 (smaller errors are lost in rounding) and 1 (all steps are as long as "
+    "StepSize).");
+  require(scene.homogeneityTolerance >= 0 && scene.homogeneityTolerance <= 1,
+    "HomogeneityTolerance is ", scene.homogeneityTolerance,
+    ". Set it between 0 (nothing is skipped) and 1 (all of the flow is), as a fraction of the "
+    "refractivity's range.");
+  require(scene.mediumTolerance >= 0 && scene.mediumTolerance <= 1, "MediumTolerance is ",
+    scene.mediumTolerance,
+    ". Set it between 0 (voxels are as fine as the data) and 1, as a fraction of the largest "
+    "deflection.");
+  require(scene.targetError >= 0 && std::isfinite(scene.targetError), "TargetError is ",
+    scene.targetError, ". Set it to a positive error, or to 0 for the settings as they are.");
 }
 
 void validateImage(const RgbImage& image, const char* name)
 {
   const auto width = static_cast<std::size_t>(std::max(image.width, 0));
   const auto height = static_cast<std::size_t>(std::max(image.height, 0));
-  if (width == 0 || height == 0 || image.rgb.size() != 3 * width * height)
-  {
-    std::ostringstream text;
-    text << name << " is " << image.width << " by " << image.height << " pixels with "
-         << image.rgb.size()
-         << " values. Give it at least one pixel, and red, green and blue for each.";
-    throw Error(text.str());
-  }
+  require(width > 0 && height > 0 && image.rgb.size() == 3 * width * height, name, " is ",
+    image.width, " by ", image.height, " pixels with ", image.rgb.size(),
+    " values. Give it at least one pixel, and red, green and blue for each.");
 }
 
 /// What the kind of cutoff looks at; the rest may be anything.
 void validateCutoff(const Scene& scene)
 {
-  const auto require = [](bool isGood, const char* name, double value, const char* remedy)
-  {
-    if (!isGood)
-    {
-      std::ostringstream text;
-      text << name << " is " << value << remedy;
-      throw Error(text.str());
-    }
-  };
-  require(std::isfinite(scene.cutoffOffset), "CutoffOffset", scene.cutoffOffset,
+  require(std::isfinite(scene.cutoffOffset), "CutoffOffset is ", scene.cutoffOffset,
     ". Set it to a finite fraction of the source's image: 0 cuts half of it, 1/2 all.");
   if (scene.cutoff == Cutoff::GradedFilter)
   {
     const std::vector<double>& filter = scene.gradedFilter;
-    require(filter.size() >= 2, "The number of GradedFilter's values",
-      static_cast<double>(filter.size()), ". Give it two or more, from one side to the other.");
-    const auto bad = std::find_if(
-      filter.begin(), filter.end(), [](double value) { return !(value >= 0 && value <= 1); });
-    if (bad != filter.end())
+    require(filter.size() >= 2, "The number of GradedFilter's values is ", filter.size(),
+      ". Give it two or more, from one side to the other.");
+    for (const double value : filter)
     {
-      require(false, "A value of GradedFilter", *bad,
-        ", but a filter lets a fraction of the light pass. "
-        "Set it between 0 and 1.");
+      require(value >= 0 && value <= 1, "A value of GradedFilter is ", value,
+        ", but a filter lets a fraction of the light pass. Set it between 0 and 1.");
     }
   }
   if (scene.cutoff == Cutoff::ColorFilter && scene.colorFilter)
@@ -113,97 +86,65 @@ void validateCutoff(const Scene& scene)
   {
     require(scene.wavelength > 0 && std::isfinite(1 / scene.wavelength) &&
         std::isfinite(scene.wavelength),
-      "Wavelength", scene.wavelength, " metres. Set it to a positive number.");
+      "Wavelength is ", scene.wavelength, " metres. Set it to a positive number.");
     if (scene.fringes.finite)
     {
-      require(scene.fringes.spacing > 0 && std::isfinite(scene.fringes.spacing), "FringeSpacing",
-        scene.fringes.spacing,
+      require(scene.fringes.spacing > 0 && std::isfinite(scene.fringes.spacing),
+        "FringeSpacing is ", scene.fringes.spacing,
         ", but finite fringes have a spacing. Set it to a positive number of data units, or "
         "FringeSpacing to 0.");
-      require(std::isfinite(scene.fringes.angle), "FringeAngle", scene.fringes.angle,
+      require(std::isfinite(scene.fringes.angle), "FringeAngle is ", scene.fringes.angle,
         ". Set it to an angle in degrees.");
     }
   }
   constexpr int maxBins = 2048;
-  require(scene.histogramSize >= 0 && scene.histogramSize <= maxBins, "HistogramSize",
+  require(scene.histogramSize >= 0 && scene.histogramSize <= maxBins, "HistogramSize is ",
     scene.histogramSize, ". Set it between 0 (no histogram) and 2048.");
 }
 
 void validateScene(const Scene& scene)
 {
-  if (scene.samplesPerPixel < 1)
-  {
-    throw Error("SamplesPerPixel is " + std::to_string(scene.samplesPerPixel) +
-      ", so no light is traced. Set it to 1 or more.");
-  }
-  if (!(scene.stepSize >= shortestStep && scene.stepSize <= longestStep))
-  {
-    throw Error("StepSize is " + std::to_string(scene.stepSize) +
-      " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
-      "flow).");
-  }
-  if (scene.precision == Precision::Single && scene.stepSize < shortestInSingle)
-  {
-    throw Error("StepSize is " + std::to_string(scene.stepSize) +
-      " voxels, but the sum of so many steps is rounded too much in single precision. Set it to "
-      "0.01 "
-      "or more, or Precision to Double.");
-  }
+  require(scene.samplesPerPixel >= 1, "SamplesPerPixel is ", scene.samplesPerPixel,
+    ", so no light is traced. Set it to 1 or more.");
+  require(scene.stepSize >= shortestStep && scene.stepSize <= longestStep, "StepSize is ",
+    scene.stepSize,
+    " voxels. Set it between 0.001 (shorter ones only take longer) and 16 (longer ones miss the "
+    "flow).");
+  require(scene.precision == Precision::Double || scene.stepSize >= shortestInSingle,
+    "StepSize is ", scene.stepSize,
+    " voxels, but the sum of so many steps is rounded too much in single precision. Set it to "
+    "0.01 or more, or Precision to Double.");
   validateTolerances(scene);
-  if (!std::isfinite(scene.knifeEdgeAngle))
-  {
-    throw Error("KnifeEdgeAngle is not finite. Set it to an angle in degrees.");
-  }
+  require(std::isfinite(scene.knifeEdgeAngle),
+    "KnifeEdgeAngle is not finite. Set it to an angle in degrees.");
   validateCutoff(scene);
-  validateSource(scene.source);
-  if (scene.kScale && !(*scene.kScale >= 0 && std::isfinite(*scene.kScale)))
-  {
-    throw Error("KScale is " + std::to_string(*scene.kScale) +
-      ", but it is a focal length divided by a source width. Set it to zero or more; to swap "
-      "bright "
-      "and dark use InvertCutoff.");
-  }
-  if (scene.screenDistance &&
-    !(*scene.screenDistance >= 0 && *scene.screenDistance <= largestDistance))
-  {
-    std::ostringstream text;
-    text << "ScreenDistance is " << *scene.screenDistance
-         << ". Set it to zero or more, up to 1e30 data units.";
-    throw Error(text.str());
-  }
-  if (scene.exitInto == ExitInto::Custom &&
-    !(scene.exitRefractivity > -1 && std::isfinite(scene.exitRefractivity)))
-  {
-    throw Error("ExitRefractivity is " + std::to_string(scene.exitRefractivity) +
-      ", but it is n - 1 of what light leaves the data into: 2.7e-4 of air, 0.333 of water. Set it "
-      "to more than -1, or ExitInto to Air or Surroundings.");
-  }
-  if (!(scene.smoothingRadius >= 0 && scene.smoothingRadius <= largestSmoothingRadius))
-  {
-    std::ostringstream text;
-    text << "SmoothingRadius is " << scene.smoothingRadius << " pixels. Set it between 0 and "
-         << largestSmoothingRadius << "; to blur more, make a smaller image.";
-    throw Error(text.str());
-  }
-  if (scene.threads < 0)
-  {
-    throw Error("The number of threads is " + std::to_string(scene.threads) +
-      ". Set it to 1 or more, or to 0 for all cores.");
-  }
+  const LightSource& source = scene.source;
+  require(source.width >= 0 && std::isfinite(source.width) && source.length >= 0 &&
+      std::isfinite(source.length),
+    "The light source is ", source.width, " by ", source.length,
+    " radians. Set SourceWidth and SourceLength to zero or more.");
+  const double k = scene.kScale.value_or(0);
+  require(k >= 0 && std::isfinite(k), "KScale is ", k,
+    ", but it is a focal length divided by a source width. Set it to zero or more; to swap "
+    "bright and dark use InvertCutoff.");
+  const double screen = scene.screenDistance.value_or(0);
+  require(screen >= 0 && screen <= largestDistance, "ScreenDistance is ", screen,
+    ". Set it to zero or more, up to 1e30 data units.");
+  require(scene.exitInto != ExitInto::Custom ||
+      (scene.exitRefractivity > -1 && std::isfinite(scene.exitRefractivity)),
+    "ExitRefractivity is ", scene.exitRefractivity,
+    ", but it is n - 1 of what light leaves the data into: 2.7e-4 of air, 0.333 of water. Set it "
+    "to more than -1, or ExitInto to Air or Surroundings.");
+  require(scene.smoothingRadius >= 0 && scene.smoothingRadius <= largestSmoothingRadius,
+    "SmoothingRadius is ", scene.smoothingRadius, " pixels. Set it between 0 and ",
+    largestSmoothingRadius, "; to blur more, make a smaller image.");
+  require(scene.threads >= 0, "The number of threads is ", scene.threads,
+    ". Set it to 1 or more, or to 0 for all cores.");
 }
 
 /// The lens of a camera, where there is one. `frame`: of the image.
 void validateLens(const Scene& scene, const Frame& frame)
 {
-  const auto require = [](bool isGood, const auto&... message)
-  {
-    if (!isGood)
-    {
-      std::ostringstream text;
-      (text << ... << message);
-      throw Error(text.str());
-    }
-  };
   const Lens& lens = scene.lens;
   const bool isGood = lens.aperture >= 0 && std::isfinite(lens.aperture) &&
     lens.apertureRatio >= 0 && std::isfinite(lens.apertureRatio);
@@ -229,15 +170,6 @@ void validateLens(const Scene& scene, const Frame& frame)
 /// How light travels: from where, and to what film. `frame`: of the image.
 void validateLight(const Scene& scene, const Frame& frame)
 {
-  const auto require = [](bool isGood, const auto&... message)
-  {
-    if (!isGood)
-    {
-      std::ostringstream text;
-      (text << ... << message);
-      throw Error(text.str());
-    }
-  };
   const double depth = frame.exit - frame.entry;
   require(std::isfinite(scene.focusOffset), "FocusOffset is ", scene.focusOffset,
     ". Set it to a finite number of data units, 0 for the middle of the data.");
@@ -306,32 +238,17 @@ void validateColors(const Field& field, const Scene& scene)
   {
     return;
   }
-  if (field.source ? gradients.count != field.source->fields()
-                   : gradients.count < 0 || gradients.values == nullptr)
-  {
-    throw Error("Field gradients need values, or a source with as many fields.");
-  }
-  if (scene.fieldColors.size() != static_cast<std::size_t>(gradients.count))
-  {
-    throw Error("There are " + std::to_string(scene.fieldColors.size()) + " FieldColors for " +
-      std::to_string(gradients.count) + " fields. Give each field one.");
-  }
+  require(field.source ? gradients.count == field.source->fields()
+                       : gradients.count > 0 && gradients.values != nullptr,
+    "Field gradients need values, or a source with as many fields.");
+  require(scene.fieldColors.size() == static_cast<std::size_t>(gradients.count), "There are ",
+    scene.fieldColors.size(), " FieldColors for ", gradients.count,
+    " fields. Give each field one.");
   for (const std::array<float, 3>& color : scene.fieldColors)
   {
-    if (!std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }))
-    {
-      throw Error("FieldColors holds a value that is not between 0 and 1. Give red, green and blue "
-                  "as contributions of 1.");
-    }
-  }
-}
-
-void validateLengthScale(double lengthScale)
-{
-  if (!(lengthScale > 0) || !std::isfinite(lengthScale))
-  {
-    throw Error("LengthScale is " + std::to_string(lengthScale) +
-      ", but it is the length of one data unit in metres. Set it to a positive number.");
+    require(std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }),
+      "FieldColors holds a value that is not between 0 and 1. Give red, green and blue as "
+      "contributions of 1.");
   }
 }
 
@@ -340,17 +257,16 @@ void validateLengthScale(double lengthScale)
 void validate(const Field& field, const Scene& scene)
 {
   validate(field.grid);
-  validateLengthScale(field.lengthScale);
+  require(field.lengthScale > 0 && std::isfinite(field.lengthScale), "LengthScale is ",
+    field.lengthScale,
+    ", but it is the length of one data unit in metres. Set it to a positive number.");
   validateScene(scene);
   validateColors(field, scene);
   const Frame frame = frameOf(field.grid, scene.view); // which throws where the view is bad
   validateLight(scene, frame);
   const std::string problem =
     scene.lightModel == LightModel::Waves ? problemOfWaves(field, scene, frame) : "";
-  if (!problem.empty())
-  {
-    throw Error(problem);
-  }
+  require(problem.empty(), problem);
 }
 
 } // namespace schlieren

@@ -4,6 +4,7 @@
 
 #include "Bench/ImagingOfScene.h"
 #include "Bench/StageSettings.h"
+#include "Bench/WaveScene.h"
 #include "Rays/Cpu/CpuTracer.h"
 #include "Rays/March/MakeTask.h"
 
@@ -28,36 +29,11 @@ constexpr double raysPerFresnelWidth = 8;
 constexpr int leastRaysPerPixel = 2;
 constexpr int mostRaysPerPixel = 4;
 
-constexpr const char* orRays = " or LightModel to Rays.";
-
-/// The largest slope of diverging light, at the image's corners. Scaling is that of small angles: of this one the width of
-/// fringes is wrong by less than 1 %.
-constexpr double largestSlopeOfWaves = 0.1;
-double largestSlope(const Scene& scene, const Frame& frame)
-{
-  const double distance = frame.pupil > 0 ? frame.pupil : scene.source.distance.value_or(0);
-  return 0.5 * frame.pixelSize * std::hypot(scene.view.width, scene.view.height) / distance;
-}
-
 /// How many wavelengths a band is made of: with 8 a band of a fiftieth is right to 2e-4, with 16 one of a fifth to 3e-3.
 int wavelengthsFor(const Scene& scene)
 {
   constexpr double narrow = 0.03;
   return scene.bandwidth == 0 ? 1 : scene.bandwidth < narrow * scene.wavelength ? 8 : 16;
-}
-
-bool isOfWaves(Cutoff cutoff)
-{
-  constexpr Cutoff all[] = { Cutoff::Shadowgraph, Cutoff::KnifeEdge, Cutoff::Circular,
-    Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::Interferogram,
-    Cutoff::PhaseContrast };
-  return std::find(std::begin(all), std::end(all), cutoff) != std::end(all);
-}
-
-/// A knife edge's source is as wide as k says.
-LightSource sourceOf(const Scene& scene)
-{
-  return scene.cutoff == Cutoff::KnifeEdge ? LightSource{} : scene.source;
 }
 
 /// Rays by which an image's light is traced for waves: those of its centre, on a grid of its own.
@@ -129,87 +105,6 @@ void addBlocked(const TracedPass& traced, float perPass, LightAtExit& light)
 
 } // namespace
 
-std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& frame)
-{
-  if (!isOfWaves(scene.cutoff))
-  {
-    return std::string("LightModel is Waves, but Cutoff is ") + techniqueOf(scene.cutoff).name +
-      ", of which no waves are made. Set Cutoff to another technique," + orRays;
-  }
-  if (techniqueOf(scene.cutoff).hasFringes && scene.fringes.whiteLight)
-  {
-    return std::string("LightModel is Waves, but white light has too many wavelengths. Set "
-                       "WhiteLight to off and Bandwidth "
-                       "to what there is,") +
-      orRays;
-  }
-  const bool isDiverging = frame.pupil > 0 || scene.source.distance;
-  const bool isPlain =
-    scene.cutoff == Cutoff::Shadowgraph && scene.source.shape == SourceShape::Point;
-  if (isDiverging && (!isPlain || largestSlope(scene, frame) > largestSlopeOfWaves))
-  {
-    return "LightModel is Waves, but light diverges by up to " +
-      std::to_string(largestSlope(scene, frame)) +
-      ", and waves take parallel light, or of a Shadowgraph with a point source light that "
-      "diverges by no more than 0.1. Set " +
-      (frame.pupil > 0 ? "ViewAngle to less (0 is parallel light),"
-                       : "SourceDistance to more, or to 0 for collimated light,") +
-      orRays;
-  }
-  if (!(scene.wavelength > 0 && std::isfinite(scene.wavelength) &&
-        std::isfinite(1 / scene.wavelength)))
-  {
-    return "Wavelength is " + std::to_string(scene.wavelength) +
-      " metres. Set it to a positive number.";
-  }
-  if (!(scene.bandwidth >= 0 && scene.bandwidth < scene.wavelength))
-  {
-    return "Bandwidth is " + std::to_string(scene.bandwidth / scene.wavelength) +
-      " times Wavelength. Set it to 0 or more, but to less than Wavelength.";
-  }
-  const PhasePlate& plate = scene.phasePlate;
-  if (scene.cutoff == Cutoff::PhaseContrast &&
-    !(plate.diameter >= 0 && std::isfinite(plate.diameter) && std::isfinite(plate.delay) &&
-      plate.transmission >= 0 && plate.transmission <= 1))
-  {
-    return "The phase plate has " + std::to_string(plate.diameter) + " radians, delays light by " +
-      std::to_string(plate.delay) + " waves and transmits " + std::to_string(plate.transmission) +
-      ". Set PhasePlateDiameter to 0 or more, PhasePlateDelay to a finite number and "
-      "PhasePlateTransmission between 0 and 1.";
-  }
-  if (scene.pathModel == PathModel::Straight)
-  {
-    return std::string("LightModel is Waves, but PathModel is Straight, and straight rays lack the "
-                       "length of bent "
-                       "paths. Set PathModel to Refracted,") +
-      orRays;
-  }
-  if (field.gradients.count > 0)
-  {
-    return std::string("LightModel is Waves, but the image is tinted by fields, which colour rays. "
-                       "Set ColorByField to off,") +
-      orRays;
-  }
-  return "";
-}
-
-std::int64_t pixelsOfFresnelMargin(
-  const Field& field, const Scene& scene, const Frame& frame, const ExitFaces& faces)
-{
-  if (scene.lightModel == LightModel::Rays || !problemOfWaves(field, scene, frame).empty())
-  {
-    return 0;
-  }
-  const double depth = frame.exit - frame.entry;
-  const double farthest = field.lengthScale * (std::abs(filmDistance(scene, frame, faces)) + depth);
-  Screen screen;
-  screen.source = sourceOf(scene);
-  const double pixels =
-    marginOnScreen(screen, scene.wavelength, farthest, 0) / (field.lengthScale * frame.pixelSize);
-  constexpr double most = 1 << 20; // more than can be traced
-  return static_cast<std::int64_t>(std::ceil(std::min(pixels, most)));
-}
-
 template <class Real>
 bool WaveStage<Real>::areWanted(Image& image) const
 {
@@ -261,7 +156,7 @@ Screen WaveStage<Real>::screenOf(const Image& image) const
   screen.distance = scale * filmDistance(scene, frame_, faces_);
   screen.width = image.width;
   screen.height = image.height;
-  screen.source = sourceOf(scene);
+  screen.source = sourceOfWaves(scene);
   screen.sourceAngle = scene.knifeEdgeAngle;
   screen.planeOtherwise = 0.5 * depth;
   screen.largestPlane = depth;

@@ -151,6 +151,7 @@ private:
   BrickSamples valuesAt(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
   bool findEdges(const NodePlace& place, const MediumSource::Content& content,
     BrickSamples& samples, double negligible, Brick<Real>& brick) const;
+  void storeGasDistances(const BrickSamples& samples, Brick<Real>& brick) const;
   void findErrors(const NodePlace& place, const MediumSource::Content& content,
     const BrickSamples& samples, BrickFacts& facts) const;
   void storeCoefficients(const BrickSamples& samples, Brick<Real>& brick) const;

@@ -110,72 +110,11 @@ void MediumTree<Real>::forgetNegligible(const View& view)
   }
 }
 
-template <class Real>
-void MediumTree<Real>::forgetBelow(std::int32_t at)
-{
-  std::int32_t& children = nodes_[static_cast<std::size_t>(at)].children;
-  for (std::int32_t child = 0; children >= 0 && child < childCount(); ++child)
-  {
-    forgetBelow(children + child);
-  }
-  forget(at);
-  children = -1;
-}
-
-/// Makes unknown what is outside of the view or finer than it needs.
-template <class Real>
-bool MediumTree<Real>::forgetUnneeded(const View& view)
-{
-  bool hasChanged = false;
-  for (std::int32_t root = 0; root < rootCells_[0] * rootCells_[1] * rootCells_[2]; ++root)
-  {
-    hasChanged = forgetUnneeded(root, view) || hasChanged;
-  }
-  return hasChanged;
-}
-
-template <class Real>
-bool MediumTree<Real>::isNeeded(const Node& node, const View& view) const
-{
-  return view.sees(node.place) && (node.children < 0 || view.allows(node.place));
-}
-
-template <class Real>
-bool MediumTree<Real>::hasUnneeded(const View& view) const
-{
-  return std::any_of(nodes_.begin(), nodes_.end(),
-    [&](const Node& node)
-    { return (node.children >= 0 || node.isKnown) && !isNeeded(node, view); });
-}
-
-template <class Real>
-bool MediumTree<Real>::forgetUnneeded(std::int32_t at, const View& view)
-{
-  Node& node = nodes_[static_cast<std::size_t>(at)];
-  const bool isInner = node.children >= 0;
-  if (!isNeeded(node, view))
-  {
-    const bool hasAny = isInner || node.isKnown;
-    forgetBelow(at);
-    return hasAny;
-  }
-  bool hasChanged = false;
-  for (std::int32_t child = 0; isInner && child < childCount(); ++child)
-  {
-    hasChanged = forgetUnneeded(node.children + child, view) || hasChanged;
-  }
-  return hasChanged;
-}
-
 template void MediumTree<float>::keep(std::int32_t, const Brick<float>&);
 template void MediumTree<float>::forget(std::int32_t);
 template void MediumTree<float>::forgetNegligible(const View&);
-template bool MediumTree<float>::forgetUnneeded(const View&);
-template bool MediumTree<float>::hasUnneeded(const View&) const;
 template void MediumTree<double>::keep(std::int32_t, const Brick<double>&);
 template void MediumTree<double>::forget(std::int32_t);
 template void MediumTree<double>::forgetNegligible(const View&);
-template bool MediumTree<double>::forgetUnneeded(const View&);
-template bool MediumTree<double>::hasUnneeded(const View&) const;
 
 } // namespace schlieren

@@ -31,7 +31,7 @@ struct TreeSettings
   int threads = 0;
 };
 
-/// What becomes of leaves that a view does not need, where memory is short.
+/// What becomes of the leaves of other views, where memory is short.
 enum class Unneeded
 {
   Goes,
@@ -142,8 +142,6 @@ private:
     double progress = 0; ///< reported
     double leastUrgent =
       std::numeric_limits<double>::infinity(); ///< of what was divided since memory is short
-    bool hasForgotten = false;                 ///< what the view does not need
-    bool hasBegunAnew = false;
     bool isMemoryShort = false;
     std::vector<Task> tasks; ///< of this round
     std::size_t tasksDone = 0;
@@ -179,11 +177,6 @@ private:
   void removeGradients(std::int32_t node);
   void forget(std::int32_t node);
   void forgetNegligible(const View& view);
-  void forgetBelow(std::int32_t node);
-  bool forgetUnneeded(const View& view);
-  bool forgetUnneeded(std::int32_t node, const View& view);
-  bool isNeeded(const Node& node, const View& view) const;
-  bool hasUnneeded(const View& view) const;
   std::size_t bytesUsed() const;
 
   NodeFields fieldsOf(std::int32_t node) const;
@@ -215,6 +208,8 @@ private:
   Work work_;
   Unneeded unneeded_ = Unneeded::Goes; ///< as of the last call
   bool lacksRoom_ = false;
+  bool hasRefined_ = false;  ///< for any view
+  bool holdsOthers_ = false; ///< leaves that were made for other views
   bool isArranged_ = false;
   bool isMeasured_ = false; ///< false: leaves have been made without knowing what is negligible
 

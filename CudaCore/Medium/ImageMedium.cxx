@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The medium of an image: its samples as nu, solids among them, coefficients of a spline.
+#include "Medium/ImageBounds.h"
+#include "Medium/Medium.h"
+
+#include "Device/Parallel.h"
+#include "Medium/Samples/Solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace schlieren
+{
+
+namespace
+{
+
+template <class Value>
+struct Samples
+{
+  const Value* values;
+  const unsigned char* valid;
+
+  static bool maySayGas(unsigned char mark) { return mark != 0 && mark != transparent; }
+  bool isGas(std::int64_t at) const
+  {
+    return (valid == nullptr || maySayGas(valid[at])) && std::isfinite(values[at]);
+  }
+  bool isSolid(std::int64_t at) const
+  {
+    return !isGas(at) && (valid == nullptr || valid[at] != transparent);
+  }
+};
+
+/// Calls visit(index) for the points of the grid's faces.
+template <class Visit>
+void forFaces(const std::array<std::int64_t, 3>& n, const Visit& visit)
+{
+  for (std::int64_t k = 0; k < n[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < n[1]; ++j)
+    {
+      const bool wholeRow = k == 0 || k == n[2] - 1 || j == 0 || j == n[1] - 1;
+      for (std::int64_t i = 0; i < n[0]; i += wholeRow ? 1 : n[0] - 1)
+      {
+        visit((k * n[1] + j) * n[0] + i);
+      }
+    }
+  }
+}
+
+/// Median over the gas on the six faces of the grid; where all of that is solid, over all gas. The
+/// median, because the gas around the flow fills most of the faces, while a mean is pulled by every
+/// jet or wake that passes through one. Needs as much memory as the values that it looks at.
+template <class Value>
+double boundaryMedian(const Samples<Value>& samples, const std::array<std::int64_t, 3>& n)
+{
+  const std::int64_t all = n[0] * n[1] * n[2];
+  std::vector<Value> values;
+  values.reserve(static_cast<std::size_t>(all - (n[0] - 2) * (n[1] - 2) * (n[2] - 2)));
+  const auto add = [&](std::int64_t at)
+  {
+    if (samples.isGas(at))
+    {
+      values.push_back(samples.values[at]);
+    }
+  };
+  forFaces(n, add);
+  if (values.empty())
+  {
+    std::int64_t gas = 0;
+    for (std::int64_t at = 0; at < all; ++at)
+    {
+      gas += samples.isGas(at) ? 1 : 0;
+    }
+    values.reserve(static_cast<std::size_t>(gas));
+    for (std::int64_t at = 0; at < all; ++at)
+    {
+      add(at);
+    }
+  }
+  if (values.empty())
+  {
+    return 0;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
+
+struct Range
+{
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  std::int64_t gas = 0;
+};
+
+/// Copies a row of samples as nu, 0 where there is no gas; returns the number of points that are gas. `zero`: the
+/// sample of the ambient gas.
+/// Loads a row without branches and with one range per place in it, so that it vectorises.
+template <class Real, class Value, class IsValid>
+int loadRow(const Value* values, const IsValid& isValid, std::int64_t count, double zero,
+  double scale, Real* nu, Value* lowest, Value* highest)
+{
+  constexpr Value infinite = std::numeric_limits<Value>::infinity();
+  int gas = 0;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const Value n = values[i];
+    const bool isGas = (std::abs(n) < infinite) & isValid(i);
+    const Real shifted = static_cast<Real>((static_cast<double>(n) - zero) * scale);
+    nu[i] = isGas ? shifted : Real(0);
+    const Value low = isGas ? n : infinite;
+    const Value high = isGas ? n : -infinite;
+    lowest[i] = low < lowest[i] ? low : lowest[i];
+    highest[i] = high > highest[i] ? high : highest[i];
+    gas += isGas ? 1 : 0;
+  }
+  return gas;
+}
+
+/// Copies the samples, which hold N less `offset`, into the padded volume as nu, 0 where there is no gas, and finds
+/// the range of N.
+template <class Real, class Value>
+Range load(const Samples<Value>& samples, double offset, double ambient, PaddedVolume<Real>& volume,
+  int threads)
+{
+  const auto [nx, ny, nz] = volume.dimensions;
+  const double zero = ambient - offset;
+  const double scale = 1 / (1 + ambient);
+  std::vector<Range> planes(static_cast<std::size_t>(nz));
+  parallelFor(nz, 1, threads,
+    [&, nx = nx, ny = ny](std::int64_t begin, std::int64_t end)
+    {
+      const auto width = static_cast<std::size_t>(nx);
+      constexpr Value none = std::numeric_limits<Value>::infinity();
+      std::vector<Value> lowest(width, none), highest(width, -none);
+      for (std::int64_t k = begin; k < end; ++k)
+      {
+        Range& range = planes[static_cast<std::size_t>(k)];
+        for (std::int64_t j = 0; j < ny; ++j)
+        {
+          const std::int64_t row = (k * ny + j) * nx;
+          const auto loadWith = [&, nx](const auto& isValid)
+          {
+            return loadRow(samples.values + row, isValid, nx, zero, scale, &volume.at(0, j, k),
+              lowest.data(), highest.data());
+          };
+          const unsigned char* valid = samples.valid;
+          range.gas += valid == nullptr ? loadWith([](std::int64_t) { return true; })
+                                        : loadWith([valid = valid + row](std::int64_t i)
+                                            { return Samples<Value>::maySayGas(valid[i]); });
+        }
+        range.lowest =
+          offset + static_cast<double>(*std::min_element(lowest.begin(), lowest.end()));
+        range.highest =
+          offset + static_cast<double>(*std::max_element(highest.begin(), highest.end()));
+      }
+    });
+  Range total;
+  for (const Range& plane : planes)
+  {
+    total.lowest = std::min(total.lowest, plane.lowest);
+    total.highest = std::max(total.highest, plane.highest);
+    total.gas += plane.gas;
+  }
+  return total;
+}
+
+/// The points for which is(index) holds.
+template <class Predicate>
+PointMask findPoints(
+  const std::array<std::int64_t, 3>& dimensions, int threads, const Predicate& is)
+{
+  PointMask found(dimensions);
+  parallelFor(dimensions[2], 1, threads,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t k = begin; k < end; ++k)
+      {
+        for (std::int64_t j = 0; j < dimensions[1]; ++j)
+        {
+          const std::int64_t first = (k * dimensions[1] + j) * dimensions[0];
+          for (std::int64_t n = 0; n < found.wordsPerRow; ++n)
+          {
+            const std::int64_t points = std::min<std::int64_t>(64, dimensions[0] - 64 * n);
+            std::uint64_t others = 0;
+            for (std::int64_t i = 0; i < points; ++i)
+            {
+              others |= std::uint64_t{ !is(first + 64 * n + i) } << i;
+            }
+            found.row(j, k)[n] = ~others;
+          }
+        }
+      }
+    });
+  return found;
+}
+
+/// Marks the solids and gives them, and what is transparent, values from the gas around.
+template <class Real, class Value>
+void setSolids(const Samples<Value>& samples, Medium<Real>& medium, int threads)
+{
+  const std::array<std::int64_t, 3>& dimensions = medium.volume.dimensions;
+  {
+    const PointMask solid =
+      findPoints(dimensions, threads, [&](std::int64_t at) { return samples.isSolid(at); });
+    if (solid.any())
+    {
+      medium.solid = bitsPerSample(medium.volume, solid);
+    }
+  }
+  fillEmpty(medium.volume,
+    findPoints(dimensions, threads, [&](std::int64_t at) { return !samples.isGas(at); }), threads);
+}
+
+/// Sets to zero what is too small to matter beside `largest` |nu|. The tails of a spline's coefficients
+/// fall by 5.8 (quadratic) or 3.7 a point and soon reach denormal numbers, on which a CPU is a hundred
+/// times slower.
+template <class Real>
+void cutTails(PaddedVolume<Real>& volume, double largest, int threads)
+{
+  constexpr double negligible = 1e-20;
+  const Real smallest = static_cast<Real>(negligible * largest);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
+  parallelFor(static_cast<std::int64_t>(volume.samples.size()), grain, threads,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        Real& sample = volume.samples[static_cast<std::size_t>(i)];
+        sample = std::abs(sample) < smallest ? 0 : sample;
+      }
+    });
+}
+
+template <class Real, class Value>
+Medium<Real> build(
+  const Field& field, const Value* values, Interpolation interpolation, int threads)
+{
+  const Samples<Value> samples{ values, field.valid };
+  // Before there is a volume: it takes memory, too.
+  const double ambient =
+    field.ambient ? *field.ambient : field.offset + boundaryMedian(samples, field.grid.dimensions);
+  Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {}, nullptr };
+  medium.ambient = ambient;
+  const Range range = load(samples, field.offset, ambient, medium.volume, threads);
+  validateRange(range.lowest, range.highest);
+  medium.largestN = std::max(std::abs(range.lowest), std::abs(range.highest));
+  medium.rangeOfNu = (range.highest - range.lowest) / (1 + ambient);
+  if (range.gas < field.grid.dimensions[0] * field.grid.dimensions[1] * field.grid.dimensions[2])
+  {
+    setSolids(samples, medium, threads);
+  }
+  const bool isCubic = interpolation == Interpolation::Cubic;
+  isCubic ? prefilterCubic(medium.volume, threads) : prefilterQuadratic(medium.volume, threads);
+  fillGhosts(medium.volume, isCubic ? 3 : 2); // as it continues in the prefilter
+  cutTails(medium.volume, std::max(range.highest - ambient, ambient - range.lowest) / (1 + ambient),
+    threads);
+  findBounds(medium, threads);
+  return medium;
+}
+
+} // namespace
+
+template <class Real>
+Medium<Real> buildMedium(const Field& field, Interpolation interpolation, int threads)
+{
+  validate(field.grid);
+  if (field.ambient)
+  {
+    validateAmbient(*field.ambient);
+  }
+  if ((field.singles == nullptr) == (field.doubles == nullptr))
+  {
+    throw Error("A field needs either float or double samples.");
+  }
+  return field.singles != nullptr ? build<Real>(field, field.singles, interpolation, threads)
+                                  : build<Real>(field, field.doubles, interpolation, threads);
+}
+
+template Medium<float> buildMedium(const Field&, Interpolation, int);
+template Medium<double> buildMedium(const Field&, Interpolation, int);
+
+} // namespace schlieren

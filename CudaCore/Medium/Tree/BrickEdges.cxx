@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where gas ends in a brick.
+#include "Medium/Tree/Brick.h"
+
+#include "Medium/Tree/BrickErrors.h"
+#include "Medium/Tree/BrickSamples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace schlieren
+{
+
+namespace
+{
+
+constexpr double distanceUnits = 8192;
+
+} // namespace
+
+/// The kind of a leaf that may have walls or windows, its map and what it needs to be finer. Returns whether gas
+/// or a window ends in it.
+template <class Real>
+bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Content& content,
+  BrickSamples& samples, double negligible, Brick<Real>& brick) const
+{
+  bool hasGas = false, hasWall = false, hasWindow = false, hasEdge = false;
+  double besideEdge = 0;
+  float bend = 0; // of distances, in the middle of a voxel
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  std::array<std::array<float, 2>, 3> normals;
+  normals.fill({ infinity, -infinity });
+  const int first = samples.margin - 1;
+  const int last = samples.margin + edge;
+  const bool isLayer = shape_ == BrickShape::Layer;
+  for (int k = isLayer ? 0 : first; k <= (isLayer ? 0 : last); ++k)
+  {
+    for (int j = first; j <= last; ++j)
+    {
+      for (int i = first; i <= last; ++i)
+      {
+        if (!samples.isWithin(i, j, k))
+        {
+          continue;
+        }
+        const std::size_t at = samples.index(i, j, k);
+        hasGas = hasGas || samples.places[at] == Place::Gas;
+        hasWall = hasWall || samples.places[at] == Place::Wall;
+        hasWindow = hasWindow || samples.places[at] == Place::Window;
+        // Where gas ends with the domain there is no edge: rays end there, too.
+        const bool isLast =
+          !samples.isWithin(i - 1, j - 1, k - 1) || !samples.isWithin(i + 1, j + 1, k + 1);
+        const bool isNear =
+          samples.distances[at] > -1 && samples.distances[at] < (isLast ? 0.45f : 1.f);
+        hasEdge = hasEdge || isNear;
+        if (isNear && !isLast)
+        {
+          bend = std::max(bend, samples.bendAt(i, j, k));
+          samples.addNormal(i, j, k, normals);
+        }
+        const bool isGas = samples.places[at] == Place::Gas;
+        if (isGas && (isNear || (isLast && samples.isBesideWindow(i, j, k))))
+        {
+          besideEdge = std::max(besideEdge, std::abs(samples.nu[at]));
+        }
+      }
+    }
+  }
+  hasEdge = hasEdge || (hasGas ? hasWall || hasWindow : hasWall && hasWindow);
+  if (!hasEdge)
+  {
+    brick.kind = hasGas ? Leaf<Real>::Samples : hasWall ? Leaf<Real>::Solid : Leaf<Real>::Constant;
+    return false;
+  }
+  BrickFacts& facts = brick.facts;
+  facts.hasWallEdge = hasWall || (content.hasWall && !hasWindow);
+  facts.areWallsFlat = content.areWallsFlat;
+  facts.besideWindow = hasWindow || !hasWall ? deflectionByRange * besideEdge : 0;
+  const std::array<double, 3> voxel = voxelOf(place.level);
+  facts.normals = bend > 0 ? normals : facts.normals;
+  facts.edgeError =
+    static_cast<double>(bend) * *std::max_element(voxel.begin(), voxel.begin() + axes());
+  facts.areEdgesFine = areEdgesFine(place.level, content);
+  if (!facts.hasWallEdge && facts.besideWindow <= negligible && samples.fields.n == 0)
+  {
+    facts.neglected = std::max(facts.neglected, facts.besideWindow);
+    brick.kind = hasGas ? Leaf<Real>::Samples : Leaf<Real>::Constant;
+    return true; // but nothing of it can be seen
+  }
+  brick.kind = Leaf<Real>::Mixed;
+  storeGasDistances(samples, brick);
+  return true;
+}
+
+template <class Real>
+void BrickMaker<Real>::storeGasDistances(const BrickSamples& samples, Brick<Real>& brick) const
+{
+  const bool isLayer = shape_ == BrickShape::Layer;
+  const int stored = edge + 2 * apron_;
+  const int skipped = samples.margin - apron_;
+  brick.gasDistances.reserve(static_cast<std::size_t>(samplesPerBrick()));
+  for (int k = 0; k < layersOf(stored); ++k)
+  {
+    for (int j = 0; j < stored; ++j)
+    {
+      for (int i = 0; i < stored; ++i)
+      {
+        // Where gas ends with the domain there is no edge: rounding would decide where rays that end there are.
+        const std::array<int, 3> nearest =
+          samples.nearestWithin({ i + skipped, j + skipped, isLayer ? 0 : k + skipped });
+        const std::size_t at = samples.index(nearest[0], nearest[1], nearest[2]);
+        // What is beyond the edge next to a point of gas: a window if no neighbour is a wall.
+        bool isWindow = samples.places[at] == Place::Window;
+        if (samples.places[at] == Place::Gas && samples.distances[at] < 2)
+        {
+          bool isBesideWall = false;
+          for (int neighbour = 0; neighbour < (isLayer ? 9 : 27); ++neighbour)
+          {
+            const Place there = samples.places[samples.index(nearest[0] + neighbour % 3 - 1,
+              nearest[1] + neighbour / 3 % 3 - 1, isLayer ? 0 : nearest[2] + neighbour / 9 - 1)];
+            isWindow = isWindow || there == Place::Window;
+            isBesideWall = isBesideWall || there == Place::Wall;
+          }
+          isWindow = isWindow && !isBesideWall;
+        }
+        const double limited = std::clamp(static_cast<double>(samples.distances[at]),
+          -static_cast<double>(MediumSource::reach), static_cast<double>(MediumSource::reach));
+        const int even = 2 * static_cast<int>(std::lround(limited * distanceUnits / 2));
+        brick.gasDistances.push_back(static_cast<std::int16_t>(even + (isWindow ? 1 : 0)));
+      }
+    }
+  }
+}
+
+template bool BrickMaker<float>::findEdges(
+  const NodePlace&, const MediumSource::Content&, BrickSamples&, double, Brick<float>&) const;
+template bool BrickMaker<double>::findEdges(
+  const NodePlace&, const MediumSource::Content&, BrickSamples&, double, Brick<double>&) const;
+
+} // namespace schlieren
