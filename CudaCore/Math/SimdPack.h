@@ -132,37 +132,6 @@ SCHLIEREN_HD SimdPack<float, 16> maximum(const SimdPack<float, 16>& a, const Sim
 }
 #endif
 
-/// Numbers of a table of eight, chosen by `index`, a pack of integers.
-template <class Pack, class Number, class Int>
-SCHLIEREN_HD Pack lookUp(const Number (&table)[8], const Int& index)
-{
-#if defined(__AVX512F__)
-  if constexpr (sizeof(Pack) == 64 && sizeof(Number) == 4)
-  {
-    const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(table));
-    return (Pack)_mm512_permutexvar_epi32((__m512i)index, _mm512_castsi256_si512(all));
-  }
-#endif
-#if defined(__AVX2__)
-  if constexpr (sizeof(Pack) == 32 && sizeof(Number) == 4)
-  {
-    const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(table));
-    return (Pack)_mm256_permutevar8x32_epi32(all, (__m256i)index);
-  }
-#endif
-  constexpr int lanes = static_cast<int>(sizeof(Pack) / sizeof(Number));
-  std::int32_t at[lanes];
-  Number found[lanes];
-  std::memcpy(at, &index, sizeof(at));
-  for (int i = 0; i < lanes; ++i)
-  {
-    found[i] = table[at[i]];
-  }
-  Pack pack;
-  std::memcpy(&pack, found, sizeof(pack));
-  return pack;
-}
-
 namespace simd
 {
 

@@ -145,7 +145,7 @@ void arguments(benchmark::internal::Benchmark* b)
   for (const int interpolation :
     { 0, 1 }) // Quadratic, Cubic: the rate and its ratio to one ray at a time
   {
-    for (const int simd : { 0, 1, 2, 3, 4 })
+    for (const int simd : { 0, 1, 2, 3 })
     {
       b->Args({ interpolation, 0, refracted, 0, simd, 2, Oblique, 0 });
     }

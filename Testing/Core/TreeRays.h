@@ -61,7 +61,7 @@ inline Shadow shadowOfDisc(const Image& image, double radius)
 /// Rays side by side, beside one at a time: for all schemes and integrators. Refractivities of `field` are 1e-3, about.
 inline void expectPacksToDoWhatOneDoes(const Field& field)
 {
-  std::vector<Simd> all = { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows };
+  std::vector<Simd> all = { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512 };
   all.erase(
     std::remove_if(all.begin(), all.end(), [](Simd simd) { return !hasSimd(simd); }), all.end());
   for (const Interpolation interpolation : allInterpolations)

@@ -99,136 +99,9 @@ struct Stencil
   }
 };
 
-#if defined(__AVX512F__)
-
-/// Gathers what a pack's rays look at. Samples that lie side by side are gathered as if they were one of
-/// twice the size: a gather costs a load per number.
-template <class Pack>
-struct Gatherer;
-
-template <>
-struct Gatherer<SimdPack<float, 16>>
-{
-  using Pack = SimdPack<float, 16>;
-  __m512i offsets[2]; ///< of the rays 0 1, 4 5, 8 9, 12 13 and of the others
-
-  SCHLIEREN_HD Gatherer(const MediumView<float>& m, const std::int64_t* base,
-    const SimdPack<std::int32_t, 16> (&index)[3])
-  {
-    const auto wide = [](SimdPack<std::int32_t, 16> i, int half) __attribute__((always_inline))
-    {
-      const __m512i none = _mm512_setzero_si512();
-      return half == 0 ? _mm512_unpacklo_epi32((__m512i)i, none)
-                       : _mm512_unpackhi_epi32((__m512i)i, none);
-    };
-    for (int half = 0; half < 2; ++half)
-    {
-      offsets[half] = _mm512_add_epi64(wide(index[0], half),
-        _mm512_add_epi64(_mm512_mul_epu32(wide(index[1], half), _mm512_set1_epi64(m.rowStride)),
-          _mm512_mul_epu32(wide(index[2], half), _mm512_set1_epi64(m.planeStride))));
-    }
-    if (base != nullptr)
-    {
-      const __m512i lower = _mm512_loadu_si512(base), upper = _mm512_loadu_si512(base + 8);
-      offsets[0] = _mm512_add_epi64(offsets[0],
-        _mm512_permutex2var_epi64(lower, _mm512_setr_epi64(0, 1, 4, 5, 8, 9, 12, 13), upper));
-      offsets[1] = _mm512_add_epi64(offsets[1],
-        _mm512_permutex2var_epi64(lower, _mm512_setr_epi64(2, 3, 6, 7, 10, 11, 14, 15), upper));
-    }
-  }
-
-  template <int Points>
-  SCHLIEREN_HD void load(const float* row, Pack (&samples)[Points]) const
-  {
-#pragma GCC unroll 2
-    for (int i = 0; i < Points; i += 2)
-    {
-      const __m512 a = (__m512)_mm512_i64gather_pd(offsets[0], row + i, sizeof(float));
-      const __m512 b = (__m512)_mm512_i64gather_pd(offsets[1], row + i, sizeof(float));
-      samples[i] = (Pack)_mm512_shuffle_ps(a, b, 0x88);
-      if (i + 1 < Points)
-      {
-        samples[i + 1] = (Pack)_mm512_shuffle_ps(a, b, 0xdd);
-      }
-    }
-  }
-};
-
-template <>
-struct Gatherer<SimdPack<double, 8>>
-{
-  using Pack = SimdPack<double, 8>;
-  __m512i offsets;
-
-  SCHLIEREN_HD Gatherer(const MediumView<double>& m, const std::int64_t* base,
-    const SimdPack<std::int32_t, 8> (&index)[3])
-  {
-    const auto wide = [](SimdPack<std::int32_t, 8> i) __attribute__((always_inline))
-    {
-      return _mm512_cvtepi32_epi64((__m256i)i);
-    };
-    offsets = _mm512_add_epi64(wide(index[0]),
-      _mm512_add_epi64(_mm512_mul_epu32(wide(index[1]), _mm512_set1_epi64(m.rowStride)),
-        _mm512_mul_epu32(wide(index[2]), _mm512_set1_epi64(m.planeStride))));
-    if (base != nullptr)
-    {
-      offsets = _mm512_add_epi64(offsets, _mm512_loadu_si512(base));
-    }
-  }
-
-  template <int Points>
-  SCHLIEREN_HD void load(const double* row, Pack (&samples)[Points]) const
-  {
-#pragma GCC unroll 4
-    for (int i = 0; i < Points; ++i)
-    {
-      samples[i] = (Pack)_mm512_i64gather_pd(offsets, row + i, sizeof(double));
-    }
-  }
-};
-
-/// tensorProduct for packs.
-template <class Scheme, class Real, class Pack>
-SCHLIEREN_HD Sample<Pack> sumGathered(const MediumView<Real>& m,
-  const Stencil<Scheme, Real, Pack>& stencil, const Real* origin, const std::int64_t* base)
-{
-  constexpr int points = Scheme::points;
-  const auto& w = stencil.w;
-  const auto& d = stencil.d;
-  const Gatherer<Pack> rows(m, base, stencil.index);
-  Sample<Pack> sum{};
-#pragma GCC unroll 4
-  for (int k = 0; k < points; ++k)
-  {
-    Pack value{}, byX{}, byY{};
-#pragma GCC unroll 4
-    for (int j = 0; j < points; ++j)
-    {
-      Pack samples[points];
-      rows.load(origin + k * m.planeStride + j * m.rowStride, samples);
-      Pack rowValue = w[0][0] * samples[0];
-      Pack rowByX = d[0][0] * samples[0];
-#pragma GCC unroll 4
-      for (int i = 1; i < points; ++i)
-      {
-        rowValue += w[0][i] * samples[i];
-        rowByX += d[0][i] * samples[i];
-      }
-      value = j == 0 ? w[1][0] * rowValue : value + w[1][j] * rowValue;
-      byX = j == 0 ? w[1][0] * rowByX : byX + w[1][j] * rowByX;
-      byY = j == 0 ? d[1][0] * rowValue : byY + d[1][j] * rowValue;
-    }
-    sum.value = k == 0 ? w[2][0] * value : sum.value + w[2][k] * value;
-    sum.gradient.x = k == 0 ? w[2][0] * byX : sum.gradient.x + w[2][k] * byX;
-    sum.gradient.y = k == 0 ? w[2][0] * byY : sum.gradient.y + w[2][k] * byY;
-    sum.gradient.z = k == 0 ? d[2][0] * value : sum.gradient.z + d[2][k] * value;
-  }
-  return sum;
-}
-
-#endif
-
-/// The same by rows.
+/// tensorProduct for packs. Rows of four samples are loaded and summed over y and z, for a fourth of the rays at a time, and
+/// transposed so that the sums over x are done on packs of rays again: as fast as gathers where these are fast, and several
+/// times as fast where they are not.
 template <class Scheme, class Real, class Pack>
 SCHLIEREN_HD Sample<Pack> sumByRows(const MediumView<Real>& m,
   const Stencil<Scheme, Real, Pack>& stencil, const Real* origin, const std::int64_t* base)
@@ -272,27 +145,8 @@ SCHLIEREN_HD Sample<Pack> sumByRows(const MediumView<Real>& m,
       simd::weigh<Real>(w[0], byZAlongX) } };
 }
 
-/// A scheme whose samples packs read by rows even with AVX-512: for processors whose gathers are slow.
-template <class Scheme>
-struct ByRows : Scheme
-{
-};
-template <class Scheme>
-constexpr bool gathers =
-#if defined(__AVX512F__)
-  true;
-#else
-  false;
-#endif
-template <class Scheme>
-constexpr bool gathers<ByRows<Scheme>> = false;
-
 /// Values and gradients at the positions of a pack of rays, each within a leaf; `base`: where the samples of
 /// each begin (null: an image's).
-///
-/// Reads samples by rows. With AVX-512 they are gathered; where a gather costs more than its loads: rows of four
-/// samples are loaded and summed over y and z, for a fourth of the rays at a time, and transposed so that
-/// the sums over x are done on packs of rays again.
 template <class Scheme, class Real, class Pack>
 SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const std::int64_t* base,
   const Vec3<Pack>& position) -> std::enable_if_t<(lanesOf<Pack> > 1), Sample<Pack>>
@@ -300,16 +154,7 @@ SCHLIEREN_HD auto interpolate(const MediumView<Real>& m, const std::int64_t* bas
   const Stencil<Scheme, Real, Pack> stencil(m, position);
   const int ghosts = Stencil<Scheme, Real, Pack>::countsFromGhosts(m) ? 0 : 1;
   const Real* origin = m.samples + (ghosts + Scheme::first) * (m.planeStride + m.rowStride + 1);
-#if defined(__AVX512F__)
-  if constexpr (gathers<Scheme>)
-  {
-    return sumGathered(m, stencil, origin, base);
-  }
-  else
-#endif
-  {
-    return sumByRows(m, stencil, origin, base);
-  }
+  return sumByRows(m, stencil, origin, base);
 }
 
 } // namespace schlieren

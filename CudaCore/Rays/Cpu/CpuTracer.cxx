@@ -130,7 +130,7 @@ bool hasSimd(Simd simd)
     return false;
   }
 #ifdef __x86_64__
-  if (simd >= Simd::Avx512)
+  if (simd == Simd::Avx512)
   {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
@@ -146,16 +146,7 @@ bool hasSimd(Simd simd)
 
 Simd bestSimd()
 {
-#ifdef __x86_64__
-  // A gather takes one load for each number on Intel's processors, and several times that on others. By the vendor and
-  // not by a measurement, so that images do not depend on what else a machine does.
-  const Simd best = __builtin_cpu_is("intel") ? Simd::Avx512 : Simd::Avx512Rows;
-  if (hasSimd(best))
-  {
-    return best;
-  }
-#endif
-  return hasSimd(Simd::Avx2) ? Simd::Avx2 : Simd::Four;
+  return hasSimd(Simd::Avx512) ? Simd::Avx512 : hasSimd(Simd::Avx2) ? Simd::Avx2 : Simd::Four;
 }
 
 template <class Real>
@@ -189,13 +180,6 @@ std::int64_t traceTiles(const RayTask<Real>& task, const Pass& pass, const Tiles
     if (simd == Simd::Avx512)
     {
       return traceWith(simdMarch<Real, ofAvx512>(kernel));
-    }
-  }
-  if constexpr (isCompiledFor(Simd::Avx512Rows))
-  {
-    if (simd == Simd::Avx512Rows)
-    {
-      return traceWith(simdMarchByRows<Real, ofAvx512>(kernel));
     }
   }
   if constexpr (isCompiledFor(Simd::Avx2))

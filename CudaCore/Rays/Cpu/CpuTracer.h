@@ -15,8 +15,7 @@ enum class Simd
   None, ///< one ray at a time
   Four, ///< what every processor of the architecture has (x86-64: SSE2)
   Avx2,
-  Avx512,    ///< whose samples are gathered
-  Avx512Rows ///< whose samples are read by rows, for processors with slow gathers
+  Avx512
 };
 
 /// Whether this processor has them, and the program was compiled for them (SCHLIEREN_SIMD).

@@ -17,8 +17,4 @@ using MarchFunction = void (*)(
 template <class Number, int Lanes>
 MarchFunction<Number, Lanes> simdMarch(const KernelChoice& choice);
 
-/// The same for AVX-512 without gathers.
-template <class Number, int Lanes>
-MarchFunction<Number, Lanes> simdMarchByRows(const KernelChoice& choice);
-
 } // namespace schlieren

@@ -39,16 +39,4 @@ MarchFunction<Number, Lanes> simdMarch(const KernelChoice& choice)
     { return &marchPacks<decltype(kernel), SimdPack<Number, Lanes>>; });
 }
 
-template <class Number, int Lanes>
-MarchFunction<Number, Lanes> simdMarchByRows(const KernelChoice& choice)
-{
-  return visitScheme(choice.interpolation,
-    [&choice](auto scheme)
-    {
-      return visitKernelOf<ByRows<decltype(scheme)>, SchemeOfTaskByRows>(choice,
-        [](auto kernel) -> MarchFunction<Number, Lanes>
-        { return &marchPacks<decltype(kernel), SimdPack<Number, Lanes>>; });
-    });
-}
-
 } // namespace schlieren

@@ -24,15 +24,11 @@ constexpr bool isCompiledFor(Simd simd)
 #else
       return false;
 #endif
-    case Simd::Avx512Rows:
-#ifdef SCHLIEREN_SIMD_AVX512ROWS
-      return true;
-#else
-      return false;
-#endif
-    default:
-      return true;
+    case Simd::None:
+    case Simd::Four:
+      break;
   }
+  return true;
 }
 
 } // namespace schlieren

@@ -19,8 +19,6 @@ namespace schlieren
 /// function of their own anyway, so that their steps are compiled once for all schemes.
 struct SchemeOfTask
 {
-  template <class Scheme>
-  using Of = Scheme;
 };
 
 /// A function of its own where a step takes several samples: in line, their code would be too much.
@@ -28,12 +26,10 @@ template <class Scheme, class Real>
 SCHLIEREN_NOINLINE Sample<Real> sampleApart(
   const RayTask<NumberOf<Real>>& task, const std::int64_t* base, const Vec3<Real>& at)
 {
-  if constexpr (std::is_base_of_v<SchemeOfTask, Scheme>)
+  if constexpr (std::is_same_v<SchemeOfTask, Scheme>)
   {
     return visitScheme(task.kernel.interpolation,
-      [&](auto scheme) {
-        return interpolate<typename Scheme::template Of<decltype(scheme)>>(task.medium, base, at);
-      });
+      [&](auto scheme) { return interpolate<decltype(scheme)>(task.medium, base, at); });
   }
   else
   {

@@ -111,7 +111,7 @@ TYPED_TEST(Addresses, ReachBeyondTwoThousandMillionSamples)
     const Medium<Real> medium = buildMedium<Real>(field.field, interpolation, 1);
     for (const Integrator integrator : { Integrator::Leapfrog, Integrator::Adaptive })
     {
-      for (const Simd simd : { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512, Simd::Avx512Rows })
+      for (const Simd simd : { Simd::None, Simd::Four, Simd::Avx2, Simd::Avx512 })
       {
         if (!hasSimd(simd))
         {
