@@ -64,16 +64,6 @@ TEST(Smoothing, ChangesNothingWithoutNeighbours)
   EXPECT_EQ(smoothed(single, 1, 1, 32, 2), single);
 }
 
-TEST(Smoothing, DoesNotDependOnThreads)
-{
-  const PixelArray<float> once = smoothed(noise(3), width, height, 3.3, 1);
-  EXPECT_NE(once, noise(3));
-  for (const int threads : { 2, 3, 7 })
-  {
-    EXPECT_EQ(smoothed(noise(3), width, height, 3.3, threads), once);
-  }
-}
-
 TEST(Smoothing, HasItsWidth)
 {
   PixelArray<float> spot = evenImage(0);

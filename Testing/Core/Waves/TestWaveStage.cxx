@@ -472,15 +472,6 @@ TEST(WaveStage, AnotherScreenNeedsNoOtherRays)
     2e-3);
 }
 
-TEST(WaveStage, DoesNotDependOnThreads)
-{
-  Scene scene = laserShadowgraph();
-  scene.threads = 1;
-  const Image one = Bench().render(columnInVacuum(), scene);
-  scene.threads = 3;
-  EXPECT_EQ(Bench().render(columnInVacuum(), scene).intensity, one.intensity);
-}
-
 TEST(WaveStage, WhatCannotBeMadeIsAnError)
 {
   struct Case
