@@ -168,6 +168,36 @@ inline std::vector<CellKind> linearKinds()
         { c[0], c[3], c[7], c[4], middle }, { c[1], c[5], c[6], c[2], middle } } } };
 }
 
+/// The same mesh with all cells as polyhedra whose number is `from` plus a multiple of `each`.
+inline Mesh asPolyhedra(vtkUnstructuredGrid* mesh, vtkIdType from = 0, vtkIdType each = 1)
+{
+  auto made = Mesh::New();
+  made->SetPoints(mesh->GetPoints());
+  made->GetPointData()->ShallowCopy(mesh->GetPointData());
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    vtkCell* cell = mesh->GetCell(i);
+    if (i % each != from)
+    {
+      made->InsertNextCell(cell->GetCellType(), cell->GetPointIds());
+      continue;
+    }
+    vtkNew<vtkIdList> faces;
+    faces->InsertNextId(cell->GetNumberOfFaces());
+    for (int face = 0; face < cell->GetNumberOfFaces(); ++face)
+    {
+      vtkIdList* ids = cell->GetFace(face)->GetPointIds();
+      faces->InsertNextId(ids->GetNumberOfIds());
+      for (vtkIdType n = 0; n < ids->GetNumberOfIds(); ++n)
+      {
+        faces->InsertNextId(ids->GetId(n));
+      }
+    }
+    made->InsertNextCell(VTK_POLYHEDRON, faces);
+  }
+  return made;
+}
+
 inline Vec pointOf(const schlieren::Lattice& lattice, std::size_t i)
 {
   const auto row = static_cast<std::size_t>(lattice.points[0]),

@@ -153,4 +153,4 @@ check("overlapping boxes", blocks(*parts), anywhere)
 upside_down = [4, 5, 6, 7, 0, 1, 2, 3]
 check("all inside out", hexahedra(40, upside_down), anywhere)
 check("some inside out", hexahedra(40, lambda cell: upside_down if cell % 2 else range(8)), anywhere)
-check("polyhedra", hexahedra(40, kind=VTK_POLYHEDRON), anywhere, worst=0.08)
+check("polyhedra", hexahedra(40, kind=VTK_POLYHEDRON), anywhere, rms=0.002, worst=0.01)

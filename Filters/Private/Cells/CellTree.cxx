@@ -169,9 +169,9 @@ void CellTree::setValues(const WorkProgress& progress)
     const PointNeighbours& neighbours = mesh.neighbours[block];
     if (arrays.cellsAround())
     {
-      arrays.setValues(neighbours.valuesFromCells(arrays, part.part(0, 0.5)));
+      arrays.setValues(valuesOfMeans(arrays, neighbours, part.part(0, 0.5)));
     }
-    arrays.setTrends(neighbours.trends(arrays, part.part(0.5, 1)));
+    arrays.setTrends(trendsOf(arrays, neighbours, part.part(0.5, 1)));
   }
   if (mesh.levels.empty())
   {

@@ -30,7 +30,8 @@ struct PointTrend
 };
 
 /// Range and moments of the cells around a point, over which its value is a mean if values belong
-/// to cells. Moments are relative to the point, values to the mean.
+/// to cells; in the middle of a polyhedron those of its corners, if values belong to points. Moments are relative to
+/// the point, values to the mean. All are 0 where a value is that at the point.
 struct CellsAround
 {
   float first[3] = {};
@@ -55,7 +56,7 @@ public:
   vtkIdType points() const { return this->PointCount; }
   const double* values() const { return this->Values; }
 
-  /// Returns an entry for each point if values are means over cells; else null.
+  /// Returns an entry for each point if some values are means; else null.
   const CellsAround* cellsAround() const { return this->Around; }
   /// Sets values at the points that replace the dataset's.
   void setValues(std::vector<double> values);

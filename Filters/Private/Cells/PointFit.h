@@ -10,7 +10,7 @@ namespace filters
 
 /**
  * Several points, each with its neighbours, and the quadratic polynomials that fit best what their values are, by least
- * squares: see PointNeighbours.
+ * squares: see PointTrends.h.
  *
  * Values are those at the points, or means over some volume around each of them, whose moments are known (see
  * CellsAround): then the polynomials' means over these volumes are what fits the values.
@@ -66,6 +66,10 @@ struct PointFit
   double correction[points]; // of means: what makes its own one the value at the point
   double unfit[points];      // the part of the values' squares that the polynomial leaves
   double lowest[points], highest[points]; // of the values and 0
+  // Of values at points: what the gradient alone makes of half the way to the neighbours at least and at most, and the
+  // mean over the neighbours of what second derivatives make, but those across the boundary, where
+  // three points in a row do not distinguish an extremum from the edge of a shock.
+  double leastHalf[points], mostHalf[points], bend[points];
 };
 
 /// Fits the polynomials of all points, each by itself, whatever the others are.

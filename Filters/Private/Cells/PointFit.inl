@@ -136,6 +136,10 @@ private:
     }
     Real sums[3][3] = {};
     this->sumPlaces(sums);
+    for (Real& along : this->Middle)
+    {
+      along *= perCount;
+    }
     const Real least = leastFirst * (sums[0][0] + sums[1][1] + sums[2][2]);
     for (int i = 0; i < unknowns && ofMeans; ++i)
     {
@@ -200,6 +204,7 @@ private:
       high = value > high ? value : high;
       for (int i = 0; i < 3; ++i)
       {
+        this->Middle[i] += x[i];
         for (int k = 0; k <= i; ++k)
         {
           sums[i][k] += x[i] * x[k];
@@ -344,6 +349,42 @@ private:
       gradient[i] = this->IsGood ? gradient[i] : this->Zero;
       store(gradient[i], this->Of.gradient[i] + this->FirstPoint);
     }
+    if constexpr (!ofMeans)
+    {
+      this->storeReach(gradient);
+    }
+  }
+
+  SCHLIEREN_INLINE void storeReach(const Real (&gradient)[3])
+  {
+    Real least = this->Zero, most = this->Zero;
+    for (const double* from = this->First; from != this->Last; from += perNeighbour)
+    {
+      Real x[3];
+      for (int i = 0; i < 3; ++i)
+      {
+        load(from + i * points, x[i]);
+      }
+      const Real there = gradient[0] * x[0] + gradient[1] * x[1] + gradient[2] * x[2];
+      least = there < least ? there : least;
+      most = there > most ? there : most;
+    }
+    store(0.5 * least, this->Of.leastHalf + this->FirstPoint);
+    store(0.5 * most, this->Of.mostHalf + this->FirstPoint);
+    // In units in which squares of places along any direction are 1 in the mean.
+    const Real* second = this->Found + 3;
+    Real m[3];
+    this->Scale.scale(this->Middle, m);
+    const Real away = m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
+    const Real along = m[0] * (m[0] * second[0] + m[1] * second[3] + m[2] * second[5]) +
+      m[1] * (m[1] * second[1] + m[2] * second[4]) + m[2] * m[2] * second[2];
+    Real part = (away - inside) / (outside - inside);
+    part = part > 0 ? part : this->Zero;
+    part = part < 1 ? part : this->Zero + 1;
+    const Real bend =
+      second[0] + second[1] + second[2] - part * along / (away > 0 ? away : this->Zero + 1);
+    const Mask isKnown = this->IsGood & (bend * 0 == 0);
+    store(isKnown ? bend : this->Zero, this->Of.bend + this->FirstPoint);
   }
 
   PointFit& Of;
@@ -352,7 +393,8 @@ private:
   const Real Zero = {};
   Mask IsGood;
   Units Scale;
-  Real Own[unknowns]; // moments of what the mean at the point is over
+  Real Middle[3] = {}; // of the neighbours' places
+  Real Own[unknowns];  // moments of what the mean at the point is over
   Real Matrix[unknowns][unknowns] = {}, Right[unknowns] = {}, All = {};
   Real Found[unknowns], Left;
 };

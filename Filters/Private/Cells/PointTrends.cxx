@@ -7,11 +7,8 @@
 #include "Common/Vectors.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace filters
@@ -25,177 +22,62 @@ namespace
 constexpr double goodFit = 0.005;
 constexpr double poorFit = 0.02;
 
-/// Fraction of the range of neighbours by which values may exceed it.
+/// Fraction of the range of neighbours by which values may exceed it wherever they are.
 constexpr double overshoot = 0.01;
-
-constexpr std::size_t fewNeighbours = 14;
-
-/// Cells of points: those of point i are cells[starts[i]] to cells[starts[i + 1]], in order.
-struct CellsOfPoints
-{
-  std::vector<std::uint64_t> starts;
-  std::vector<std::uint32_t> cells;
-};
-
-CellsOfPoints cellsOfPoints(const MeshArrays& mesh, const std::vector<unsigned char>& isCellUsed,
-  const WorkProgress& progress)
-{
-  const auto points = static_cast<std::size_t>(mesh.points());
-  std::vector<std::atomic<std::uint32_t>> counts(points);
-  const auto forCells = [&](const WorkProgress& done, const auto& visit)
-  {
-    forChunks(mesh.cells(), done,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (vtkIdType cell = begin; cell < end; ++cell)
-        {
-          if (isCellUsed[static_cast<std::size_t>(cell)])
-          {
-            mesh.forPoints(
-              cell, [&](vtkIdType point) { visit(cell, static_cast<std::size_t>(point)); });
-          }
-        }
-      });
-  };
-  forCells(progress.part(0, 0.3),
-    [&](vtkIdType, std::size_t point) { counts[point].fetch_add(1, std::memory_order_relaxed); });
-  CellsOfPoints result;
-  result.starts.resize(points + 1);
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    result.starts[i + 1] = result.starts[i] + counts[i].load(std::memory_order_relaxed);
-  }
-  result.cells.resize(result.starts.back());
-  // Fills from behind, then sorts, so that the order does not depend on threads.
-  forCells(progress.part(0.3, 0.7),
-    [&](vtkIdType cell, std::size_t point)
-    {
-      const std::uint32_t left = counts[point].fetch_sub(1, std::memory_order_relaxed);
-      result.cells[result.starts[point] + left - 1] = static_cast<std::uint32_t>(cell);
-    });
-  forChunks(mesh.points(), progress.part(0.7, 1),
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      const auto placeOf = [&](vtkIdType point)
-      {
-        return result.cells.begin() +
-          static_cast<std::ptrdiff_t>(result.starts[static_cast<std::size_t>(point)]);
-      };
-      for (vtkIdType point = begin; point < end; ++point)
-      {
-        std::sort(placeOf(point), placeOf(point + 1));
-      }
-    });
-  return result;
-}
-
-/// A set of points in the order of insertion: a hash table with open addressing.
-class PointSet
-{
-public:
-  const std::vector<std::uint32_t>& points() const { return this->Points; }
-
-  void clear()
-  {
-    ++this->Turn;
-    this->Points.clear();
-  }
-
-  void add(std::uint32_t point)
-  {
-    if (2 * this->Points.size() >= this->Places.size())
-    {
-      this->Places.assign(2 * this->Places.size(), 0);
-      for (const std::uint32_t known : this->Points)
-      {
-        this->isNew(known);
-      }
-    }
-    if (this->isNew(point))
-    {
-      this->Points.push_back(point);
-    }
-  }
-
-private:
-  bool isNew(std::uint32_t point)
-  {
-    const std::uint64_t entry = this->Turn << 32 | point;
-    const std::size_t last = this->Places.size() - 1;
-    std::size_t place = (point * 0x9e3779b97f4a7c15u >> 32) & last;
-    while (this->Places[place] >> 32 == this->Turn)
-    {
-      if (this->Places[place] == entry)
-      {
-        return false;
-      }
-      place = (place + 1) & last;
-    }
-    this->Places[place] = entry;
-    return true;
-  }
-
-  std::uint64_t Turn = 1; // marks valid entries
-  std::vector<std::uint32_t> Points;
-  std::vector<std::uint64_t> Places = std::vector<std::uint64_t>(256, 0); // a power of two
-};
-
-/// Finds the points of all cells around a point, which is the first of them, and if these are few those of all cells
-/// around these. `forCells(point, visit)` visits the numbers of the cells around a point.
-template <class ForCells>
-void findNeighbours(
-  const MeshArrays& mesh, const ForCells& forCells, vtkIdType point, PointSet& found)
-{
-  found.clear();
-  found.add(static_cast<std::uint32_t>(point));
-  std::size_t done = 0;
-  for (int ring = 0; ring < 2 && found.points().size() <= fewNeighbours; ++ring)
-  {
-    for (const std::size_t end = found.points().size(); done < end; ++done)
-    {
-      forCells(static_cast<vtkIdType>(found.points()[done]),
-        [&](vtkIdType cell) {
-          mesh.forPoints(
-            cell, [&](vtkIdType other) { found.add(static_cast<std::uint32_t>(other)); });
-        });
-    }
-  }
-}
 
 const FitPoints fitPoints = functionsToFit().back();
 
-/// What is known of one of the points.
-PointTrend trendOf(const PointFit& fit, std::size_t point)
+/// A point whose gradient leads beyond the values of its neighbours.
+struct Beyond
 {
-  const double more = overshoot * (fit.highest[point] - fit.lowest[point]);
-  const double lowest = fit.lowest[point] - more, highest = fit.highest[point] + more;
-  double least = 1;
-  if (fit.unfit[point] > goodFit)
-  {
-    for (std::size_t i = 0; i < fit.counts[point]; ++i)
-    {
-      const double* neighbour = fit.numbers.data() + 4 * PointFit::points * i + point;
-      double reached = 0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        reached += fit.gradient[axis][point] * neighbour[axis * PointFit::points] / 2;
-      }
-      if (reached > highest || reached < lowest)
-      {
-        least = std::min(least, (reached > 0 ? highest : lowest) / reached);
-      }
-    }
-  }
-  const double limited = std::clamp((fit.unfit[point] - goodFit) / (poorFit - goodFit), 0., 1.);
+  vtkIdType point;
+  float least, most; // half the way to the neighbours
+  float limited;     // 0: the gradient stays as it is, 1: it is limited in full
+};
+
+/// Returns the trend of one of the points, and adds it to `toBeLimited` if its gradient leads beyond.
+PointTrend trendOf(
+  const PointFit& fit, std::size_t i, vtkIdType point, std::vector<Beyond>& toBeLimited)
+{
+  const double more = overshoot * (fit.highest[i] - fit.lowest[i]);
   PointTrend trend;
   for (int axis = 0; axis < 3; ++axis)
   {
-    trend.gradient[axis] =
-      static_cast<float>(fit.gradient[axis][point] * (1 + limited * (least - 1)));
+    trend.gradient[axis] = static_cast<float>(fit.gradient[axis][i]);
   }
-  trend.lowest = static_cast<float>(lowest);
-  trend.highest = static_cast<float>(highest);
+  trend.lowest = static_cast<float>(fit.lowest[i] - more);
+  trend.highest = static_cast<float>(fit.highest[i] + more);
+  const auto least = static_cast<float>(fit.leastHalf[i]);
+  const auto most = static_cast<float>(fit.mostHalf[i]);
+  if (least < trend.lowest || most > trend.highest)
+  {
+    const double limited = std::clamp((fit.unfit[i] - goodFit) / (poorFit - goodFit), 0., 1.);
+    toBeLimited.push_back({ point, least, most, static_cast<float>(limited) });
+  }
   return trend;
+}
+
+/// C of Colella and Sekora (see PointTrends.h): by how much more the second derivative at an extremum may be than the
+/// least one nearby.
+constexpr float moreThanLeast = 1.25f;
+
+/// By how much values may go beyond at an extremum, in units of what second derivatives make of the distance to the
+/// neighbours: the top between two of them is a quarter of it higher, that in the middle of eight up to 0.6.
+constexpr float beyondNeighbours = 0.6f;
+
+/// Limits a trend. `leastBend` and `mostBend`: of the point and all its neighbours.
+void limit(PointTrend& trend, const Beyond& beyond, float leastBend, float mostBend)
+{
+  constexpr float part = moreThanLeast * beyondNeighbours;
+  trend.highest += part * std::max(-mostBend, 0.f);
+  trend.lowest -= part * std::max(leastBend, 0.f);
+  float factor = 1;
+  factor = beyond.most > trend.highest ? std::min(factor, trend.highest / beyond.most) : factor;
+  factor = beyond.least < trend.lowest ? std::min(factor, trend.lowest / beyond.least) : factor;
+  for (float& along : trend.gradient)
+  {
+    along *= 1 + beyond.limited * (factor - 1);
+  }
 }
 
 /// Maximum ratio of gradients at the boundary to those at points beside it.
@@ -224,6 +106,11 @@ double partAtBoundary(const CellsAround& cells)
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+bool isMean(const CellsAround& around)
+{
+  return around.second[0] + around.second[1] + around.second[2] > 0;
+}
+
 /// Fits polynomials of points that come one by one, several at once. Calls take(fit, its number there, point).
 template <class Take>
 class FitOfPoints
@@ -235,13 +122,13 @@ public:
   {
   }
 
-  void add(
-    const MeshArrays& mesh, vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
+  void add(const MeshArrays& mesh, vtkIdType point, const PointNeighbours::Range& neighbours)
   {
     this->Points[this->Count] = point;
-    this->Ids.insert(this->Ids.end(), first, last);
+    this->Ids.insert(this->Ids.end(), neighbours.begin(), neighbours.end());
     this->Ends[this->Count++] = this->Ids.size();
-    this->Most = std::max(this->Most, static_cast<std::size_t>(last - first));
+    this->Most =
+      std::max(this->Most, static_cast<std::size_t>(neighbours.end() - neighbours.begin()));
     if (this->Count == PointFit::points)
     {
       this->finish(mesh);
@@ -326,95 +213,52 @@ private:
 
 } // namespace
 
-PointNeighbours::PointNeighbours(
-  const MeshArrays& mesh, std::vector<unsigned char> isCellUsed, const WorkProgress& progress)
+std::vector<PointTrend> trendsOf(
+  const MeshArrays& mesh, const PointNeighbours& neighbours, const WorkProgress& progress)
 {
-  if (mesh.isStructured())
-  {
-    this->IsCellUsed = std::move(isCellUsed);
-    return;
-  }
-  const CellsOfPoints known = cellsOfPoints(mesh, isCellUsed, progress.part(0, 0.3));
-  const vtkIdType points = mesh.points();
-  this->Chunks.resize(static_cast<std::size_t>((points + chunkSize - 1) / chunkSize));
-  this->Ends.resize(static_cast<std::size_t>(points));
-  forChunks(points, progress.part(0.3, 1),
+  const auto points = static_cast<std::size_t>(mesh.points());
+  std::vector<PointTrend> trends(points);
+  std::vector<float> bends(points);
+  std::vector<std::vector<Beyond>> toBeLimited((points + chunkSize - 1) / chunkSize);
+  forChunks(mesh.points(), progress.part(0, 0.95),
     [&](vtkIdType begin, vtkIdType end)
     {
-      PointSet found;
-      std::vector<std::uint32_t> ids;
-      const auto forCells = [&](vtkIdType point, const auto& visit)
-      {
-        const auto at = static_cast<std::size_t>(point);
-        for (std::uint64_t i = known.starts[at]; i < known.starts[at + 1]; ++i)
-        {
-          visit(static_cast<vtkIdType>(known.cells[i]));
-        }
-      };
-      for (vtkIdType point = begin; point < end; ++point)
-      {
-        findNeighbours(mesh, forCells, point, found);
-        ids.insert(ids.end(), found.points().begin() + 1, found.points().end());
-        this->Ends[static_cast<std::size_t>(point)] = static_cast<std::uint32_t>(ids.size());
-      }
-      this->Chunks[static_cast<std::size_t>(begin / chunkSize)].assign(ids.begin(), ids.end());
-    });
-}
-
-/// Calls visit(point, begin, end) for points in turn, with the numbers of their neighbours.
-template <class Visit>
-void PointNeighbours::forNeighbours(
-  const MeshArrays& mesh, vtkIdType begin, vtkIdType end, const Visit& visit) const
-{
-  const auto forCells = [&](vtkIdType point, const auto& visitCell)
-  {
-    mesh.forCellsAround(point,
-      [&](vtkIdType cell)
-      {
-        if (this->IsCellUsed[static_cast<std::size_t>(cell)])
-        {
-          visitCell(cell);
-        }
-      });
-  };
-  PointSet found;
-  for (vtkIdType point = begin; point < end; ++point)
-  {
-    if (mesh.isStructured())
-    {
-      findNeighbours(mesh, forCells, point, found);
-      const std::uint32_t* ids = found.points().data();
-      visit(point, ids + 1, ids + found.points().size());
-    }
-    else
-    {
-      const auto at = static_cast<std::size_t>(point);
-      const std::uint32_t* ids = this->Chunks[static_cast<std::size_t>(point / chunkSize)].data();
-      visit(point, point % chunkSize == 0 ? ids : ids + this->Ends[at - 1], ids + this->Ends[at]);
-    }
-  }
-}
-
-std::vector<PointTrend> PointNeighbours::trends(
-  const MeshArrays& mesh, const WorkProgress& progress) const
-{
-  std::vector<PointTrend> trends(static_cast<std::size_t>(mesh.points()));
-  forChunks(mesh.points(), progress,
-    [&](vtkIdType begin, vtkIdType end)
-    {
+      std::vector<Beyond>& ofChunk = toBeLimited[static_cast<std::size_t>(begin / chunkSize)];
       FitOfPoints fit(PointFit::Values::AtPoints,
         [&](const PointFit& of, std::size_t i, vtkIdType point)
-        { trends[static_cast<std::size_t>(point)] = trendOf(of, i); });
-      this->forNeighbours(mesh, begin, end,
-        [&](vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
-        { fit.add(mesh, point, first, last); });
+        {
+          const auto at = static_cast<std::size_t>(point);
+          trends[at] = trendOf(of, i, point, ofChunk);
+          bends[at] = static_cast<float>(of.bend[i]);
+        });
+      PointSet memory;
+      for (vtkIdType point = begin; point < end; ++point)
+      {
+        fit.add(mesh, point, neighbours.of(mesh, point, memory));
+      }
       fit.finish(mesh);
+    });
+  forChunks(mesh.points(), progress.part(0.95, 1),
+    [&](vtkIdType begin, vtkIdType)
+    {
+      PointSet memory;
+      for (const Beyond& beyond : toBeLimited[static_cast<std::size_t>(begin / chunkSize)])
+      {
+        const auto at = static_cast<std::size_t>(beyond.point);
+        float least = bends[at], most = least;
+        for (const std::uint32_t other : neighbours.of(mesh, beyond.point, memory))
+        {
+          least = std::min(least, bends[other]);
+          most = std::max(most, bends[other]);
+        }
+        limit(trends[at], beyond, least, most);
+      }
     });
   return trends;
 }
 
-std::vector<double> PointNeighbours::valuesFromCells(
-  const MeshArrays& mesh, const WorkProgress& progress) const
+std::vector<double> valuesOfMeans(
+  const MeshArrays& mesh, const PointNeighbours& neighbours, const WorkProgress& progress)
 {
   const auto points = static_cast<std::size_t>(mesh.points());
   const double* means = mesh.values();
@@ -424,6 +268,7 @@ std::vector<double> PointNeighbours::valuesFromCells(
     float correction, gradient[3];
   };
   std::vector<Change> changes(points);
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
   forChunks(mesh.points(), progress.part(0, 0.9),
     [&](vtkIdType begin, vtkIdType end)
     {
@@ -434,9 +279,18 @@ std::vector<double> PointNeighbours::valuesFromCells(
             { static_cast<float>(of.gradient[0][i]), static_cast<float>(of.gradient[1][i]),
               static_cast<float>(of.gradient[2][i]) } };
         });
-      this->forNeighbours(mesh, begin, end,
-        [&](vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
-        { fit.add(mesh, point, first, last); });
+      PointSet memory;
+      for (vtkIdType point = begin; point < end; ++point)
+      {
+        if (isMean(around[point]))
+        {
+          fit.add(mesh, point, neighbours.of(mesh, point, memory));
+        }
+        else
+        {
+          changes[static_cast<std::size_t>(point)].correction = none;
+        }
+      }
       fit.finish(mesh);
     });
   double lowest = infinity, largest = 0; // of the cells
@@ -450,50 +304,47 @@ std::vector<double> PointNeighbours::valuesFromCells(
   forChunks(mesh.points(), progress.part(0.9, 1),
     [&](vtkIdType begin, vtkIdType end)
     {
-      this->forNeighbours(mesh, begin, end,
-        [&](vtkIdType point, const std::uint32_t* first, const std::uint32_t* last)
+      PointSet memory;
+      for (vtkIdType point = begin; point < end; ++point)
+      {
+        const auto at = static_cast<std::size_t>(point);
+        const CellsAround& cells = around[at];
+        if (!isMean(cells))
         {
-          const auto at = static_cast<std::size_t>(point);
-          const CellsAround& cells = around[at];
-          // The corrections nearby, and what gradients nearby make of the distance from the cells to the point, which is long
-          // at the boundary only.
-          const auto along = [&](const Change& change)
-          {
-            return -(change.gradient[0] * cells.first[0] + change.gradient[1] * cells.first[1] +
-              change.gradient[2] * cells.first[2]);
-          };
-          float low = changes[at].correction, high = low;
-          float down = along(changes[at]), up = down;
-          for (const std::uint32_t* other = first; other != last; ++other)
-          {
-            const Change& change = changes[*other];
-            low = std::max(low, change.correction);
-            high = std::min(high, change.correction);
-            down = std::max(down, along(change));
-            up = std::min(up, along(change));
-          }
-          low = std::min(low, 0.f);
-          high = std::max(high, 0.f);
-          const auto part = static_cast<float>(steeperAtBoundary * partAtBoundary(cells));
-          down *= part;
-          up *= part;
-          // Keeps positive what is positive in all cells, such as a density.
-          const double least = std::max(means[at] + std::min(cells.lowest, down) + low,
-            isPositive ? leastByCell * (means[at] + cells.lowest) : -infinity);
-          const double most = means[at] + std::max(cells.highest, up) + high;
-          const double value = means[at] + changes[at].correction;
-          values[at] = value < least ? least : value > most ? most : value;
-        });
+          values[at] = means[at];
+          continue;
+        }
+        // The corrections nearby, and what gradients nearby make of the distance from the cells to the point, which is long
+        // at the boundary only.
+        const auto along = [&](const Change& change)
+        {
+          return -(change.gradient[0] * cells.first[0] + change.gradient[1] * cells.first[1] +
+            change.gradient[2] * cells.first[2]);
+        };
+        float low = changes[at].correction, high = low;
+        float down = along(changes[at]), up = down;
+        for (const std::uint32_t other : neighbours.of(mesh, point, memory))
+        {
+          const Change& change = changes[other];
+          low = std::max(low, change.correction); // unless there is none
+          high = std::min(high, change.correction);
+          down = std::max(down, along(change));
+          up = std::min(up, along(change));
+        }
+        low = moreThanLeast * std::min(low, 0.f);
+        high = moreThanLeast * std::max(high, 0.f);
+        const auto part = static_cast<float>(steeperAtBoundary * partAtBoundary(cells));
+        down *= part;
+        up *= part;
+        // Keeps positive what is positive in all cells, such as a density.
+        const double least = std::max(means[at] + std::min(cells.lowest, down) + low,
+          isPositive ? leastByCell * (means[at] + cells.lowest) : -infinity);
+        const double most = means[at] + std::max(cells.highest, up) + high;
+        const double value = means[at] + changes[at].correction;
+        values[at] = value < least ? least : value > most ? most : value;
+      }
     });
   return values;
-}
-
-std::size_t PointNeighbours::bytes() const
-{
-  const std::size_t ids =
-    std::accumulate(this->Chunks.begin(), this->Chunks.end(), std::size_t{ 0 },
-      [](std::size_t sum, const std::vector<std::uint32_t>& chunk) { return sum + chunk.size(); });
-  return (ids + this->Ends.size()) * sizeof(std::uint32_t) + this->IsCellUsed.size();
 }
 
 } // namespace filters

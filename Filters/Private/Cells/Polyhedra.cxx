@@ -4,6 +4,7 @@
 
 #include "Cells/CellMeans.h"
 #include "Common/CellTypes.h"
+#include "Common/Vectors.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -20,6 +21,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <initializer_list>
+#include <limits>
+#include <vector>
 
 namespace filters
 {
@@ -27,43 +30,68 @@ namespace filters
 namespace
 {
 
-/// Adds the mean of a cell's corners and of their values, or the cell's own value if known. Returns
-/// its number.
-vtkIdType addMiddle(vtkUnstructuredGrid* mesh, vtkIdType cell, vtkPoints* points,
-  vtkDoubleArray* values, vtkFloatArray* around)
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Sets the moments of what is inside a cell around a point.
+void setMomentsOfCell(
+  vtkUnstructuredGrid* mesh, vtkIdType cell, const double point[3], CellsAround& around)
 {
-  vtkNew<vtkIdList> corners;
-  mesh->GetCellPoints(cell, corners);
-  const auto count = static_cast<double>(corners->GetNumberOfIds());
-  double middle[3] = { 0, 0, 0 }, value = 0;
-  for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+  const CellMoments moments = momentsOfPolyhedron(mesh, cell);
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    double corner[3];
-    points->GetPoint(corners->GetId(i), corner);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      middle[axis] += corner[axis] / count;
-    }
-    value += values->GetValue(corners->GetId(i)) / count;
+    const double x = moments.middle[i] - point[i];
+    around.first[i] = static_cast<float>(x);
+    around.second[i] = static_cast<float>(moments.second[i] + x * x);
+    const std::size_t next = (i + 1) % 3;
+    around.second[i + 3] =
+      static_cast<float>(moments.second[i + 3] + x * (moments.middle[next] - point[next]));
   }
-  if (around)
+}
+
+/// Adds the mean of a cell's corners and of their values, or the cell's own value if known, and over what it is a
+/// mean. Returns its number.
+vtkIdType addMiddle(vtkUnstructuredGrid* mesh, vtkIdType cell, vtkPoints* points,
+  vtkDoubleArray* values, vtkFloatArray* around, bool haveCellsValues)
+{
+  vtkNew<vtkIdList> ids;
+  mesh->GetCellPoints(cell, ids);
+  const auto count = static_cast<std::size_t>(ids->GetNumberOfIds());
+  std::vector<Vector> corners(count);
+  Vector middle = {};
+  double value = 0, lowest = infinity, highest = -infinity;
+  for (std::size_t i = 0; i < count; ++i)
   {
-    const CellMoments moments = momentsOfPolyhedron(mesh, cell);
-    CellsAround own;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const double x = moments.middle[i] - middle[i];
-      own.first[i] = static_cast<float>(x);
-      own.second[i] = static_cast<float>(moments.second[i] + x * x);
-      const std::size_t next = (i + 1) % 3;
-      own.second[i + 3] =
-        static_cast<float>(moments.second[i + 3] + x * (moments.middle[next] - middle[next]));
-    }
-    around->InsertNextTypedTuple(own.first); // including its other members
+    const vtkIdType corner = ids->GetId(static_cast<vtkIdType>(i));
+    points->GetPoint(corner, corners[i].data());
+    middle = middle + (1. / static_cast<double>(count)) * corners[i];
+    const double there = values->GetValue(corner);
+    value += there / static_cast<double>(count);
+    lowest = std::min(lowest, there);
+    highest = std::max(highest, there);
+  }
+  CellsAround own;
+  if (haveCellsValues)
+  {
+    setMomentsOfCell(mesh, cell, middle.data(), own);
     value = mesh->GetCellData()->GetScalars()->GetComponent(cell, 0);
   }
+  else
+  {
+    for (const Vector& corner : corners)
+    {
+      const Vector x = corner - middle;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        own.second[i] += static_cast<float>(x[i] * x[i] / static_cast<double>(count));
+        own.second[i + 3] += static_cast<float>(x[i] * x[(i + 1) % 3] / static_cast<double>(count));
+      }
+    }
+    own.lowest = static_cast<float>(lowest - value);
+    own.highest = static_cast<float>(highest - value);
+  }
+  around->InsertNextTypedTuple(own.first); // including its other members
   values->InsertNextValue(value);
-  return points->InsertNextPoint(middle);
+  return points->InsertNextPoint(middle.data());
 }
 
 /// Returns the corners of each end of a prism that VTK locates wrongly; 0: another cell.
@@ -72,14 +100,14 @@ int cornersOfPrism(int type)
   return type == VTK_PENTAGONAL_PRISM ? 5 : type == VTK_HEXAGONAL_PRISM ? 6 : 0;
 }
 
-bool isCut(int type) { return type == VTK_POLYHEDRON || cornersOfPrism(type) > 0; }
-
-/// Returns whether there is a cell to cut. VTK would compute a list of distinct types for each dataset.
-bool hasAnyToCut(vtkUnstructuredGrid* mesh)
+/// Returns whether there is a cell of such a type. VTK would compute a list of distinct types for each dataset.
+template <class IsSuch>
+bool hasAny(vtkDataSet* data, const IsSuch& isSuch)
 {
-  auto* types = vtkUnsignedCharArray::SafeDownCast(cellTypesOf(mesh));
+  auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
+  auto* types = mesh ? vtkUnsignedCharArray::SafeDownCast(cellTypesOf(mesh)) : nullptr;
   const unsigned char* first = types ? types->GetPointer(0) : nullptr;
-  return std::any_of(first, first + (types ? types->GetNumberOfValues() : 0), isCut);
+  return std::any_of(first, first + (types ? types->GetNumberOfValues() : 0), isSuch);
 }
 
 /// Cuts a prism with so many corners at each end from its lowest one, by add(type, corners).
@@ -95,7 +123,8 @@ void cutPrism(const vtkIdType* low, int count, const Add& add)
   }
 }
 
-/// Joins triangles of a polyhedron's faces with its middle. `faces`: for each face the number of points, and the points.
+/// Joins a polyhedron's faces with its middle: those with four corners as they are, triangles of others. `faces`: for
+/// each face the number of points, and the points.
 template <class Add>
 void cutPolyhedron(vtkIdList* faces, vtkIdType middle, const Add& add)
 {
@@ -105,6 +134,11 @@ void cutPolyhedron(vtkIdList* faces, vtkIdType middle, const Add& add)
     const vtkIdType count = faces->GetId(at++);
     const vtkIdType* corners = faces->GetPointer(at);
     at += count;
+    if (count == 4)
+    {
+      add(VTK_PYRAMID, { corners[0], corners[1], corners[2], corners[3], middle });
+      continue;
+    }
     const vtkIdType first = std::min_element(corners, corners + count) - corners;
     for (vtkIdType i = 1; i + 1 < count; ++i)
     {
@@ -116,13 +150,19 @@ void cutPolyhedron(vtkIdList* faces, vtkIdType middle, const Add& add)
 
 } // namespace
 
+bool hasPolyhedra(vtkDataSet* data)
+{
+  return hasAny(data, [](int type) { return type == VTK_POLYHEDRON; });
+}
+
 vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
 {
-  auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
-  if (!mesh || !hasAnyToCut(mesh))
+  const bool areThere = hasPolyhedra(data);
+  if (!areThere && !hasAny(data, [](int type) { return cornersOfPrism(type) > 0; }))
   {
     return data;
   }
+  auto* mesh = vtkUnstructuredGrid::SafeDownCast(data);
 
   vtkUnsignedCharArray* ghosts = mesh->GetCellGhostArray();
   auto* scalars = vtkDoubleArray::SafeDownCast(mesh->GetPointData()->GetScalars());
@@ -139,6 +179,11 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
     around = vtkSmartPointer<vtkFloatArray>::New();
     around->DeepCopy(aroundPoints);
   }
+  else if (areThere)
+  {
+    around = vtkFloatArray::SafeDownCast(
+      arrayOf(std::vector<CellsAround>(static_cast<std::size_t>(mesh->GetNumberOfPoints()))));
+  }
   vtkNew<vtkUnsignedCharArray> kept;
   kept->SetName(vtkDataSetAttributes::GhostArrayName());
   cut->Allocate(mesh->GetNumberOfCells());
@@ -154,7 +199,8 @@ vtkSmartPointer<vtkDataSet> withoutPolyhedra(vtkDataSet* data)
     };
     if (type == VTK_POLYHEDRON)
     {
-      const vtkIdType middle = addMiddle(mesh, cell, points, values, around);
+      const vtkIdType middle =
+        addMiddle(mesh, cell, points, values, around, aroundPoints != nullptr);
       mesh->GetFaceStream(cell, ids);
       cutPolyhedron(ids, middle, add);
       continue;

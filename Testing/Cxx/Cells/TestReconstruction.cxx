@@ -648,29 +648,12 @@ TEST(CellMeans, MomentsOfPolyhedraAreThoseOfTheSameCells)
   {
     const Mesh mesh = meshOf(kind.type, 2, kind.cells, 0, false);
     setN(mesh, linear);
-    const Mesh asPolyhedra = Mesh::New();
-    asPolyhedra->SetPoints(mesh->GetPoints());
-    for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
-    {
-      vtkCell* cell = mesh->GetCell(i);
-      vtkNew<vtkIdList> faces;
-      faces->InsertNextId(cell->GetNumberOfFaces());
-      for (int face = 0; face < cell->GetNumberOfFaces(); ++face)
-      {
-        vtkIdList* ids = cell->GetFace(face)->GetPointIds();
-        faces->InsertNextId(ids->GetNumberOfIds());
-        for (vtkIdType n = 0; n < ids->GetNumberOfIds(); ++n)
-        {
-          faces->InsertNextId(ids->GetId(n));
-        }
-      }
-      asPolyhedra->InsertNextCell(VTK_POLYHEDRON, faces);
-    }
+    const Mesh polyhedra = asPolyhedra(mesh);
     const filters::MeshArrays arrays(mesh);
     for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
     {
       const auto right = filters::momentsOf(arrays, i);
-      const auto made = filters::momentsOfPolyhedron(asPolyhedra, i);
+      const auto made = filters::momentsOfPolyhedron(polyhedra, i);
       for (std::size_t n = 0; n < 3; ++n)
       {
         EXPECT_NEAR(made.middle[n], right.middle[n], 1e-12) << kind.name;
