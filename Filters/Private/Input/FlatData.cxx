@@ -34,11 +34,11 @@ namespace
 {
 
 /// Returns the axis without extent, -1 if there is none. Throws if there are several.
-int onlyFlatAxis(const bool isFlat[3], const Source& source)
+int onlyFlatAxis(const bool isFlat[3], const Flow& flow)
 {
   if (std::count(isFlat, isFlat + 3, true) > 1)
   {
-    throw std::runtime_error("The input with the " + source.label +
+    throw std::runtime_error("The input with the " + flow.label +
       " is a line or a point, so there is no volume for light to cross. Use 3-D or 2-D data.");
   }
   return isFlat[0] ? 0 : (isFlat[1] ? 1 : (isFlat[2] ? 2 : -1));
@@ -187,15 +187,15 @@ std::array<double, 3> turned(const double x[3], int flat)
   return own;
 }
 
-Source extruded(const Source& source, int flat, double depth)
+Flow extruded(const Flow& flow, int flat, double depth)
 {
-  Source result = source;
+  Flow result = flow;
   result.image = nullptr;
   result.leaves.clear();
   double middle[3];
-  boundsOfPlanes(source).GetCenter(middle);
+  boundsOfPlanes(flow).GetCenter(middle);
   const Plane plane{ flat, turned(middle, flat)[2], depth };
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     Remade made;
     const std::array<int, 3> points = structureOf(leaf.data);
@@ -234,10 +234,10 @@ int dimensionOf(vtkDataSet* data)
   return dimension;
 }
 
-vtkBoundingBox boundsOfPlanes(const Source& source)
+vtkBoundingBox boundsOfPlanes(const Flow& flow)
 {
   vtkBoundingBox box;
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     if (dimensionOf(leaf.data) == 2)
     {
@@ -247,16 +247,16 @@ vtkBoundingBox boundsOfPlanes(const Source& source)
   return box;
 }
 
-int flatAxisOf(const Source& source)
+int flatAxisOf(const Flow& flow)
 {
-  if (source.image)
+  if (flow.image)
   {
-    const int* points = source.image->GetDimensions();
+    const int* points = flow.image->GetDimensions();
     const bool isFlat[3] = { points[0] == 1, points[1] == 1, points[2] == 1 };
-    return onlyFlatAxis(isFlat, source);
+    return onlyFlatAxis(isFlat, flow);
   }
   int dimension = 0;
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     dimension = std::max(dimension, dimensionOf(leaf.data));
     if (dimension == 3)
@@ -264,7 +264,7 @@ int flatAxisOf(const Source& source)
       return -1;
     }
   }
-  const std::string problem = "The input has no 3-D cells with the " + source.label +
+  const std::string problem = "The input has no 3-D cells with the " + flow.label +
     ", so there is no volume for light to cross";
   if (dimension == 0)
   {
@@ -276,13 +276,13 @@ int flatAxisOf(const Source& source)
   {
     throw std::runtime_error(problem + ". Use 3-D data, or 2-D data in one plane.");
   }
-  const vtkBoundingBox box = boundsOfPlanes(source);
+  const vtkBoundingBox box = boundsOfPlanes(flow);
   bool isFlat[3];
   for (int axis = 0; axis < 3; ++axis)
   {
     isFlat[axis] = box.GetLength(axis) <= planeTolerance * box.GetMaxLength();
   }
-  const int flat = onlyFlatAxis(isFlat, source);
+  const int flat = onlyFlatAxis(isFlat, flow);
   if (flat < 0)
   {
     throw std::runtime_error(problem +
@@ -306,33 +306,33 @@ double depthOfImage(vtkImageData* image, int flat, double given)
   return shorterSide(lengths, flat);
 }
 
-double depthOf(const Source& source, int flat)
+double depthOf(const Flow& flow, int flat)
 {
-  if (source.image)
+  if (flow.image)
   {
-    return depthOfImage(source.image, flat, source.depth);
+    return depthOfImage(flow.image, flat, flow.depth);
   }
-  if (source.depth > 0)
+  if (flow.depth > 0)
   {
-    return source.depth;
+    return flow.depth;
   }
   double lengths[3];
-  boundsOfPlanes(source).GetLengths(lengths);
+  boundsOfPlanes(flow).GetLengths(lengths);
   return shorterSide(lengths, flat);
 }
 
-std::string warningOfExtrusion(const Source& source, int flat)
+std::string warningOfExtrusion(const Flow& flow, int flat)
 {
-  if (source.isDepthGiven)
+  if (flow.isDepthGiven)
   {
     return ""; // the user knows
   }
   std::ostringstream text;
   text
     << std::setprecision(4)
-    << (source.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
-    << "xyz"[flat] << ": they become " << depthOf(source, flat) << " data units deep, "
-    << (source.isOneCellThick ? "as their cells are" : "as their shorter side is long")
+    << (flow.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
+    << "xyz"[flat] << ": they become " << depthOf(flow, flat) << " data units deep, "
+    << (flow.isOneCellThick ? "as their cells are" : "as their shorter side is long")
     << ". Deflection and optical path are in proportion to it; set Depth to the depth of the real "
        "flow.";
   return text.str();
