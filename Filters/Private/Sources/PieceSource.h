@@ -57,7 +57,7 @@ protected:
   const DataPiece::Facts& facts() const { return this->All; }
 
   /// Combines kinds of points, by the boundary, with the cells that have gas. `holds`: whether the
-  /// piece holds a point of GasBoundary::testedPlaces(). Both are asked where the boundary leaves it
+  /// piece holds a point of GasBoundary::testedPlaces(). Both are used where the boundary leaves it
   /// open.
   Content contentFrom(const schlieren::Box& box, const std::function<bool(std::size_t)>& holds,
     const std::function<CellTree::Content()>& cells) const;

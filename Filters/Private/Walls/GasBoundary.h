@@ -48,7 +48,7 @@ public:
   /// Returns whether all faces in and near a box are in one plane of a wall; false for sheets, whose
   /// voxels depend on the voxel size.
   bool areWallsFlatNear(const schlieren::Box& box) const;
-  /// Returns the points that tell what is in a box without faces: its middle and its corners.
+  /// Returns the points that show what is in a box without faces: its middle and its corners.
   static std::array<Point, 9> testedPlaces(const schlieren::Box& box);
   /// Returns whether any of the Bodies meets a box.
   bool hasBodiesIn(const schlieren::Box& box) const;
