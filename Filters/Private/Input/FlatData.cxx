@@ -15,7 +15,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
-#include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -23,7 +22,6 @@
 #include <atomic>
 #include <cmath>
 #include <iomanip>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -65,42 +63,6 @@ struct Plane
     to->InsertNextPoint(own[0], own[1], this->height + offset);
   }
 };
-
-/// Lists the points of one layer as those of two, which are `stride` apart.
-void addTwice(vtkIdType points, vtkIdType stride, vtkIdList* ids)
-{
-  for (vtkIdType point = 0; point < 2 * points; ++point)
-  {
-    ids->InsertNextId(point / (2 * stride) * stride + point % stride);
-  }
-}
-
-/// Keeps structured data structured, whose faces are found without a search.
-void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, const Plane& plane, Remade& to)
-{
-  const auto across =
-    static_cast<std::size_t>(std::find(points.begin(), points.end(), 1) - points.begin());
-  vtkIdType stride = 1;
-  for (std::size_t axis = 0; axis < across; ++axis)
-  {
-    stride *= points[axis];
-  }
-  points[across] = 2;
-  vtkNew<vtkPoints> places;
-  places->SetDataTypeToDouble();
-  addTwice(data->GetNumberOfPoints(), stride, to.points);
-  for (vtkIdType point = 0; point < to.points->GetNumberOfIds(); ++point)
-  {
-    const double side = point / stride % 2 == 0 ? -0.5 : 0.5;
-    plane.add(data, to.points->GetId(point), plane.depth * side, places);
-  }
-  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
-  grid->SetDimensions(points.data());
-  grid->SetPoints(places);
-  to.cells->SetNumberOfIds(data->GetNumberOfCells());
-  std::iota(to.cells->begin(), to.cells->end(), vtkIdType{ 0 });
-  to.data = grid;
-}
 
 /// Extrudes cells. All but linear triangles, quadrilaterals and pixels are triangulated first.
 void extrudeCells(vtkDataSet* data, const Plane& plane, Remade& to)
@@ -198,15 +160,7 @@ Flow extruded(const Flow& flow, int flat, double depth)
   for (const Leaf& leaf : flow.leaves)
   {
     Remade made;
-    const std::array<int, 3> points = structureOf(leaf.data);
-    if (std::count(points.begin(), points.end(), 1) == 1)
-    {
-      extrudeStructured(leaf.data, points, plane, made);
-    }
-    else
-    {
-      extrudeCells(leaf.data, plane, made);
-    }
+    extrudeCells(leaf.data, plane, made);
     result.leaves.push_back(made.leafOf(leaf));
     result.made.emplace_back(made.data);
   }
@@ -361,8 +315,11 @@ void extrudeArrays(vtkImageData* image, int flat)
   image->GetDimensions(points);
   const vtkIdType stride =
     flat == 0 ? 1 : static_cast<vtkIdType>(points[0]) * (flat == 1 ? 1 : points[1]);
-  vtkNew<vtkIdList> ids;
-  addTwice(image->GetNumberOfPoints() / 2, stride, ids);
+  vtkNew<vtkIdList> ids; // of the one layer, for each point of two, which are `stride` apart
+  for (vtkIdType point = 0; point < image->GetNumberOfPoints(); ++point)
+  {
+    ids->InsertNextId(point / (2 * stride) * stride + point % stride);
+  }
   vtkPointData* arrays = image->GetPointData();
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {
