@@ -32,7 +32,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <utility>
+#include <stdexcept>
 
 namespace filters
 {

@@ -24,8 +24,8 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace filters
 {

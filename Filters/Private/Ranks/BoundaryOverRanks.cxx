@@ -7,6 +7,7 @@
 #include "Sources/ImagePiece.h"
 #include "Sources/MeshCache.h"
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>

@@ -14,6 +14,7 @@
 #include "vtkUniformGridAMR.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
