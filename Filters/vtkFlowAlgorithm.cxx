@@ -3,11 +3,11 @@
 #include "vtkFlowAlgorithm.h"
 
 #include "Gas/GasChoices.h"
-#include "Settings/SelectionFromInformation.h"
 #include "Sources/MediumMaker.h"
 #include "Walls/GasBoundary.h"
 #include "vtkGasTable.h"
 
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkPiecewiseFunction.h"
 
@@ -27,6 +27,28 @@ static_assert(vtkFlowAlgorithm::DENSITY == static_cast<int>(MediumSettings::Dens
 static_assert(vtkFlowAlgorithm::OUTSIDE_AUTO == static_cast<int>(Outside::Auto) &&
   vtkFlowAlgorithm::OUTSIDE_BLOCKS == static_cast<int>(Outside::Blocks) &&
   vtkFlowAlgorithm::OUTSIDE_PASSES == static_cast<int>(Outside::Passes));
+
+namespace
+{
+
+/// Returns the selection that SetInputArrayToProcess() has stored.
+ArraySelection selectionFrom(vtkInformation* info)
+{
+  ArraySelection selection;
+  if (const char* name = info->Get(vtkDataObject::FIELD_NAME()))
+  {
+    selection.name = name;
+  }
+  else if (info->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    selection.attribute = info->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
+  }
+  selection.cellsFirst =
+    info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+  return selection;
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkFlowAlgorithm::vtkFlowAlgorithm()

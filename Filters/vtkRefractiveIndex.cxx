@@ -224,18 +224,18 @@ void vtkRefractiveIndex::Append(vtkDataObject* input, vtkDataObject* output)
     input ? copy(input, output) : std::map<vtkDataObject*, vtkDataObject*>(); // null after an error
   Tally tally;
   bool hasGas = false;
-  for (const Leaf& leaf : choice.source.leaves)
+  for (const Leaf& leaf : choice.flow.leaves)
   {
     constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
     const auto visible = visibleOf(leaf);
     vtkSmartPointer<vtkDataArray> values;
     if (leaf.arrays[0]->GetDataType() == VTK_DOUBLE)
     {
-      values = convert<vtkDoubleArray>(leaf.arrays, choice.source.model, visible, nowhere, tally);
+      values = convert<vtkDoubleArray>(leaf.arrays, choice.flow.model, visible, nowhere, tally);
     }
     else
     {
-      values = convert<vtkFloatArray>(leaf.arrays, choice.source.model, visible, nowhere, tally);
+      values = convert<vtkFloatArray>(leaf.arrays, choice.flow.model, visible, nowhere, tally);
     }
     const unsigned char* gas = visible->GetPointer(0);
     hasGas = hasGas ||
@@ -252,7 +252,7 @@ void vtkRefractiveIndex::Append(vtkDataObject* input, vtkDataObject* output)
   {
     throw std::runtime_error(noGas(choice.label));
   }
-  const std::string warning = maker.warningOf(choice.source, tally, false);
+  const std::string warning = maker.warningOf(choice.flow, tally, false);
   if (!warning.empty() && isRank0())
   {
     vtkWarningMacro(<< warning);

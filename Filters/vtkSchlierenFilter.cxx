@@ -5,11 +5,11 @@
 #include "Common/AtTheEnd.h"
 #include "Common/Guarded.h"
 #include "Common/Threads.h"
+#include "Filter/SchlierenFilterInternals.h"
 #include "Image/Preview.h"
 #include "Image/SceneFromSettings.h"
+#include "Input/Flow.h"
 #include "Input/InputDescription.h"
-#include "Input/RefractivitySource.h"
-#include "SchlierenFilterInternals.h"
 #include "Settings/QualityPresets.h"
 
 #include "vtkDataSetAttributes.h"

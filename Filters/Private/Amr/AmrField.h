@@ -32,9 +32,9 @@ namespace filters
 class AmrField
 {
 public:
-  /// `levels`: those of all ranks' blocks, turned if flat (see turnedAcrossZ()). `source` has the
+  /// `levels`: those of all ranks' blocks, turned if flat (see turnedAcrossZ()). `flow` has the
   /// blocks of this rank. Counts doubtful values in `tally`.
-  AmrField(const AmrLevels& levels, const Source& source, Tally& tally,
+  AmrField(const AmrLevels& levels, const Flow& flow, Tally& tally,
     const WorkProgress& progress = WorkProgress());
 
   int flatAxis() const { return this->FlatAxis; }

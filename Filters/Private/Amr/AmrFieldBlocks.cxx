@@ -4,11 +4,15 @@
 // levels.
 #include "Amr/AmrField.h"
 
+#include "Input/RefractivityValues.h"
+
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkUnsignedCharArray.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <set>
 #include <utility>
 
 namespace filters
@@ -67,6 +71,46 @@ CellBox coarserBox(const CellBox& box, const Counts& ratio)
     coarse.end[axis] = (box.end[axis] - 1) / ratio[axis] + 1;
   }
   return coarse;
+}
+
+/// N of a block's cells, NaN in solids, and which are neither copies nor under finer blocks.
+struct AmrValues
+{
+  std::vector<double> values;
+  std::vector<unsigned char> counts;
+};
+
+AmrValues valuesOf(const BoxBins& covered, const AmrBlock& block, const Flow& flow, Tally& tally)
+{
+  vtkDataSet* data = flow.leaves[block.leaf].data;
+  const CellBox own = boxOf(block);
+  AmrValues result;
+  result.counts.assign(volume(block.cells), 1);
+  covered.forPartsIn(own,
+    [&](std::size_t, const CellBox& cells)
+    {
+      forCells(cells.begin, cells.size(),
+        [&](int i, int j, int k) { result.counts[own.index(i, j, k)] = 0; });
+    });
+
+  auto valid = newMask(data->GetNumberOfCells());
+  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
+  for (vtkIdType i = 0; i < valid->GetNumberOfValues(); ++i)
+  {
+    unsigned char& counts = result.counts[static_cast<std::size_t>(i)];
+    if (!counts || (ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::HIDDENCELL)))
+    {
+      valid->SetValue(i, 0);
+    }
+    if (ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATECELL))
+    {
+      counts = 0;
+    }
+  }
+  const auto values = convert<vtkDoubleArray>(flow.leaves[block.leaf].arrays, flow.model, valid,
+    std::numeric_limits<double>::quiet_NaN(), tally);
+  result.values.assign(values->GetPointer(0), values->GetPointer(0) + values->GetNumberOfValues());
+  return result;
 }
 
 } // namespace
@@ -138,7 +182,7 @@ AmrField::Block AmrField::coarser(const Block& block, const Counts& ratio)
 }
 
 AmrField::AmrField(
-  const AmrLevels& levels, const Source& source, Tally& tally, const WorkProgress& progress)
+  const AmrLevels& levels, const Flow& flow, Tally& tally, const WorkProgress& progress)
   : FlatAxis(levels.flat)
   , Origin(levels.origin)
   , Bounds(levels.bounds())
@@ -157,7 +201,7 @@ AmrField::AmrField(
     const BoxBins& covered = *this->Levels[level].covered;
     for (const AmrBlock& block : levels.levels[level].blocks)
     {
-      AmrValues values = valuesOf(covered, block, source, tally);
+      AmrValues values = valuesOf(covered, block, flow, tally);
       Block own{ boxOf(block), std::move(values.values), {}, {}, true, {}, {} };
       own.parts.assign(own.means.size(), 0);
       for (std::size_t cell = 0; cell < own.means.size(); ++cell)
@@ -172,7 +216,7 @@ AmrField::AmrField(
       }
       this->addOwn(level, std::move(own));
       ++done;
-      progress.reach(static_cast<double>(done) / static_cast<double>(source.leaves.size()));
+      progress.reach(static_cast<double>(done) / static_cast<double>(flow.leaves.size()));
     }
   }
   this->sortBlocks();

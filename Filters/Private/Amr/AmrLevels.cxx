@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Amr/AmrLevels.h"
 
-#include "Input/RefractivityValues.h"
-
-#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkUnsignedCharArray.h"
@@ -12,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace filters
 {
@@ -363,40 +361,6 @@ BoxBins coveredCells(const std::vector<AmrLevel>& levels, std::size_t level)
     }
   }
   return BoxBins(std::move(boxes));
-}
-
-AmrValues valuesOf(
-  const BoxBins& covered, const AmrBlock& block, const Source& source, Tally& tally)
-{
-  vtkDataSet* data = source.leaves[block.leaf].data;
-  const CellBox own = boxOf(block);
-  AmrValues result;
-  result.counts.assign(volume(block.cells), 1);
-  covered.forPartsIn(own,
-    [&](std::size_t, const CellBox& cells)
-    {
-      forCells(cells.begin, cells.size(),
-        [&](int i, int j, int k) { result.counts[own.index(i, j, k)] = 0; });
-    });
-
-  auto valid = newMask(data->GetNumberOfCells());
-  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  for (vtkIdType i = 0; i < valid->GetNumberOfValues(); ++i)
-  {
-    unsigned char& counts = result.counts[static_cast<std::size_t>(i)];
-    if (!counts || (ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::HIDDENCELL)))
-    {
-      valid->SetValue(i, 0);
-    }
-    if (ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATECELL))
-    {
-      counts = 0;
-    }
-  }
-  const auto values = convert<vtkDoubleArray>(source.leaves[block.leaf].arrays, source.model, valid,
-    std::numeric_limits<double>::quiet_NaN(), tally);
-  result.values.assign(values->GetPointer(0), values->GetPointer(0) + values->GetNumberOfValues());
-  return result;
 }
 
 } // namespace filters

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 
 #include "Schlieren.h"
 
@@ -187,14 +187,5 @@ BoxBins binsOf(const AmrLevel& level);
 
 /// Sorts the cells of a level that finer blocks cover into bins.
 BoxBins coveredCells(const std::vector<AmrLevel>& levels, std::size_t level);
-
-/// N of a block's cells, NaN in solids, and which are neither copies nor under finer blocks.
-struct AmrValues
-{
-  std::vector<double> values;
-  std::vector<unsigned char> counts;
-};
-AmrValues valuesOf(
-  const BoxBins& covered, const AmrBlock& block, const Source& source, Tally& tally);
 
 } // namespace filters

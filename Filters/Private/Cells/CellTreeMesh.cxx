@@ -4,7 +4,6 @@
 #include "Cells/CellTree.h"
 
 #include "Cells/MeshKey.h"
-#include "Common/ParallelSort.h"
 
 #include "vtkDataSet.h"
 #include "vtkSMPTools.h"
@@ -243,7 +242,8 @@ void CellTree::sortCells(Mesh& mesh, const WorkProgress& progress)
         entries[i] = { placeOnCurve(middle), mesh.numbers[i] };
       }
     });
-  sortInParallel(entries, progress.part(0.4, 1));
+  vtkSMPTools::Sort(entries.begin(), entries.end());
+  progress.reach(1);
   for (std::size_t i = 0; i < count; ++i)
   {
     mesh.numbers[i] = entries[i].second;

@@ -13,17 +13,11 @@
 namespace filters
 {
 
-vtkSmartPointer<vtkUnsignedCharArray> newUnsetMask(vtkIdType count)
+vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count)
 {
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
   mask->SetName(maskName);
   setTuples(mask, count);
-  return mask;
-}
-
-vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count)
-{
-  auto mask = newUnsetMask(count);
   vtkSMPTools::Fill(
     mask->GetPointer(0), mask->GetPointer(0) + count, static_cast<unsigned char>(1));
   return mask;

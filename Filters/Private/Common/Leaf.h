@@ -48,8 +48,6 @@ constexpr unsigned char hiddenCellBits =
 
 /// Makes a mask that is 1 everywhere.
 vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count);
-/// Makes a mask with undefined values.
-vtkSmartPointer<vtkUnsignedCharArray> newUnsetMask(vtkIdType count);
 
 /// Clears `valid` at points that are hidden or that a mask among the data's arrays excludes.
 void hidePoints(vtkDataSet* data, vtkUnsignedCharArray* valid);

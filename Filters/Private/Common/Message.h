@@ -94,14 +94,6 @@ public:
     values.insert(values.end(), more.begin(), more.end());
   }
 
-  /// Appends the unread bytes to another message.
-  void GetRest(std::vector<char>& bytes)
-  {
-    bytes.insert(
-      bytes.end(), this->Bytes.begin() + static_cast<std::ptrdiff_t>(this->At), this->Bytes.end());
-    this->At = this->Bytes.size();
-  }
-
   [[noreturn]] static void Fail()
   {
     throw std::runtime_error("What another rank has sent of its data cannot be read. Are all "

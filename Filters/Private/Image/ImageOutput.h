@@ -14,8 +14,8 @@ namespace filters
 /// Returns the length of the longest of an array of pairs; 0 if there are none.
 double largestLength(const schlieren::PixelArray<float>& pairs);
 
-/// Sets bounds that are not useful to infinity: of the displacement, if light from the image's
-/// middle might leave the image; of the error of skipping, if it may exceed the largest deflection.
+/// Sets the bound of the error of skipping to infinity if it may exceed the largest deflection,
+/// because it is then not useful.
 void dropIdleBounds(schlieren::Image& image);
 
 /// Makes `output` the image with the arrays and field data that vtkSchlierenFilter promises, except

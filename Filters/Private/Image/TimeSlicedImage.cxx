@@ -5,7 +5,7 @@
 #include "Common/NumberText.h"
 
 #include "Image/ImageStatus.h"
-#include "Sources/SharedRefractivity.h"
+#include "Sources/RefractivityCache.h"
 
 #include <algorithm>
 #include <chrono>

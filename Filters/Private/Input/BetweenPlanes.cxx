@@ -253,10 +253,10 @@ bool areSame(const Leaf& leaf, const std::vector<Pair>& pairs)
 
 bool isLayerLeaf(const Leaf& leaf) { return dimensionOf(leaf.data) == 3; }
 
-vtkBoundingBox boundsOfLayers(const Source& source)
+vtkBoundingBox boundsOfLayers(const Flow& flow)
 {
   vtkBoundingBox box;
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     if (isLayerLeaf(leaf))
     {
@@ -266,11 +266,11 @@ vtkBoundingBox boundsOfLayers(const Source& source)
   return box;
 }
 
-bool flatten(Source& source, const Planes& planes, bool areValuesFree)
+bool flatten(Flow& flow, const Planes& planes, bool areValuesFree)
 {
   std::vector<Leaf> leaves;
   std::vector<vtkSmartPointer<vtkDataSet>> made;
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     if (!isLayerLeaf(leaf))
     {
@@ -300,12 +300,12 @@ bool flatten(Source& source, const Planes& planes, bool areValuesFree)
     leaves.push_back(flat.leafOf(leaf));
     made.push_back(flat.data);
   }
-  if (source.image)
+  if (flow.image)
   {
-    source.image = vtkImageData::SafeDownCast(leaves.at(0).data);
+    flow.image = vtkImageData::SafeDownCast(leaves.at(0).data);
   }
-  source.leaves = std::move(leaves);
-  source.made.insert(source.made.end(), made.begin(), made.end());
+  flow.leaves = std::move(leaves);
+  flow.made.insert(flow.made.end(), made.begin(), made.end());
   return true;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkDataSet.h"
@@ -41,11 +41,11 @@ struct Planes
 
 /// Returns whether data have 3-D cells: others beside a layer are its faces.
 bool isLayerLeaf(const Leaf& leaf);
-vtkBoundingBox boundsOfLayers(const Source& source);
+vtkBoundingBox boundsOfLayers(const Flow& flow);
 
-/// Replaces the source by flat data with the front's values if its 3-D cells are one layer between
+/// Replaces the flow by flat data with the front's values if its 3-D cells are one layer between
 /// the planes; else returns false. `areValuesFree`: values may differ between the planes. vtkCutter
 /// takes as long as the whole image, and vtkPlaneCutter makes triangles of quadrilaterals.
-bool flatten(Source& source, const Planes& planes, bool areValuesFree);
+bool flatten(Flow& flow, const Planes& planes, bool areValuesFree);
 
 } // namespace filters

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/CoincidentPoints.h"
 
-#include "Common/ParallelSort.h"
+#include "vtkSMPTools.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +76,7 @@ std::vector<Placed> sorted(const std::vector<Point>& points)
   {
     placed[i] = { dot(along, points[i]), dot(across, points[i]), static_cast<std::int32_t>(i) };
   }
-  sortInParallel(placed);
+  vtkSMPTools::Sort(placed.begin(), placed.end());
   return placed;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Sends the datasets of a rank's piece to other ranks and joins them.
+// The datasets of a rank's piece, as they are sent to other ranks.
 #pragma once
 
 #include "Common/Message.h"
@@ -40,21 +40,9 @@ vtkSmartPointer<vtkUnstructuredGrid> extractedCells(vtkUnstructuredGrid* mesh, v
 void pack(const DatasetPiece& piece, std::vector<char>& bytes);
 DatasetPiece unpack(Reader& reader);
 
-/// Throws std::runtime_error if arrays of points or cells (vtkDataObject::POINT, CELL) differ,
-/// because joining would lose some.
-void requireSameArrays(const std::vector<vtkDataSet*>& pieces, int kind);
-
 /// Returns whether points have three indices: image, rectilinear or curvilinear grid.
 bool isGrid(vtkDataSet* data);
 /// Returns the extent of points or cells; low > high where the dataset is no grid.
 std::array<int, 6> extentOf(vtkDataSet* data, bool ofCells);
-
-/// Joins the extents of one image or grid; null for other datasets.
-vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& pieces);
-
-/// Joins meshes, cells in their order. Merges points that are equal to the last bit and, if an
-/// array is named, have the same values of it.
-vtkSmartPointer<vtkDataSet> joinedMesh(
-  const std::vector<vtkDataSet*>& pieces, const char* alsoTheSame = nullptr);
 
 } // namespace filters

@@ -15,7 +15,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
-#include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -23,7 +22,6 @@
 #include <atomic>
 #include <cmath>
 #include <iomanip>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -34,11 +32,11 @@ namespace
 {
 
 /// Returns the axis without extent, -1 if there is none. Throws if there are several.
-int onlyFlatAxis(const bool isFlat[3], const Source& source)
+int onlyFlatAxis(const bool isFlat[3], const Flow& flow)
 {
   if (std::count(isFlat, isFlat + 3, true) > 1)
   {
-    throw std::runtime_error("The input with the " + source.label +
+    throw std::runtime_error("The input with the " + flow.label +
       " is a line or a point, so there is no volume for light to cross. Use 3-D or 2-D data.");
   }
   return isFlat[0] ? 0 : (isFlat[1] ? 1 : (isFlat[2] ? 2 : -1));
@@ -65,42 +63,6 @@ struct Plane
     to->InsertNextPoint(own[0], own[1], this->height + offset);
   }
 };
-
-/// Lists the points of one layer as those of two, which are `stride` apart.
-void addTwice(vtkIdType points, vtkIdType stride, vtkIdList* ids)
-{
-  for (vtkIdType point = 0; point < 2 * points; ++point)
-  {
-    ids->InsertNextId(point / (2 * stride) * stride + point % stride);
-  }
-}
-
-/// Keeps structured data structured, whose faces are found without a search.
-void extrudeStructured(vtkDataSet* data, std::array<int, 3> points, const Plane& plane, Remade& to)
-{
-  const auto across =
-    static_cast<std::size_t>(std::find(points.begin(), points.end(), 1) - points.begin());
-  vtkIdType stride = 1;
-  for (std::size_t axis = 0; axis < across; ++axis)
-  {
-    stride *= points[axis];
-  }
-  points[across] = 2;
-  vtkNew<vtkPoints> places;
-  places->SetDataTypeToDouble();
-  addTwice(data->GetNumberOfPoints(), stride, to.points);
-  for (vtkIdType point = 0; point < to.points->GetNumberOfIds(); ++point)
-  {
-    const double side = point / stride % 2 == 0 ? -0.5 : 0.5;
-    plane.add(data, to.points->GetId(point), plane.depth * side, places);
-  }
-  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
-  grid->SetDimensions(points.data());
-  grid->SetPoints(places);
-  to.cells->SetNumberOfIds(data->GetNumberOfCells());
-  std::iota(to.cells->begin(), to.cells->end(), vtkIdType{ 0 });
-  to.data = grid;
-}
 
 /// Extrudes cells. All but linear triangles, quadrilaterals and pixels are triangulated first.
 void extrudeCells(vtkDataSet* data, const Plane& plane, Remade& to)
@@ -187,26 +149,18 @@ std::array<double, 3> turned(const double x[3], int flat)
   return own;
 }
 
-Source extruded(const Source& source, int flat, double depth)
+Flow extruded(const Flow& flow, int flat, double depth)
 {
-  Source result = source;
+  Flow result = flow;
   result.image = nullptr;
   result.leaves.clear();
   double middle[3];
-  boundsOfPlanes(source).GetCenter(middle);
+  boundsOfPlanes(flow).GetCenter(middle);
   const Plane plane{ flat, turned(middle, flat)[2], depth };
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     Remade made;
-    const std::array<int, 3> points = structureOf(leaf.data);
-    if (std::count(points.begin(), points.end(), 1) == 1)
-    {
-      extrudeStructured(leaf.data, points, plane, made);
-    }
-    else
-    {
-      extrudeCells(leaf.data, plane, made);
-    }
+    extrudeCells(leaf.data, plane, made);
     result.leaves.push_back(made.leafOf(leaf));
     result.made.emplace_back(made.data);
   }
@@ -234,10 +188,10 @@ int dimensionOf(vtkDataSet* data)
   return dimension;
 }
 
-vtkBoundingBox boundsOfPlanes(const Source& source)
+vtkBoundingBox boundsOfPlanes(const Flow& flow)
 {
   vtkBoundingBox box;
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     if (dimensionOf(leaf.data) == 2)
     {
@@ -247,16 +201,16 @@ vtkBoundingBox boundsOfPlanes(const Source& source)
   return box;
 }
 
-int flatAxisOf(const Source& source)
+int flatAxisOf(const Flow& flow)
 {
-  if (source.image)
+  if (flow.image)
   {
-    const int* points = source.image->GetDimensions();
+    const int* points = flow.image->GetDimensions();
     const bool isFlat[3] = { points[0] == 1, points[1] == 1, points[2] == 1 };
-    return onlyFlatAxis(isFlat, source);
+    return onlyFlatAxis(isFlat, flow);
   }
   int dimension = 0;
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     dimension = std::max(dimension, dimensionOf(leaf.data));
     if (dimension == 3)
@@ -264,7 +218,7 @@ int flatAxisOf(const Source& source)
       return -1;
     }
   }
-  const std::string problem = "The input has no 3-D cells with the " + source.label +
+  const std::string problem = "The input has no 3-D cells with the " + flow.label +
     ", so there is no volume for light to cross";
   if (dimension == 0)
   {
@@ -276,13 +230,13 @@ int flatAxisOf(const Source& source)
   {
     throw std::runtime_error(problem + ". Use 3-D data, or 2-D data in one plane.");
   }
-  const vtkBoundingBox box = boundsOfPlanes(source);
+  const vtkBoundingBox box = boundsOfPlanes(flow);
   bool isFlat[3];
   for (int axis = 0; axis < 3; ++axis)
   {
     isFlat[axis] = box.GetLength(axis) <= planeTolerance * box.GetMaxLength();
   }
-  const int flat = onlyFlatAxis(isFlat, source);
+  const int flat = onlyFlatAxis(isFlat, flow);
   if (flat < 0)
   {
     throw std::runtime_error(problem +
@@ -306,33 +260,33 @@ double depthOfImage(vtkImageData* image, int flat, double given)
   return shorterSide(lengths, flat);
 }
 
-double depthOf(const Source& source, int flat)
+double depthOf(const Flow& flow, int flat)
 {
-  if (source.image)
+  if (flow.image)
   {
-    return depthOfImage(source.image, flat, source.depth);
+    return depthOfImage(flow.image, flat, flow.depth);
   }
-  if (source.depth > 0)
+  if (flow.depth > 0)
   {
-    return source.depth;
+    return flow.depth;
   }
   double lengths[3];
-  boundsOfPlanes(source).GetLengths(lengths);
+  boundsOfPlanes(flow).GetLengths(lengths);
   return shorterSide(lengths, flat);
 }
 
-std::string warningOfExtrusion(const Source& source, int flat)
+std::string warningOfExtrusion(const Flow& flow, int flat)
 {
-  if (source.isDepthGiven)
+  if (flow.isDepthGiven)
   {
     return ""; // the user knows
   }
   std::ostringstream text;
   text
     << std::setprecision(4)
-    << (source.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
-    << "xyz"[flat] << ": they become " << depthOf(source, flat) << " data units deep, "
-    << (source.isOneCellThick ? "as their cells are" : "as their shorter side is long")
+    << (flow.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
+    << "xyz"[flat] << ": they become " << depthOf(flow, flat) << " data units deep, "
+    << (flow.isOneCellThick ? "as their cells are" : "as their shorter side is long")
     << ". Deflection and optical path are in proportion to it; set Depth to the depth of the real "
        "flow.";
   return text.str();
@@ -361,8 +315,11 @@ void extrudeArrays(vtkImageData* image, int flat)
   image->GetDimensions(points);
   const vtkIdType stride =
     flat == 0 ? 1 : static_cast<vtkIdType>(points[0]) * (flat == 1 ? 1 : points[1]);
-  vtkNew<vtkIdList> ids;
-  addTwice(image->GetNumberOfPoints() / 2, stride, ids);
+  vtkNew<vtkIdList> ids; // of the one layer, for each point of two, which are `stride` apart
+  for (vtkIdType point = 0; point < image->GetNumberOfPoints(); ++point)
+  {
+    ids->InsertNextId(point / (2 * stride) * stride + point % stride);
+  }
   vtkPointData* arrays = image->GetPointData();
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {

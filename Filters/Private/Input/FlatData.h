@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Common/CellTypes.h"
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 #include "Input/Remade.h"
 
 #include "vtkBoundingBox.h"
@@ -26,20 +26,20 @@ int dimensionOfCell(vtkDataSet* data, vtkIdType cell);
 int dimensionOf(vtkDataSet* data);
 
 /// Returns the bounds of all datasets of 2-D cells.
-vtkBoundingBox boundsOfPlanes(const Source& source);
+vtkBoundingBox boundsOfPlanes(const Flow& flow);
 
 /// Returns the axis (of an image: its own) across the plane of all cells, or -1 if there are 3-D
 /// cells. Throws for lines, points, and tilted or curved surfaces.
-int flatAxisOf(const Source& source);
+int flatAxisOf(const Flow& flow);
 
-/// Returns the depth of flat data: the source's, or the plane's shorter side. Throws if that is 0.
-double depthOf(const Source& source, int flat);
+/// Returns the depth of flat data: the flow's, or the plane's shorter side. Throws if that is 0.
+double depthOf(const Flow& flow, int flat);
 
 /// Returns the depth of a flat image. `given`: 0 for the plane's shorter side.
 double depthOfImage(vtkImageData* image, int flat, double given);
 
 /// Returns a warning about an extrusion of unknown depth; empty if the user gave the depth.
-std::string warningOfExtrusion(const Source& source, int flat);
+std::string warningOfExtrusion(const Flow& flow, int flat);
 
 /// Returns, by rows, the rotation that maps z to the axis across the plane and keeps the order of
 /// the other axes; -1: the identity.
@@ -49,7 +49,7 @@ std::array<double, 9> directionAcross(int flat);
 std::array<double, 3> turned(const double x[3], int flat);
 
 /// Replaces flat cells by 3-D ones, in the axes of directionAcross().
-Source extruded(const Source& source, int flat, double depth);
+Flow extruded(const Flow& flow, int flat, double depth);
 
 /// Adds a second layer to a grid of one layer.
 void extrudeGrid(vtkImageData* grid, int flat, double depth);

@@ -4,16 +4,22 @@
 
 #include "Input/DatasetPieces.h"
 
+#include "vtkAppendFilter.h"
+#include "vtkAppendPolyData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStaticCleanUnstructuredGrid.h"
 #include "vtkStructuredData.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -62,6 +68,266 @@ void forgetCopies(const std::vector<vtkDataSet*>& pieces, int kind)
       attributes->AddArray(others);
     }
   }
+}
+
+std::string namesOf(vtkDataSetAttributes* attributes)
+{
+  std::string names;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    const char* name = attributes->GetAbstractArray(i)->GetName();
+    names += std::string(names.empty() ? "'" : ", '") + (name ? name : "") + "'";
+  }
+  return names.empty() ? "none" : names;
+}
+
+bool haveSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
+{
+  bool areSame = a->GetNumberOfArrays() == b->GetNumberOfArrays() && namesOf(a) == namesOf(b);
+  for (int i = 0; areSame && i < a->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray *one = a->GetAbstractArray(i), *other = b->GetAbstractArray(i);
+    areSame = one->GetDataType() == other->GetDataType() &&
+      one->GetNumberOfComponents() == other->GetNumberOfComponents();
+  }
+  return areSame;
+}
+
+vtkIdType sizeOf(const std::array<int, 6>& extent)
+{
+  vtkIdType size = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    size *= extent[2 * axis + 1] - extent[2 * axis] + 1;
+  }
+  return size;
+}
+
+/// Copies the arrays of several extents to the whole grid.
+void copyAttributes(const std::vector<vtkDataSet*>& pieces, bool ofCells, vtkDataSet* whole)
+{
+  const int kind = ofCells ? vtkDataObject::CELL : vtkDataObject::POINT;
+  const std::array<int, 6> extent = extentOf(whole, ofCells);
+  vtkDataSetAttributes* to = whole->GetAttributes(kind);
+  to->CopyAllOn();
+  to->CopyAllocate(pieces[0]->GetAttributes(kind), sizeOf(extent));
+  for (vtkDataSet* piece : pieces)
+  {
+    to->CopyStructuredData(
+      piece->GetAttributes(kind), extentOf(piece, ofCells).data(), extent.data());
+  }
+}
+
+/// Joins the coordinates of rectilinear grids along an axis.
+vtkSmartPointer<vtkDataArray> joinedCoordinates(
+  const std::vector<vtkDataSet*>& pieces, std::size_t axis, const std::array<int, 6>& extent)
+{
+  vtkSmartPointer<vtkDataArray> joined;
+  for (vtkDataSet* piece : pieces)
+  {
+    auto* grid = vtkRectilinearGrid::SafeDownCast(piece);
+    vtkDataArray* of = axis == 0 ? grid->GetXCoordinates()
+      : axis == 1                ? grid->GetYCoordinates()
+                                 : grid->GetZCoordinates();
+    if (!joined)
+    {
+      joined.TakeReference(of->NewInstance());
+      joined->SetNumberOfTuples(extent[2 * axis + 1] - extent[2 * axis] + 1);
+    }
+    joined->InsertTuples(
+      extentOf(piece, false)[2 * axis] - extent[2 * axis], of->GetNumberOfTuples(), 0, of);
+  }
+  return joined;
+}
+
+/// Joins the points of curvilinear grids.
+vtkSmartPointer<vtkPoints> joinedPoints(
+  const std::vector<vtkDataSet*>& pieces, const std::array<int, 6>& extent)
+{
+  auto joined = vtkSmartPointer<vtkPoints>::New();
+  joined->SetDataType(vtkStructuredGrid::SafeDownCast(pieces[0])->GetPoints()->GetDataType());
+  joined->SetNumberOfPoints(sizeOf(extent));
+  for (vtkDataSet* piece : pieces)
+  {
+    const std::array<int, 6> of = extentOf(piece, false);
+    vtkDataArray* from = vtkStructuredGrid::SafeDownCast(piece)->GetPoints()->GetData();
+    vtkIdType next = 0;
+    for (int k = of[4]; k <= of[5]; ++k)
+    {
+      for (int j = of[2]; j <= of[3]; ++j)
+      {
+        const int row[3] = { of[0], j, k };
+        const vtkIdType length = of[1] - of[0] + 1;
+        joined->GetData()->InsertTuples(
+          vtkStructuredData::ComputePointIdForExtent(extent.data(), row), length, next, from);
+        next += length;
+      }
+    }
+  }
+  return joined;
+}
+
+/// Returns whether the grids contain all points of an extent.
+bool isCovered(const std::vector<vtkDataSet*>& pieces, const std::array<int, 6>& extent)
+{
+  std::vector<bool> isThere(static_cast<std::size_t>(sizeOf(extent)));
+  for (vtkDataSet* piece : pieces)
+  {
+    const std::array<int, 6> of = extentOf(piece, false);
+    for (int k = of[4]; k <= of[5]; ++k)
+    {
+      for (int j = of[2]; j <= of[3]; ++j)
+      {
+        const int row[3] = { of[0], j, k };
+        const auto first = isThere.begin() +
+          static_cast<std::ptrdiff_t>(
+            vtkStructuredData::ComputePointIdForExtent(extent.data(), row));
+        std::fill(first, first + (of[1] - of[0] + 1), true);
+      }
+    }
+  }
+  return std::find(isThere.begin(), isThere.end(), false) == isThere.end();
+}
+
+/// Returns whether a grid's points lie where the same indices of the whole do. Readers may number
+/// the grids of each rank from 0.
+bool liesIn(vtkDataSet* piece, vtkDataSet* whole)
+{
+  const std::array<int, 6> of = extentOf(piece, false), all = extentOf(whole, false);
+  vtkIdType next = 0;
+  for (int k = of[4]; k <= of[5]; ++k)
+  {
+    for (int j = of[2]; j <= of[3]; ++j)
+    {
+      for (int i = of[0]; i <= of[1]; ++i)
+      {
+        const int index[3] = { i, j, k };
+        double own[3], ofWhole[3];
+        piece->GetPoint(next++, own);
+        whole->GetPoint(vtkStructuredData::ComputePointIdForExtent(all.data(), index), ofWhole);
+        if (!std::equal(own, own + 3, ofWhole))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/// Throws std::runtime_error if arrays of points or cells (vtkDataObject::POINT, CELL) differ,
+/// because joining would lose some.
+void requireSameArrays(const std::vector<vtkDataSet*>& pieces, int kind)
+{
+  vtkDataSetAttributes* first = pieces[0]->GetAttributes(kind);
+  for (vtkDataSet* piece : pieces)
+  {
+    vtkDataSetAttributes* other = piece->GetAttributes(kind);
+    if (!haveSameArrays(first, other))
+    {
+      const std::string what = kind == vtkDataObject::CELL ? "cells" : "points";
+      throw std::runtime_error(
+        "The pieces of the input on several ranks have not the same arrays of " + what + ": " +
+        namesOf(first) + " on one of them, " + namesOf(other) +
+        " on another, or their types differ. Check the reader or filter that has made them.");
+    }
+  }
+}
+
+/// Joins meshes, cells in their order. Merges points that are equal to the last bit.
+vtkSmartPointer<vtkDataSet> joinedMesh(const std::vector<vtkDataSet*>& pieces)
+{
+  if (vtkPolyData::SafeDownCast(pieces[0]))
+  {
+    vtkNew<vtkAppendPolyData> append;
+    for (vtkDataSet* piece : pieces)
+    {
+      append->AddInputData(vtkPolyData::SafeDownCast(piece));
+    }
+    append->Update();
+    return append->GetOutput();
+  }
+  vtkNew<vtkAppendFilter> append;
+  vtkNew<vtkStaticCleanUnstructuredGrid> merge;
+  for (vtkDataSet* piece : pieces)
+  {
+    append->AddInputData(piece);
+  }
+  merge->SetInputConnection(append->GetOutputPort());
+  merge->ToleranceIsAbsoluteOn();
+  merge->SetAbsoluteTolerance(0);
+  merge->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
+  merge->Update();
+  return merge->GetOutput();
+}
+
+/// Returns whether the points of two images with the same indices coincide, to the last bit.
+bool haveSamePlace(vtkImageData* a, vtkImageData* b)
+{
+  const double* direction = a->GetDirectionMatrix()->GetData();
+  return std::equal(a->GetOrigin(), a->GetOrigin() + 3, b->GetOrigin()) &&
+    std::equal(a->GetSpacing(), a->GetSpacing() + 3, b->GetSpacing()) &&
+    std::equal(direction, direction + 9, b->GetDirectionMatrix()->GetData());
+}
+
+/// Joins the extents of one image or grid; null for other datasets.
+vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& pieces)
+{
+  std::array<int, 6> extent = extentOf(pieces[0], false);
+  for (vtkDataSet* piece : pieces)
+  {
+    const std::array<int, 6> of = extentOf(piece, false);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      extent[2 * axis] = std::min(extent[2 * axis], of[2 * axis]);
+      extent[2 * axis + 1] = std::max(extent[2 * axis + 1], of[2 * axis + 1]);
+    }
+    auto* image = vtkImageData::SafeDownCast(piece);
+    if (image && !haveSamePlace(image, vtkImageData::SafeDownCast(pieces[0])))
+    {
+      return nullptr;
+    }
+  }
+  vtkIdType points = 0;
+  for (vtkDataSet* piece : pieces)
+  {
+    points += piece->GetNumberOfPoints();
+  }
+  if (sizeOf(extent) > points || !isCovered(pieces, extent))
+  {
+    return nullptr;
+  }
+  vtkSmartPointer<vtkDataSet> whole;
+  whole.TakeReference(pieces[0]->NewInstance());
+  if (auto* image = vtkImageData::SafeDownCast(whole))
+  {
+    auto* first = vtkImageData::SafeDownCast(pieces[0]);
+    image->SetOrigin(first->GetOrigin());
+    image->SetSpacing(first->GetSpacing());
+    image->SetDirectionMatrix(first->GetDirectionMatrix());
+    image->SetExtent(extent.data());
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(whole))
+  {
+    rectilinear->SetExtent(extent.data());
+    rectilinear->SetXCoordinates(joinedCoordinates(pieces, 0, extent));
+    rectilinear->SetYCoordinates(joinedCoordinates(pieces, 1, extent));
+    rectilinear->SetZCoordinates(joinedCoordinates(pieces, 2, extent));
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(whole))
+  {
+    structured->SetExtent(extent.data());
+    structured->SetPoints(joinedPoints(pieces, extent));
+  }
+  if (!vtkImageData::SafeDownCast(whole) &&
+    !std::all_of(
+      pieces.begin(), pieces.end(), [&](vtkDataSet* piece) { return liesIn(piece, whole); }))
+  {
+    return nullptr;
+  }
+  copyAttributes(pieces, false, whole);
+  copyAttributes(pieces, true, whole);
+  return whole;
 }
 
 } // namespace

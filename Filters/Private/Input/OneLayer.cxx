@@ -42,10 +42,10 @@ double turn(double from, double to) { return std::remainder(to - from, 2 * vtkMa
 
 /// Returns the two angles at which all points lie; nothing if there are not exactly two.
 std::optional<std::array<double, 2>> anglesOf(
-  const Source& source, std::size_t axis, const Place& origin, double size)
+  const Flow& flow, std::size_t axis, const Place& origin, double size)
 {
   std::vector<double> angles;
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     const vtkIdType count = isLayerLeaf(leaf) ? leaf.data->GetNumberOfPoints() : 0;
     for (vtkIdType point = 0; point < count; ++point)
@@ -79,9 +79,9 @@ std::optional<std::array<double, 2>> anglesOf(
 
 } // namespace
 
-void flattenLayer(Source& source, const Source* like)
+void flattenLayer(Flow& flow, const Flow* like)
 {
-  const vtkBoundingBox box = boundsOfLayers(source);
+  const vtkBoundingBox box = boundsOfLayers(flow);
   if ((like && !like->isOneCellThick) || !box.IsValid())
   {
     return;
@@ -110,10 +110,10 @@ void flattenLayer(Source& source, const Source* like)
       place[axis] = 0.5 * (low + high);
       return place;
     };
-    if (flatten(source, { sideAt, onPlane, tolerance }, like != nullptr))
+    if (flatten(flow, { sideAt, onPlane, tolerance }, like != nullptr))
     {
-      source.isOneCellThick = true;
-      source.depth = source.isDepthGiven ? source.depth : high - low;
+      flow.isOneCellThick = true;
+      flow.depth = flow.isDepthGiven ? flow.depth : high - low;
       return;
     }
   }
@@ -161,12 +161,12 @@ bool areOneLayer(const std::vector<LayerBounds>& pieces)
   return !pieces.empty() && (isLayerAlong(0) || isLayerAlong(1) || isLayerAlong(2));
 }
 
-std::optional<Wedge> findWedge(const Source& source, const std::array<double, 3>& origin)
+std::optional<Wedge> findWedge(const Flow& flow, const std::array<double, 3>& origin)
 {
-  const double size = boundsOfLayers(source).GetMaxLength();
+  const double size = boundsOfLayers(flow).GetMaxLength();
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (const auto angles = anglesOf(source, axis, origin, size))
+    if (const auto angles = anglesOf(flow, axis, origin, size))
     {
       const double middle = (*angles)[0] + 0.5 * turn((*angles)[0], (*angles)[1]);
       const bool isAlongNext = std::abs(std::cos(middle)) >= std::abs(std::sin(middle));
@@ -177,12 +177,12 @@ std::optional<Wedge> findWedge(const Source& source, const std::array<double, 3>
   return std::nullopt;
 }
 
-void flattenWedge(Source& source, const Wedge& wedge, const std::array<double, 3>& origin)
+void flattenWedge(Flow& flow, const Wedge& wedge, const std::array<double, 3>& origin)
 {
   const auto axis = static_cast<std::size_t>(wedge.axis),
              across = static_cast<std::size_t>(wedge.across);
   const std::size_t away = 3 - axis - across;
-  const double size = boundsOfLayers(source).GetMaxLength();
+  const double size = boundsOfLayers(flow).GetMaxLength();
   const auto [front, back] = wedge.angles;
   const auto sideAt = [=, front = front, back = back](const Place& place)
   {
@@ -192,7 +192,7 @@ void flattenWedge(Source& source, const Wedge& wedge, const std::array<double, 3
                                                                                : Back;
   };
   // Keeps the radius of points; projects centres of cells to the middle plane, nearer to the axis.
-  const double nearer = source.leaves[0].ofCells ? std::cos(0.5 * turn(front, back)) : 1;
+  const double nearer = flow.leaves[0].ofCells ? std::cos(0.5 * turn(front, back)) : 1;
   const auto onPlane = [=](const Place& place)
   {
     Place on = origin;
@@ -200,7 +200,7 @@ void flattenWedge(Source& source, const Wedge& wedge, const std::array<double, 3
     on[away] += nearer * Polar(place, axis, origin).distance;
     return on;
   };
-  if (!flatten(source, { sideAt, onPlane, planeTolerance * size }, true))
+  if (!flatten(flow, { sideAt, onPlane, planeTolerance * size }, true))
   {
     throw std::runtime_error(
       "Symmetry is Axisymmetric, and the input lies between two planes through the " +

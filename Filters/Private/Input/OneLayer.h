@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 
 #include <array>
 #include <optional>
@@ -14,8 +14,8 @@ namespace filters
 
 /// Replaces a layer between two planes across a coordinate axis by flat data halfway between them,
 /// with its depth unless one is given. Keeps other data, and layers whose point values differ
-/// between the planes. `like`: the source of other arrays of the input, which decides; may be null.
-void flattenLayer(Source& source, const Source* like);
+/// between the planes. `like`: the flow of other arrays of the input, which decides; may be null.
+void flattenLayer(Flow& flow, const Flow* like);
 
 /// The bounds of data, and along which axes all points lie at one of the two.
 struct LayerBounds
@@ -36,9 +36,9 @@ struct Wedge
 };
 
 /// Returns nothing if the 3-D cells are no wedge.
-std::optional<Wedge> findWedge(const Source& source, const std::array<double, 3>& origin);
+std::optional<Wedge> findWedge(const Flow& flow, const std::array<double, 3>& origin);
 
 /// Replaces the wedge by flat data across `across`, with the coordinates x along the axis and r.
-void flattenWedge(Source& source, const Wedge& wedge, const std::array<double, 3>& origin);
+void flattenWedge(Flow& flow, const Wedge& wedge, const std::array<double, 3>& origin);
 
 } // namespace filters

@@ -211,30 +211,30 @@ void gridOfImage(vtkImageData* image, bool ofCells, double depth, vtkImageData* 
   }
 }
 
-Tally convertImage(const Source& source, Numbers numbers, vtkImageData* output)
+Tally convertImage(const Flow& flow, Numbers numbers, vtkImageData* output)
 {
-  const Leaf& leaf = source.leaves[0];
-  gridOfImage(source.image, leaf.ofCells, source.depth, output);
+  const Leaf& leaf = flow.leaves[0];
+  gridOfImage(flow.image, leaf.ofCells, flow.depth, output);
   vtkSmartPointer<vtkUnsignedCharArray> valid;
-  if (hidesSome(source.image))
+  if (hidesSome(flow.image))
   {
     valid = newMask(leaf.arrays[0]->GetNumberOfTuples());
   }
   if (valid && leaf.ofCells)
   {
-    hideCells(source.image, valid);
+    hideCells(flow.image, valid);
   }
   else if (valid)
   {
-    hidePoints(source.image, valid);
-    hidePointsOfHiddenCells(source.image, valid);
+    hidePoints(flow.image, valid);
+    hidePointsOfHiddenCells(flow.image, valid);
   }
-  const Tally tally = setArrays(output, leaf.arrays, source.model, valid, numbers);
-  if (const auto outside = leaf.ofCells ? nullptr : outsideFrom(source.image))
+  const Tally tally = setArrays(output, leaf.arrays, flow.model, valid, numbers);
+  if (const auto outside = leaf.ofCells ? nullptr : outsideFrom(flow.image))
   {
     setOutside(outside, output);
   }
-  if (const int flat = flatAxisOf(source); flat >= 0)
+  if (const int flat = flatAxisOf(flow); flat >= 0)
   {
     extrudeArrays(output, flat);
   }

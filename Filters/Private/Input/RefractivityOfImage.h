@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 
 /// Converts the refractivity of an image on its own grid, without interpolation.
 namespace filters
@@ -12,7 +12,7 @@ namespace filters
 /// `depth` apart (see depthOfImage()).
 void gridOfImage(vtkImageData* image, bool ofCells, double depth, vtkImageData* structure);
 
-/// Fills `output` from source.image.
-Tally convertImage(const Source& source, Numbers numbers, vtkImageData* output);
+/// Fills `output` from flow.image.
+Tally convertImage(const Flow& flow, Numbers numbers, vtkImageData* output);
 
 } // namespace filters

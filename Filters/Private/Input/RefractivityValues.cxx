@@ -16,8 +16,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <type_traits>
 
 namespace filters
@@ -32,16 +30,10 @@ struct Results
 {
   Real* out;
   unsigned char* valid;
-  bool isValidSet; // else `valid` is undefined and all values count
   Real invalid;
   double offset;
 
-  void set(vtkIdType i, double refractivity) const
-  {
-    this->keep(i, static_cast<Real>(refractivity - this->offset));
-  }
-
-  void keep(vtkIdType i, Real n) const
+  void set(vtkIdType i, Real n) const
   {
     const bool isValid = this->valid[i] != 0 && std::isfinite(n);
     this->valid[i] = isValid ? 1 : 0;
@@ -49,8 +41,8 @@ struct Results
   }
 };
 
-/// Converts blocks that fit into the cache, because a block is converted again by a slower loop in
-/// the rare case that it has bad values.
+/// Multiplies floats as floats: apart from the rounding of the factor, which all points share, the
+/// result is as accurate as in double precision.
 template <class Real>
 struct LinearConversion
 {
@@ -61,60 +53,22 @@ struct LinearConversion
   void operator()(Array* array) const
   {
     const auto values = vtk::DataArrayValueRange<1>(array);
+    using Value = std::decay_t<decltype(*values.begin())>;
+    const double scale = this->model.scale, offset = this->model.offset - this->results.offset;
+    const auto factor = static_cast<float>(scale);
+    const bool isInFloats = std::is_same_v<Value, float> && std::is_same_v<Real, float> &&
+      this->model.offset == this->results.offset && std::isnormal(factor);
     vtkSMPTools::For(0, array->GetNumberOfTuples(),
       [&](vtkIdType begin, vtkIdType end)
       {
-        constexpr vtkIdType block = 2048;
-        for (vtkIdType first = begin; first < end; first += block)
+        const Results<Real> to = this->results; // a copy, which writing bytes cannot change
+        for (vtkIdType i = begin; i < end; ++i)
         {
-          this->ConvertBlock(values.begin() + first, first, std::min(block, end - first));
+          to.set(i,
+            isInFloats ? static_cast<Real>(factor * static_cast<float>(values[i]))
+                       : static_cast<Real>(scale * static_cast<double>(values[i]) + offset));
         }
       });
-  }
-
-  template <class Iterator>
-  void ConvertBlock(Iterator values, vtkIdType first, vtkIdType count) const
-  {
-    // Multiplies floats as floats: apart from the rounding of the factor, which all points share,
-    // the result is as accurate as in double precision.
-    using Value = std::decay_t<decltype(values[0])>;
-    const float factor = static_cast<float>(this->model.scale);
-    const bool isInFloats = std::is_same_v<Value, float> && std::is_same_v<Real, float> &&
-      this->model.offset == this->results.offset && std::isnormal(factor);
-    const bool isGood = isInFloats
-      ? this->Store(values, first, count,
-          [factor](auto v) { return static_cast<Real>(factor * static_cast<float>(v)); })
-      : this->Store(values, first, count,
-          [scale = this->model.scale, offset = this->model.offset - this->results.offset](auto v)
-          { return static_cast<Real>(scale * static_cast<double>(v) + offset); });
-    unsigned char* valid = this->results.valid + first;
-    const auto bytes = static_cast<std::size_t>(count);
-    if (!this->results.isValidSet)
-    {
-      std::memset(valid, 1, bytes);
-    }
-    if (!isGood || (this->results.isValidSet && std::memchr(valid, 0, bytes) != nullptr))
-    {
-      for (vtkIdType i = 0; i < count; ++i)
-      {
-        this->results.keep(first + i, this->results.out[first + i]);
-      }
-    }
-  }
-
-  /// Returns whether all refractivities are finite.
-  template <class Iterator, class Convert>
-  bool Store(Iterator values, vtkIdType first, vtkIdType count, const Convert& convert) const
-  {
-    Real* out = this->results.out + first;
-    int bad = 0;
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      const Real n = convert(values[i]);
-      out[i] = n;
-      bad |= std::abs(n) <= std::numeric_limits<Real>::max() ? 0 : 1;
-    }
-    return bad == 0;
   }
 };
 
@@ -133,10 +87,6 @@ void convertBy(
 template <class Gas, class Real>
 void convertBy(const Gas& model, const Arrays& values, const Results<Real>& results, Tally& tally)
 {
-  if (!results.isValidSet)
-  {
-    std::fill_n(results.valid, values[0]->GetNumberOfTuples(), static_cast<unsigned char>(1));
-  }
   std::atomic<long long> all{ 0 }, doubtful{ 0 };
   vtkSMPTools::For(0, values[0]->GetNumberOfTuples(),
     [&](vtkIdType begin, vtkIdType end)
@@ -156,7 +106,8 @@ void convertBy(const Gas& model, const Arrays& values, const Results<Real>& resu
           ++mine.all;
           mine.doubtful += model.isDoubtful(state.data()) ? 1 : 0;
         }
-        results.set(i, isFinite ? model.refractivity(state.data()) : std::nan(""));
+        const double n = isFinite ? model.refractivity(state.data()) : std::nan("");
+        results.set(i, static_cast<Real>(n - results.offset));
       }
       all += mine.all;
       doubtful += mine.doubtful;
@@ -257,13 +208,13 @@ double offsetFor(
 
 template <class Array>
 vtkSmartPointer<Array> convertWith(const Arrays& values, const Model& model,
-  vtkUnsignedCharArray* valid, bool isValidSet, double invalid, double offset, Tally& tally)
+  vtkUnsignedCharArray* valid, double invalid, double offset, Tally& tally)
 {
   using Real = typename Array::ValueType;
   auto refractivity = vtkSmartPointer<Array>::New();
   refractivity->SetName(arrayName);
   setTuples(refractivity, values[0]->GetNumberOfTuples());
-  const Results<Real> results{ refractivity->GetPointer(0), valid->GetPointer(0), isValidSet,
+  const Results<Real> results{ refractivity->GetPointer(0), valid->GetPointer(0),
     static_cast<Real>(invalid), offset };
   std::visit([&](const auto& chosen) { convertBy(chosen, values, results, tally); }, model);
   return refractivity;
@@ -275,7 +226,7 @@ template <class Array>
 vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, double invalid, Tally& tally)
 {
-  return convertWith<Array>(values, model, valid, true, invalid, 0, tally);
+  return convertWith<Array>(values, model, valid, invalid, 0, tally);
 }
 
 template vtkSmartPointer<vtkFloatArray> convert(
@@ -287,16 +238,12 @@ Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, Numbers numbers)
 {
   Tally tally;
-  const bool isValidSet = valid != nullptr;
-  vtkSmartPointer<vtkUnsignedCharArray> mask = valid;
-  if (!isValidSet)
-  {
-    mask = newUnsetMask(values[0]->GetNumberOfTuples());
-  }
+  const vtkSmartPointer<vtkUnsignedCharArray> mask =
+    valid ? vtkSmartPointer<vtkUnsignedCharArray>(valid) : newMask(values[0]->GetNumberOfTuples());
   vtkSmartPointer<vtkDataArray> refractivity;
   if (numbers == Numbers::Doubles)
   {
-    refractivity = convertWith<vtkDoubleArray>(values, model, mask, isValidSet, 0, 0, tally);
+    refractivity = convertWith<vtkDoubleArray>(values, model, mask, 0, 0, tally);
   }
   else
   {
@@ -308,7 +255,7 @@ Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
       ofField->InsertNextValue(offset = offsetFor(output, values, model, valid));
       output->GetFieldData()->AddArray(ofField);
     }
-    refractivity = convertWith<vtkFloatArray>(values, model, mask, isValidSet, 0, offset, tally);
+    refractivity = convertWith<vtkFloatArray>(values, model, mask, 0, offset, tally);
   }
   output->GetPointData()->SetScalars(refractivity);
   output->GetPointData()->AddArray(mask);

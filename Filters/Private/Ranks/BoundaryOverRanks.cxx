@@ -3,11 +3,13 @@
 #include "Ranks/BoundaryOverRanks.h"
 
 #include "Amr/AmrFaces.h"
+#include "Common/WeightedMedian.h"
 #include "Sources/ImagePiece.h"
-#include "Sources/KeptMesh.h"
+#include "Sources/MeshCache.h"
 
-#include "vtkSMPTools.h"
-
+#include <array>
+#include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace filters
@@ -36,17 +38,8 @@ std::vector<unsigned char> hold(
   ranks.allGather(
     [&]
     {
-      std::vector<unsigned char> own(places.size(), 0);
-      vtkSMPTools::For(0, static_cast<vtkIdType>(places.size()),
-        [&](vtkIdType begin, vtkIdType end)
-        {
-          for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
-          {
-            own[n] = piece.holds(places[n]) ? 1 : 0;
-          }
-        });
       Ranks::Bytes bytes;
-      putAll(own, bytes);
+      putAll(piece.hold(places), bytes);
       return bytes;
     },
     [&](Reader& reader)
@@ -60,6 +53,80 @@ std::vector<unsigned char> hold(
   return are;
 }
 
+/// What all ranks make of putBoundary().
+struct BoundaryOfImage
+{
+  bool isEmpty = true;
+  Point origin{};
+  std::array<double, 3> spacing{};
+  std::array<double, 9> direction{};
+  BoundaryFaces faces;
+  std::vector<ImagePiece::OuterValue> outer;
+
+  /// Adds a rank's. Throws std::runtime_error if it has other axes.
+  void add(Reader& reader);
+};
+
+void BoundaryOfImage::add(Reader& reader)
+{
+  if (reader.IsAtEnd())
+  {
+    return;
+  }
+  const auto from = reader.Get<Point>();
+  const auto edges = reader.Get<std::array<double, 3>>();
+  const auto axes = reader.Get<std::array<double, 9>>();
+  if (!std::exchange(this->isEmpty, false) &&
+    (from != this->origin || edges != this->spacing || axes != this->direction))
+  {
+    throw std::runtime_error(
+      "The parts of the image that the ranks have are not of one image: their origins, spacings or "
+      "directions differ. Give all parts the same, or make blocks of them.");
+  }
+  this->origin = from;
+  this->spacing = edges;
+  this->direction = axes;
+  Triangles& surface = this->faces.surface;
+  const auto first = static_cast<std::int32_t>(surface.points.size());
+  reader.AddAll(surface.points);
+  for (const Triangles::Corners& corners : reader.GetAll<std::vector<Triangles::Corners>>())
+  {
+    surface.corners.push_back({ first + corners[0], first + corners[1], first + corners[2] });
+  }
+  reader.AddAll(this->faces.hidesBehind);
+  reader.AddAll(this->outer);
+}
+
+/// Writes an image's axes, the triangles of its faces, which of them hide something, and N on the
+/// faces of the whole image: at each point, or of more than a million at each nth.
+void putBoundary(const ImagePiece& piece, Ranks::Bytes& message)
+{
+  const BoundaryFaces faces = piece.faces();
+  const DataPiece::Facts facts = piece.facts();
+  const Counts& whole = piece.whole();
+  put(piece.origin(), message);
+  put(facts.voxelShape, message);
+  put(facts.direction, message);
+  putAll(faces.surface.points, message);
+  putAll(faces.surface.corners, message);
+  putAll(faces.hidesBehind, message);
+  const double ofFaces = 2. *
+    (static_cast<double>(whole[0]) * whole[1] + static_cast<double>(whole[1]) * whole[2] +
+      static_cast<double>(whole[2]) * whole[0]);
+  const auto every = static_cast<std::int64_t>(std::ceil(ofFaces / mostOuterValues));
+  std::vector<ImagePiece::OuterValue> values;
+  for (const ImagePiece::OuterValue& outer : piece.outer())
+  {
+    const std::int64_t row = outer.point / whole[0];
+    const std::int64_t sum = outer.point % whole[0] + row % whole[1] + row / whole[1];
+    if (sum % every == 0)
+    {
+      values.push_back(outer);
+    }
+  }
+  putAll(values, message);
+}
+
 /// `image`: null on ranks that have nothing of it.
 BoundaryOverRanks boundaryOfImage(
   const Ranks& ranks, const ImagePiece* image, vtkDataObject* bodies, DataPiece::Facts& facts)
@@ -71,7 +138,7 @@ BoundaryOverRanks boundaryOfImage(
       Ranks::Bytes bytes;
       if (image)
       {
-        image->putBoundary(bytes);
+        putBoundary(*image, bytes);
       }
       return bytes;
     },
@@ -86,9 +153,9 @@ BoundaryOverRanks boundaryOfImage(
 
 /// Uses what is kept if the meshes are equal. Returns false if not.
 bool reuse(const Ranks& ranks, const MeshPiece& piece, const std::vector<std::uint64_t>& keys,
-  KeptMesh& kept, std::vector<double>& values)
+  MeshCache& cache, std::vector<double>& values)
 {
-  if (kept.keys != keys)
+  if (cache.keys != keys)
   {
     return false;
   }
@@ -100,18 +167,18 @@ bool reuse(const Ranks& ranks, const MeshPiece& piece, const std::vector<std::ui
       return bytes;
     },
     [&](Reader& reader) { reader.AddAll(values); });
-  kept.beginStep();
+  cache.beginStep();
   return true;
 }
 
 BoundaryOverRanks boundaryOfMeshes(const Ranks& ranks, const MeshPiece& piece,
-  const std::vector<std::uint64_t>& keys, Outside outside, vtkDataObject* bodies, KeptMesh& kept,
+  const std::vector<std::uint64_t>& keys, Outside outside, vtkDataObject* bodies, MeshCache& cache,
   DataPiece::Facts& facts)
 {
   std::vector<double> values; // at the face points of all ranks' meshes
-  if (!reuse(ranks, piece, keys, kept, values))
+  if (!reuse(ranks, piece, keys, cache, values))
   {
-    ++kept.builds;
+    ++cache.builds;
     values.clear();
     BoundaryOfMeshes all;
     ranks.allGather(
@@ -127,24 +194,24 @@ BoundaryOverRanks boundaryOfMeshes(const Ranks& ranks, const MeshPiece& piece,
         all.add(reader);
         reader.AddAll(values);
       });
-    kept.voxelShape = CellTree::voxelShapeOf(std::move(all.cells));
-    BoundaryFaces faces = boundaryOf(
-      std::move(all.faces),
-      [&](const std::vector<Point>& places) { return hold(ranks, piece, places); },
-      outside == Outside::Passes ? Sheets::Ignored : Sheets::Walls);
-    kept.origins = faces.origins;
-    kept.boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
-    kept.keys = keys;
-    kept.lattices = nullptr;
+    cache.voxelShape = CellTree::voxelShapeOf(std::move(all.cells));
+    OpenFaces open(std::move(all.faces));
+    const std::vector<unsigned char> middles = hold(ranks, piece, open.middles());
+    open.removeCovered(middles, hold(ranks, piece, open.corners(middles)));
+    BoundaryFaces faces = open.boundary(outside);
+    cache.origins = faces.origins;
+    cache.boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
+    cache.keys = keys;
+    cache.lattices = nullptr;
   }
-  facts.voxelShape = kept.voxelShape;
-  return { kept.boundary, kept.boundary->ambient(valuesOf(kept.origins, values)) };
+  facts.voxelShape = cache.voxelShape;
+  return { cache.boundary, cache.boundary->ambient(valuesOf(cache.origins, values)) };
 }
 
 } // namespace
 
 BoundaryOverRanks findBoundary(const Ranks& ranks, const DataPiece& piece, bool isImage,
-  std::vector<std::uint64_t> keys, Outside outside, vtkDataObject* bodies, KeptMesh& kept,
+  std::vector<std::uint64_t> keys, Outside outside, vtkDataObject* bodies, MeshCache& cache,
   DataPiece::Facts& facts)
 {
   if (isImage)
@@ -153,7 +220,7 @@ BoundaryOverRanks findBoundary(const Ranks& ranks, const DataPiece& piece, bool 
   }
   keys.push_back(keyOfWalls(outside, bodies));
   return boundaryOfMeshes(
-    ranks, dynamic_cast<const MeshPiece&>(piece), keys, outside, bodies, kept, facts);
+    ranks, dynamic_cast<const MeshPiece&>(piece), keys, outside, bodies, cache, facts);
 }
 
 } // namespace filters

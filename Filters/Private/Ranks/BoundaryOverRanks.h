@@ -15,7 +15,7 @@ class vtkDataObject;
 namespace filters
 {
 
-struct KeptMesh;
+struct MeshCache;
 
 /// The boundary of the gas of all ranks' pieces, and the ambient N; NaN: no boundary.
 struct BoundaryOverRanks
@@ -25,10 +25,10 @@ struct BoundaryOverRanks
 };
 
 /// Makes the same boundary on all ranks, of faces that it gathers from all. `keys`: of all ranks'
-/// meshes. `facts`: of all data, of which it sets the voxels' shape and the direction. `kept`: of
+/// meshes. `facts`: of all data, of which it sets the voxels' shape and the direction. `cache`: of
 /// meshes, from one time step to the next.
 BoundaryOverRanks findBoundary(const Ranks& ranks, const DataPiece& piece, bool isImage,
-  std::vector<std::uint64_t> keys, Outside outside, vtkDataObject* bodies, KeptMesh& kept,
+  std::vector<std::uint64_t> keys, Outside outside, vtkDataObject* bodies, MeshCache& cache,
   DataPiece::Facts& facts);
 
 } // namespace filters

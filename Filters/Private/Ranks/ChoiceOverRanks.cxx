@@ -22,7 +22,7 @@ namespace
 using FieldRanges = std::vector<FieldMean::Range>;
 
 /// Keeps layers, because data may have several layers in pieces of one.
-const Source asTheyAre;
+const Flow asTheyAre;
 
 void join(FieldRanges& all, const FieldRanges& more)
 {
@@ -61,7 +61,7 @@ Sent chooseOwn(MediumMaker& maker, ChoiceOverRanks& choice, bool hasFields)
   Sent own;
   try
   {
-    choice.source = chooseSource(maker.settings, maker.known(), choice.data, &asTheyAre);
+    choice.flow = chooseFlow(maker.settings, maker.known(), choice.data, &asTheyAre);
   }
   catch (const ArraysMissing& problem) // other ranks may have them
   {
@@ -69,9 +69,9 @@ Sent chooseOwn(MediumMaker& maker, ChoiceOverRanks& choice, bool hasFields)
     own.lacks = problem.what();
     return own;
   }
-  if (const auto* mean = std::get_if<FieldMean>(&choice.source.model))
+  if (const auto* mean = std::get_if<FieldMean>(&choice.flow.model))
   {
-    own.ofModel = mean->rangesIn(choice.source.leaves);
+    own.ofModel = mean->rangesIn(choice.flow.leaves);
   }
   const auto fields =
     hasFields ? rangesOfFields(maker.settings, choice.data) : std::vector<RangeOfField>();
@@ -122,7 +122,7 @@ ChoiceOverRanks chooseOverRanks(const Ranks& ranks, MediumMaker& maker,
       putAll(own.ofModel, bytes);
       putAll(own.ofFields, bytes);
       putAll(own.lacks, bytes);
-      putAll(choice.source.label, bytes);
+      putAll(choice.flow.label, bytes);
       return bytes;
     },
     [&](Reader& reader)
@@ -140,7 +140,7 @@ ChoiceOverRanks chooseOverRanks(const Ranks& ranks, MediumMaker& maker,
   {
     throw ArraysMissing(lacking);
   }
-  if (auto* mean = std::get_if<FieldMean>(&choice.source.model))
+  if (auto* mean = std::get_if<FieldMean>(&choice.flow.model))
   {
     mean->setRanges(ofModel);
   }

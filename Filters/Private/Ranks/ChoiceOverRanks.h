@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Gas/TransferFunctions.h"
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 #include "Ranks/PiecesOfRanks.h"
 
 #include "vtkSmartPointer.h"
@@ -22,9 +22,9 @@ class MediumMaker;
 struct ChoiceOverRanks
 {
   vtkSmartPointer<vtkDataObject> data;    ///< of the pieces; null: none with the arrays
-  Source source;                          ///< of `data`
+  Flow flow;                              ///< of `data`
   std::vector<FieldMean::Range> ofFields; ///< ranges on all ranks
-  std::string label;                      ///< see Source::label; that of any rank
+  std::string label;                      ///< see Flow::label; that of any rank
 };
 
 /// Lets all ranks choose among the arrays of all.

@@ -4,9 +4,9 @@
 
 #include "Gas/ArrayChoice.h"
 #include "Gas/GasChoices.h"
+#include "Input/Flow.h"
 #include "Input/GatheredData.h"
 #include "Input/InputDescription.h"
-#include "Input/RefractivitySource.h"
 #include "Ranks/ChoiceOverRanks.h"
 #include "Ranks/PiecesOfRanks.h"
 #include "Sources/MediumMaker.h"
@@ -212,16 +212,16 @@ std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
   putAll(ofBodies, request);
   this->requestOfAll(request);
   const MediumSettings settings = this->Maker->choice().settings;
-  Source source;
-  source.model = modelFrom(settings);
-  source.noteOnGases = noteOnGases(settings);
+  Flow flow;
+  flow.model = modelFrom(settings);
+  flow.noteOnGases = noteOnGases(settings);
   if (!this->Made.source)
   {
     throw std::runtime_error(noGas(this->Made.label));
   }
   this->Made.source->use(&this->All);
   warning =
-    this->Maker->warningOf(source, this->Made.tally, bodies && !this->Made.source->meetsBodies());
+    this->Maker->warningOf(flow, this->Made.tally, bodies && !this->Made.source->meetsBodies());
   return this->Made.source;
 }
 
@@ -290,7 +290,7 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
       vtkSmartPointer<vtkDataObject> bodies;
       ranks.agree([&] { bodies = gatheredData({ ofBodies }); });
       this->Made =
-        makeOverRanks(*this->Maker, ranks, this->Own[0], bodies, hasFields, number, this->Kept);
+        makeOverRanks(*this->Maker, ranks, this->Own[0], bodies, hasFields, number, this->Cache);
       this->Held = this->Made.source;
       if (this->Held)
       {
@@ -312,7 +312,7 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
     case Release:
       this->Held = nullptr;
       this->Made = {};
-      this->Kept.release();
+      this->Cache.release();
       break;
     case SamplesOverRanks::requestOfBricks:
       if (!this->Held || this->Held->number() != reader.Get<std::uint64_t>())

@@ -4,7 +4,7 @@
 
 #include "Ranks/Ranks.h"
 #include "Ranks/SourceOverRanks.h"
-#include "Sources/KeptMesh.h"
+#include "Sources/MeshCache.h"
 
 #include "vtkSmartPointer.h"
 
@@ -93,7 +93,7 @@ private:
   bool InPieces = false;
   double GatheredVersion = -1, GatheredMost = -1; // of the gathered data
   std::vector<std::string> GatheredArrays;
-  KeptMesh Kept;
+  MeshCache Cache;
   MadeOverRanks Made;
   std::shared_ptr<const SamplesOverRanks> Held; // on all ranks
 };

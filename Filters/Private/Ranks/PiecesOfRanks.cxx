@@ -2,26 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/PiecesOfRanks.h"
 
-#include "Cells/MeshKey.h"
-#include "Cells/Polyhedra.h"
 #include "Common/AvailableMemory.h"
 #include "Input/CoincidentPoints.h"
 #include "Input/FlatData.h"
 #include "Input/GatheredData.h"
-#include "Input/OneLayer.h"
 #include "Sources/ImagePiece.h"
 
-#include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkIdList.h"
-#include "vtkImageData.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkStructuredData.h"
 #include "vtkUniformGridAMR.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -34,18 +27,6 @@ namespace filters
 
 namespace
 {
-
-/// Layers of cells that a point may depend on: its trend depends on the points of the cells around
-/// it, and of the next ones if these are few, and its limits on the second derivatives at these
-/// points; point values found from means need two more.
-constexpr int layersForPoints = 4;
-constexpr int layersForMeans = 6;
-
-/// Returns whether cells have values.
-bool hasCellValues(vtkDataSet* mesh)
-{
-  return mesh->GetCellData()->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);
-}
 
 /// Writes the points of a grid's piece on the sides of the whole, with their numbers in it.
 void putSides(vtkDataSet* piece, const std::array<int, 6>& whole, Ranks::Bytes& bytes)
@@ -72,48 +53,6 @@ void putSides(vtkDataSet* piece, const std::array<int, 6>& whole, Ranks::Bytes& 
   }
 }
 
-/// Hashes the positions of a dataset, and of some of its points and cells.
-std::uint64_t placesOf(vtkDataSet* data)
-{
-  Hash hash;
-  const auto addPoint = [&](vtkIdType id)
-  {
-    double at[3];
-    data->GetPoint(id, at);
-    hash.add(at, 3);
-  };
-  constexpr vtkIdType most = 200;
-  const auto forSome = [most](vtkIdType count, const auto& add)
-  {
-    for (vtkIdType n = 0; n < std::min(count, most); ++n)
-    {
-      add(count <= most ? n : n * (count / most));
-    }
-  };
-  double bounds[6];
-  data->GetBounds(bounds);
-  hash.add(bounds, 6);
-  hash.add(static_cast<std::uint64_t>(data->GetNumberOfPoints()));
-  hash.add(static_cast<std::uint64_t>(data->GetNumberOfCells()));
-  if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      hash.add(static_cast<std::uint64_t>(image->GetDimensions()[axis]));
-    }
-    return hash.value(); // sufficient for images, of which there may be many
-  }
-  forSome(data->GetNumberOfPoints(), addPoint);
-  vtkNew<vtkIdList> points;
-  forSome(data->GetNumberOfCells(),
-    [&](vtkIdType cell)
-    {
-      data->GetCellPoints(cell, points);
-      std::for_each(points->begin(), points->end(), addPoint);
-    });
-  return hash.value();
-}
-
 /// Returns whether the boxes of two datasets have points in common, but for rounding.
 bool areInTouch(const std::array<double, 6>& a, const std::array<double, 6>& b)
 {
@@ -127,62 +66,13 @@ bool areInTouch(const std::array<double, 6>& a, const std::array<double, 6>& b)
   return are;
 }
 
-/// Lists the names, types and components of all arrays.
-std::string arraysIn(vtkDataSet* data)
-{
-  std::string text;
-  for (const int kind : { vtkDataObject::POINT, vtkDataObject::CELL })
-  {
-    vtkDataSetAttributes* attributes = data->GetAttributes(kind);
-    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-    {
-      vtkAbstractArray* array = attributes->GetAbstractArray(i);
-      const char* name = array->GetName() ? array->GetName() : "";
-      if (std::string(name) != vtkDataSetAttributes::GhostArrayName())
-      {
-        text += std::to_string(kind) + name + '/' + std::to_string(array->GetDataType()) + '/' +
-          std::to_string(array->GetNumberOfComponents()) + ';';
-      }
-    }
-  }
-  return text;
-}
-
 } // namespace
-
-/// The description of a piece that is sent to all ranks.
-struct PiecesOfRanks::Facts
-{
-  Slot slot;
-  std::string arrays;
-  struct Numbers
-  {
-    int type, dimension, layers;
-    vtkIdType cells;
-    std::uint64_t places;
-    PointExtent extent;
-    LayerBounds layer;
-  } numbers;
-};
-
-PiecesOfRanks::Facts PiecesOfRanks::factsOf(const DatasetPiece& piece)
-{
-  Facts facts{ piece.slot, arraysIn(piece.data),
-    { piece.data->GetDataObjectType(), dimensionOf(piece.data),
-      hasCellValues(piece.data) || hasPolyhedra(piece.data) ? layersForMeans : layersForPoints,
-      piece.data->GetNumberOfCells(), placesOf(piece.data), noPoints, layerBoundsOf(piece.data) } };
-  if (isGrid(piece.data))
-  {
-    facts.numbers.extent = extentOf(piece.data, false);
-  }
-  return facts;
-}
 
 PiecesOfRanks::PiecesOfRanks(
   const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays)
   : All(ranks)
 {
-  std::vector<std::vector<Facts>> all;
+  std::vector<std::vector<PieceFacts>> all;
   std::set<std::pair<Slot, std::uint64_t>> known;
   std::vector<DatasetPiece> kept;
   ranks.allGather(
@@ -193,7 +83,7 @@ PiecesOfRanks::PiecesOfRanks(
       put(vtkUniformGridAMR::SafeDownCast(own) != nullptr, bytes);
       for (const DatasetPiece& piece : this->Own)
       {
-        const Facts facts = factsOf(piece);
+        const PieceFacts facts = factsOf(piece);
         putAll(facts.slot, bytes);
         putAll(facts.arrays, bytes);
         put(facts.numbers, bytes);
@@ -207,10 +97,10 @@ PiecesOfRanks::PiecesOfRanks(
       this->IsAmr = reader.Get<bool>() || this->IsAmr;
       for (std::size_t n = 0; !reader.IsAtEnd(); ++n)
       {
-        Facts facts;
+        PieceFacts facts;
         facts.slot = reader.GetAll<Slot>();
         facts.arrays = reader.GetAll<std::string>();
-        facts.numbers = reader.Get<Facts::Numbers>();
+        facts.numbers = reader.Get<PieceFacts::Numbers>();
         if (known.emplace(facts.slot, facts.numbers.places).second)
         {
           all.back().push_back(std::move(facts));
@@ -229,16 +119,16 @@ PiecesOfRanks::PiecesOfRanks(
   }
 }
 
-void PiecesOfRanks::findDatasets(const std::vector<std::vector<Facts>>& all)
+void PiecesOfRanks::findDatasets(const std::vector<std::vector<PieceFacts>>& all)
 {
   std::map<Slot, Dataset> datasets;
   std::map<Slot, std::string> arrays;
   std::vector<LayerBounds> layers; // of all pieces with 3-D cells
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
-    for (const Facts& facts : all[rank])
+    for (const PieceFacts& facts : all[rank])
     {
-      const Facts::Numbers& numbers = facts.numbers;
+      const PieceFacts::Numbers& numbers = facts.numbers;
       const auto [entry, isNew] = datasets.try_emplace(facts.slot);
       Dataset& dataset = entry->second;
       if (isNew)

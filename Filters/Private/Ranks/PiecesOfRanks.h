@@ -4,6 +4,7 @@
 
 #include "Input/DatasetPieces.h"
 #include "Ranks/GhostCells.h"
+#include "Ranks/PieceFacts.h"
 #include "Ranks/Ranks.h"
 
 #include "vtkSmartPointer.h"
@@ -54,9 +55,7 @@ public:
   std::vector<Piece> withGhostCells();
 
 private:
-  struct Facts;
-  static Facts factsOf(const DatasetPiece& piece);
-  void findDatasets(const std::vector<std::vector<Facts>>& all);
+  void findDatasets(const std::vector<std::vector<PieceFacts>>& all);
 
   const Ranks& All;
   std::vector<DatasetPiece> Own;

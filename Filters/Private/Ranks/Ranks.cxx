@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/Ranks.h"
 
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

@@ -95,7 +95,6 @@ public:
   /// Requests work, on rank 0 between begin() and end(). Throws errors of all ranks, see Ranks.
   std::vector<std::vector<char>> request(
     const std::vector<char>& message, const std::function<void()>& meanwhile) override;
-  bool isAtWork() const { return this->IsAtWork; }
 
   /// Answers requests on other ranks, also for a RayWorker, until rank 0 ends with an outcome.
   struct Outcome

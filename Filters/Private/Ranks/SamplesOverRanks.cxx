@@ -78,7 +78,7 @@ void extend(CellTree::Content& content, const CellTree::Content& by)
 SamplesOverRanks::SamplesOverRanks(const Ranks& ranks, std::uint64_t number,
   std::unique_ptr<const DataPiece> piece, const DataPiece::Facts& facts,
   std::vector<FieldRange> fields, std::shared_ptr<const GasBoundary> boundary, double ambient,
-  std::shared_ptr<LatticesOfMesh> lattices, int threads)
+  std::shared_ptr<LatticeCache> lattices, int threads)
   : PieceSource(std::move(piece), std::move(boundary), ambient, std::move(lattices), facts)
   , AllRanks(ranks)
   , Number(number)
@@ -105,13 +105,8 @@ SamplesOverRanks::LatticeKey SamplesOverRanks::keyOf(const schlieren::Lattice& l
 schlieren::MediumSource::Content SamplesOverRanks::contentWith(
   const schlieren::Box& box, const OwnContent& found) const
 {
-  const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
-  const auto holds = [&](const Point& place)
-  {
-    const auto at = std::find(tested.begin(), tested.end(), place);
-    return at != tested.end() && found.holds[static_cast<std::size_t>(at - tested.begin())] != 0;
-  };
-  return this->contentFrom(box, holds, [&] { return found.cells; });
+  return this->contentFrom(
+    box, [&](std::size_t n) { return found.holds[n] != 0; }, [&] { return found.cells; });
 }
 
 SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box& box) const
@@ -180,7 +175,7 @@ void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes)
       }
     });
   this->Boxes.clear();
-  std::vector<KnownBox*> known;
+  std::vector<CachedBox*> known;
   for (const schlieren::Box& box : boxes)
   {
     known.push_back(&this->Boxes[keyOf(box)]);

@@ -34,7 +34,7 @@ public:
   SamplesOverRanks(const Ranks& ranks, std::uint64_t number, std::unique_ptr<const DataPiece> piece,
     const DataPiece::Facts& facts, std::vector<FieldRange> fields,
     std::shared_ptr<const GasBoundary> boundary, double ambient,
-    std::shared_ptr<LatticesOfMesh> lattices, int threads);
+    std::shared_ptr<LatticeCache> lattices, int threads);
 
   /// The first bytes of a request for bricks, which other ranks answer by answerBricks().
   static constexpr std::uint32_t requestOfBricks = 20;
@@ -65,7 +65,7 @@ protected:
     double* refractivity, double* values) const override;
 
 private:
-  struct KnownBox
+  struct CachedBox
   {
     Content content;
     std::vector<FieldRange> fields;
@@ -97,7 +97,7 @@ private:
   const std::vector<FieldRange> Ranges; // of the fields of all data
   const int Threads;
   const Content Whole; // of bounds()
-  mutable std::map<BoxKey, KnownBox> Boxes;
+  mutable std::map<BoxKey, CachedBox> Boxes;
   mutable std::map<LatticeKey, PieceSamples> Samples;
   mutable FilterRanks* Used = nullptr;
 };

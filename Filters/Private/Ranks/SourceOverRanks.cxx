@@ -43,24 +43,24 @@ void reach(const Ranks& ranks, const MediumMaker& maker, double done)
 }
 
 std::unique_ptr<MeshPiece> makePieceOfMeshes(
-  MediumMaker& maker, ChoiceOverRanks& choice, KeptMesh& kept, Tally& tally)
+  MediumMaker& maker, ChoiceOverRanks& choice, MeshCache& cache, Tally& tally)
 {
-  std::vector<Leaf>& leaves = choice.source.leaves;
+  std::vector<Leaf>& leaves = choice.flow.leaves;
   leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
                  [](const Leaf& leaf) { return dimensionOf(leaf.data) < 3; }),
     leaves.end());
   PreparedLeaves prepared{ {}, std::vector<MeshLeaves>(choice.ofFields.size()) };
   if (choice.data && !leaves.empty())
   {
-    std::vector<Source> fields;
+    std::vector<Flow> fields;
     if (!choice.ofFields.empty())
     {
-      fields = fieldSources(maker.settings, choice.data, choice.source, choice.ofFields);
+      fields = fieldFlows(maker.settings, choice.data, choice.flow, choice.ofFields);
     }
-    prepared = preparedLeaves(choice.source, fields, tally);
+    prepared = preparedLeaves(choice.flow, fields, tally);
   }
-  kept.piece = PieceMesh::of(prepared.refractivity, kept.piece);
-  auto piece = std::make_unique<MeshPiece>(prepared, kept.piece, Copies::Neighbours);
+  cache.piece = PieceMesh::of(prepared.refractivity, cache.piece);
+  auto piece = std::make_unique<MeshPiece>(prepared, cache.piece, Copies::Neighbours);
   return piece;
 }
 
@@ -68,13 +68,13 @@ std::unique_ptr<ImagePiece> makePieceOfImage(MediumMaker& maker, const ChoiceOve
   const PiecesOfRanks::Piece& of, vtkDataObject* bodies, Tally& tally)
 {
   vtkNew<vtkImageData> refractivity;
-  tally = convertImage(choice.source,
+  tally = convertImage(choice.flow,
     maker.settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, refractivity);
   mergeMasks(refractivity);
   ImagePiece::Extents extents{ of.whole, of.own };
   for (const std::size_t high : { 1, 3, 5 })
   {
-    if (choice.source.leaves[0].ofCells)
+    if (choice.flow.leaves[0].ofCells)
     {
       --extents.whole[high];
       --extents.own[high];
@@ -140,7 +140,7 @@ Sum sumUp(const Ranks& ranks, const DataPiece& piece, const Tally& tally, std::s
 }
 
 MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
-  vtkDataObject* bodies, bool hasFields, std::uint64_t number, KeptMesh& kept)
+  vtkDataObject* bodies, bool hasFields, std::uint64_t number, MeshCache& cache)
 {
   bool isImage = false;
   Pieces pieces;
@@ -162,7 +162,7 @@ MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
       }
       else
       {
-        piece = makePieceOfMeshes(maker, choice, kept, tally);
+        piece = makePieceOfMeshes(maker, choice, cache, tally);
       }
     });
   Sum sum = sumUp(ranks, *piece, tally, choice.ofFields.size());
@@ -171,9 +171,9 @@ MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
   if (sum.facts.cells > 0)
   {
     BoundaryOverRanks of = findBoundary(ranks, *piece, isImage, std::move(sum.keys),
-      static_cast<Outside>(maker.settings.Outside), bodies, kept, sum.facts);
+      static_cast<Outside>(maker.settings.Outside), bodies, cache, sum.facts);
     made.source = std::make_shared<SamplesOverRanks>(ranks, number, std::move(piece), sum.facts,
-      std::move(sum.fields), std::move(of.boundary), of.ambient, isImage ? nullptr : kept.lattices,
+      std::move(sum.fields), std::move(of.boundary), of.ambient, isImage ? nullptr : cache.lattices,
       maker.threads());
   }
   return made;
@@ -182,11 +182,11 @@ MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
 } // namespace
 
 MadeOverRanks makeOverRanks(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
-  vtkDataObject* bodies, bool hasFields, std::uint64_t number, KeptMesh& kept)
+  vtkDataObject* bodies, bool hasFields, std::uint64_t number, MeshCache& cache)
 {
   MadeOverRanks made;
   vtkSMPTools::LocalScope(loopsWith(maker.threads()),
-    [&] { made = make(maker, ranks, data, bodies, hasFields, number, kept); });
+    [&] { made = make(maker, ranks, data, bodies, hasFields, number, cache); });
   return made;
 }
 

@@ -15,18 +15,18 @@ namespace filters
 {
 
 class MediumMaker;
-struct KeptMesh;
+struct MeshCache;
 
 struct MadeOverRanks
 {
   std::shared_ptr<const SamplesOverRanks> source; ///< null: no gas
   Tally tally{};
-  std::string label; ///< see Source::label
+  std::string label; ///< see Flow::label
 };
 
 /// Makes the source of data in pieces; see PiecesOfRanks. All ranks call it, with the same settings
 /// of `maker`, bodies (may be null) and number. Throws std::runtime_error on all ranks.
 MadeOverRanks makeOverRanks(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
-  vtkDataObject* bodies, bool hasFields, std::uint64_t number, KeptMesh& kept);
+  vtkDataObject* bodies, bool hasFields, std::uint64_t number, MeshCache& cache);
 
 } // namespace filters

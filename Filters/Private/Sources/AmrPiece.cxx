@@ -10,12 +10,12 @@
 namespace filters
 {
 
-AmrPiece::AmrPiece(const AmrLevels& levels, const Source& source, const std::vector<Source>& fields,
+AmrPiece::AmrPiece(const AmrLevels& levels, const Flow& flow, const std::vector<Flow>& fields,
   Tally& tally, const WorkProgress& progress)
 {
-  this->Fields.push_back(std::make_unique<const AmrField>(levels, source, tally, progress));
+  this->Fields.push_back(std::make_unique<const AmrField>(levels, flow, tally, progress));
   Tally notReported;
-  for (const Source& field : fields)
+  for (const Flow& field : fields)
   {
     this->Fields.push_back(std::make_unique<const AmrField>(levels, field, notReported));
   }

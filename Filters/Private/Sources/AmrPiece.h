@@ -17,8 +17,8 @@ class AmrPiece : public DataPiece
 public:
   /// `levels`: turned if flat (see turnedAcrossZ()). `fields`: of the same blocks, with values in
   /// cells, NaN where there is none.
-  AmrPiece(const AmrLevels& levels, const Source& source, const std::vector<Source>& fields,
-    Tally& tally, const WorkProgress& progress = WorkProgress());
+  AmrPiece(const AmrLevels& levels, const Flow& flow, const std::vector<Flow>& fields, Tally& tally,
+    const WorkProgress& progress = WorkProgress());
 
   const AmrField& refractivity() const { return *this->Fields[0]; }
 

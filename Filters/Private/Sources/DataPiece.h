@@ -5,11 +5,13 @@
 #include "Cells/CellSampler.h"
 #include "Cells/CellTree.h"
 #include "Common/Vectors.h"
+#include "Common/WorkProgress.h"
 
 #include "Schlieren.h"
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace filters
 {
@@ -42,6 +44,9 @@ public:
 
   /// Returns whether the piece has gas of its own at a point.
   virtual bool holds(const Point& place) const = 0;
+  /// Tests several points, in parallel; those that are not finite have none.
+  std::vector<unsigned char> hold(
+    const std::vector<Point>& places, const WorkProgress& progress = WorkProgress()) const;
 
   /// Return the number of further fields, and the range of one in a box; see MediumSource.
   virtual int fields() const = 0;

@@ -5,8 +5,8 @@
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
 #include "Gas/RefractivityModels.h"
+#include "Input/Flow.h"
 #include "Input/RefractivityOfImage.h"
-#include "Input/RefractivitySource.h"
 #include "Input/RefractivityValues.h"
 
 #include "vtkCellData.h"
@@ -74,12 +74,11 @@ MediumSettings settingsOfField(
   return settings;
 }
 
-/// Returns the source of a single field.
-Source sourceOfField(
-  const MediumSettings& settings, vtkDataObject* input, const Source* like = nullptr)
+/// Returns the flow of a single field.
+Flow flowOfField(const MediumSettings& settings, vtkDataObject* input, const Flow* like = nullptr)
 {
   KnownArrays nothingIsOpen;
-  return chooseSource(settings, nothingIsOpen, input, like);
+  return chooseFlow(settings, nothingIsOpen, input, like);
 }
 
 bool isSameGrid(const schlieren::Grid& a, const schlieren::Grid& b)
@@ -132,8 +131,8 @@ std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataOb
   {
     try
     {
-      const Source source = sourceOfField(settingsOfField(medium, number, {}), input);
-      ranges[number].range = std::get<FieldMean>(source.model).rangesIn(source.leaves).at(0);
+      const Flow flow = flowOfField(settingsOfField(medium, number, {}), input);
+      ranges[number].range = std::get<FieldMean>(flow.model).rangesIn(flow.leaves).at(0);
     }
     catch (const ArraysMissing& problem)
     {
@@ -143,18 +142,18 @@ std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataOb
   return ranges;
 }
 
-std::vector<Source> fieldSources(const MediumSettings& medium, vtkDataObject* input,
-  const Source& ofMedium, const std::vector<FieldMean::Range>& ranges)
+std::vector<Flow> fieldFlows(const MediumSettings& medium, vtkDataObject* input,
+  const Flow& ofMedium, const std::vector<FieldMean::Range>& ranges)
 {
   requireFields(medium);
-  std::vector<Source> fields(medium.Fields.size());
+  std::vector<Flow> fields(medium.Fields.size());
   for (std::size_t number = 0; number < fields.size(); ++number)
   {
     const MediumSettings settings = settingsOfField(medium, number, ranges);
-    Source& field = fields[number];
+    Flow& field = fields[number];
     try
     {
-      field = sourceOfField(settings, input, &ofMedium);
+      field = flowOfField(settings, input, &ofMedium);
       if (ranges.empty())
       {
         std::get<FieldMean>(field.model).findRanges(field.leaves);
@@ -194,7 +193,7 @@ std::vector<Source> fieldSources(const MediumSettings& medium, vtkDataObject* in
   return fields;
 }
 
-void bringToCells(Source& field)
+void bringToCells(Flow& field)
 {
   for (Leaf& leaf : field.leaves)
   {
@@ -223,7 +222,7 @@ void forFieldImages(const MediumSettings& medium, vtkDataObject* input, vtkImage
   const schlieren::Grid grid = gridFrom(refractivity);
   for (std::size_t number = 0; number < medium.Fields.size(); ++number)
   {
-    Source field = sourceOfField(settingsOfField(medium, number, ranges), input);
+    Flow field = flowOfField(settingsOfField(medium, number, ranges), input);
     std::get<FieldMean>(field.model).findRanges(field.leaves);
     vtkNew<vtkImageData> values;
     convertImage(field, Numbers::Singles, values);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Gas/TransferFunctions.h"
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 
 #include "vtkSmartPointer.h"
 
@@ -36,11 +36,11 @@ std::vector<RangeOfField> rangesOfFields(const MediumSettings& medium, vtkDataOb
 /// Returns the fields of `medium` in the form of refractivities, with the leaves of `ofMedium`, by
 /// which the medium is made from `input`; NaN where a leaf lacks the field. `ranges`: those of all
 /// ranks, as a piece may lack fields; empty: there is one rank.
-std::vector<Source> fieldSources(const MediumSettings& medium, vtkDataObject* input,
-  const Source& ofMedium, const std::vector<FieldMean::Range>& ranges = {});
+std::vector<Flow> fieldFlows(const MediumSettings& medium, vtkDataObject* input,
+  const Flow& ofMedium, const std::vector<FieldMean::Range>& ranges = {});
 
 /// Averages point values over cells.
-void bringToCells(Source& field);
+void bringToCells(Flow& field);
 
 /// Calls take(number, image) for each field of `medium` in the form of a refractivity, on the grid of
 /// `refractivity`, which has been made of `input`. `ranges`: those of all ranks; empty: there is one.

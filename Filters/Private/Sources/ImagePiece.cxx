@@ -4,8 +4,6 @@
 
 #include "Amr/AmrFaces.h"
 #include "Common/FieldFromImage.h"
-#include "Common/Message.h"
-#include "Common/WeightedMedian.h"
 #include "Input/FlatBodies.h"
 #include "Schlieren.h"
 #include "Walls/BodySurfaces.h"
@@ -18,8 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <utility>
 
 namespace filters
 {
@@ -353,34 +349,6 @@ DataPiece::Facts ImagePiece::facts() const
   return { this->KnownPoints, box, this->contentOf(box), this->Spacing, this->Direction, false };
 }
 
-void ImagePiece::putBoundary(std::vector<char>& message) const
-{
-  const BoundaryFaces faces = this->faces();
-  put(this->Origin, message);
-  put(this->Spacing, message);
-  put(this->Direction, message);
-  putAll(faces.surface.points, message);
-  putAll(faces.surface.corners, message);
-  putAll(faces.hidesBehind, message);
-  const double ofFaces = 2. *
-    (static_cast<double>(this->Whole[0]) * this->Whole[1] +
-      static_cast<double>(this->Whole[1]) * this->Whole[2] +
-      static_cast<double>(this->Whole[2]) * this->Whole[0]);
-  const auto every = static_cast<std::int64_t>(std::ceil(ofFaces / mostOuterValues));
-  std::vector<OuterValue> values;
-  for (const OuterValue& outer : this->Outer)
-  {
-    const std::int64_t row = outer.point / this->Whole[0];
-    const std::int64_t sum =
-      outer.point % this->Whole[0] + row % this->Whole[1] + row / this->Whole[1];
-    if (sum % every == 0)
-    {
-      values.push_back(outer);
-    }
-  }
-  putAll(values, message);
-}
-
 CellTree::Content ImagePiece::contentOf(const schlieren::Box& box) const
 {
   const schlieren::Box own = this->bounds();
@@ -408,36 +376,6 @@ bool ImagePiece::holds(const Point& place) const
     isOwn = isOwn && nearest[axis] >= this->Own.begin[axis] && nearest[axis] < this->Own.end[axis];
   }
   return isOwn && this->kindOf(nearest) == schlieren::Place::Gas;
-}
-
-void BoundaryOfImage::add(Reader& reader)
-{
-  if (reader.IsAtEnd())
-  {
-    return;
-  }
-  const auto from = reader.Get<Point>();
-  const auto edges = reader.Get<std::array<double, 3>>();
-  const auto axes = reader.Get<std::array<double, 9>>();
-  if (!std::exchange(this->isEmpty, false) &&
-    (from != this->origin || edges != this->spacing || axes != this->direction))
-  {
-    throw std::runtime_error(
-      "The parts of the image that the ranks have are not of one image: their origins, spacings or "
-      "directions differ. Give all parts the same, or make blocks of them.");
-  }
-  this->origin = from;
-  this->spacing = edges;
-  this->direction = axes;
-  Triangles& surface = this->faces.surface;
-  const auto first = static_cast<std::int32_t>(surface.points.size());
-  reader.AddAll(surface.points);
-  for (const Triangles::Corners& corners : reader.GetAll<std::vector<Triangles::Corners>>())
-  {
-    surface.corners.push_back({ first + corners[0], first + corners[1], first + corners[2] });
-  }
-  reader.AddAll(this->faces.hidesBehind);
-  reader.AddAll(this->outer);
 }
 
 } // namespace filters

@@ -66,6 +66,10 @@ public:
   static double ambientOf(std::vector<OuterValue> values);
   const std::vector<OuterValue>& outer() const { return this->Outer; }
 
+  /// Return the first point and the points of the whole image.
+  const std::array<double, 3>& origin() const { return this->Origin; }
+  const Counts& whole() const { return this->Whole; }
+
   /// Returns the faces around its own points without gas.
   BoundaryFaces faces() const;
 
@@ -81,10 +85,6 @@ public:
   }
   void sample(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
     double* fields, CellsOfLattice* cells) const override;
-
-  /// For BoundaryOfImage, writes its axes, the triangles of faces(), which of them hide something, and N on the faces of
-  /// the whole image: at each point, or of more than a million at each nth.
-  void putBoundary(std::vector<char>& message) const;
 
 private:
   std::vector<unsigned char> knownOf(const schlieren::Field& field) const;
@@ -109,20 +109,6 @@ private:
   std::int64_t KnownPoints = 0;        // of its own
   std::vector<OuterValue> Outer;
   std::vector<std::unique_ptr<const ImageSpline>> Splines; // of N, and of each field
-};
-
-/// What all ranks make of ImagePiece::putBoundary().
-struct BoundaryOfImage
-{
-  bool isEmpty = true;
-  Point origin{};
-  std::array<double, 3> spacing{};
-  std::array<double, 9> direction{};
-  BoundaryFaces faces;
-  std::vector<ImagePiece::OuterValue> outer;
-
-  /// Adds a rank's. Throws std::runtime_error if it has other axes.
-  void add(Reader& reader);
 };
 
 /// Surfaces in the axes that `direction` leads from. Null: there are none.

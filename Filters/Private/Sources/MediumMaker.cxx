@@ -78,9 +78,9 @@ std::shared_ptr<const PieceSource> sourceOf(
 }
 
 /// Returns a note on 3-D data that are a wedge; else empty.
-std::string noteOnWedge(const Source& source)
+std::string noteOnWedge(const Flow& flow)
 {
-  const std::optional<Wedge> wedge = findWedge(source, source.choice.settings.symmetryOrigin());
+  const std::optional<Wedge> wedge = findWedge(flow, flow.choice.settings.symmetryOrigin());
   return wedge ? "The data are a wedge of " + std::to_string(std::lround(wedge->degrees)) +
       " degrees around the " + "xyz"[wedge->axis] +
       " axis, as of an axisymmetric flow, and light crosses no more than that; set Symmetry to "
@@ -135,18 +135,18 @@ WorkProgress MediumMaker::progressOf(double from, double to) const
 //------------------------------------------------------------------------------
 Choice MediumMaker::choose(vtkDataObject* input)
 {
-  Choice choice{ input, chooseSource(this->settings, this->Known, input), {}, -1 };
-  Source& source = choice.source;
-  if (auto* mean = std::get_if<FieldMean>(&source.model))
+  Choice choice{ input, chooseFlow(this->settings, this->Known, input), {}, -1 };
+  Flow& flow = choice.flow;
+  if (auto* mean = std::get_if<FieldMean>(&flow.model))
   {
-    mean->findRanges(source.leaves);
+    mean->findRanges(flow.leaves);
   }
   if (this->settings.isAxisymmetric())
   {
-    choice.revolution = revolutionOf(source); // throws if there is none
+    choice.revolution = revolutionOf(flow); // throws if there is none
   }
-  const int flat = flatAxisOf(source); // throws without volume and plane
-  const bool isTurned = source.image && !source.image->GetDirectionMatrix()->IsIdentity();
+  const int flat = flatAxisOf(flow); // throws without volume and plane
+  const bool isTurned = flow.image && !flow.image->GetDirectionMatrix()->IsIdentity();
   choice.flatAxis = isTurned ? -1 : flat;
   return choice;
 }
@@ -155,28 +155,28 @@ Choice MediumMaker::choose(vtkDataObject* input)
 void MediumMaker::forgetLast() { leave(this->Mesh); }
 
 //------------------------------------------------------------------------------
-std::string MediumMaker::warningOf(const Source& source, const Tally& tally, bool bodiesMissed)
+std::string MediumMaker::warningOf(const Flow& flow, const Tally& tally, bool bodiesMissed)
 {
-  std::string warning = warningFrom(source.model, tally);
+  std::string warning = warningFrom(flow.model, tally);
   if (bodiesMissed)
   {
     addText(warning, bodiesAreOutside);
   }
   Implausible found;
-  if (!source.leaves.empty())
+  if (!flow.leaves.empty())
   {
-    found = implausibleIn(source);
+    found = implausibleIn(flow);
   }
   if (found.kind != this->ToldOfValues)
   {
     addText(warning, found.text);
   }
   this->ToldOfValues = found.kind;
-  if (source.noteOnGases != this->ToldOfGases)
+  if (flow.noteOnGases != this->ToldOfGases)
   {
-    addText(warning, source.noteOnGases);
+    addText(warning, flow.noteOnGases);
   }
-  this->ToldOfGases = source.noteOnGases;
+  this->ToldOfGases = flow.noteOnGases;
   return warning;
 }
 
@@ -214,18 +214,18 @@ void MediumMaker::makeImage(const Choice& choice, MadeRefractivity& made)
 {
   this->progressOf(0, 1).reach(0.05);
   leave(this->Mesh);
-  const Source& source = choice.source;
+  const Flow& flow = choice.flow;
   vtkImageData* image = made.Image;
-  gridOfImage(source.image, source.leaves[0].ofCells, source.depth, image);
+  gridOfImage(flow.image, flow.leaves[0].ofCells, flow.depth, image);
   requireMemoryFor(image, this->settings.DoublePrecision);
   const Tally tally = convertImage(
-    source, this->settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, image);
-  made.Warning = this->warningOf(source, tally, false);
-  const int flat = flatAxisOf(source);
-  addText(made.Warning, flat < 0 ? noteOnWedge(source) : warningOfExtrusion(source, flat));
+    flow, this->settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, image);
+  made.Warning = this->warningOf(flow, tally, false);
+  const int flat = flatAxisOf(flow);
+  addText(made.Warning, flat < 0 ? noteOnWedge(flow) : warningOfExtrusion(flow, flat));
   if (!hasGas(image))
   {
-    throw std::runtime_error(noGas(source.label));
+    throw std::runtime_error(noGas(flow.label));
   }
   mergeMasks(image);
   const int* points = image->GetDimensions();
@@ -270,23 +270,23 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfImage(const 
 }
 
 //------------------------------------------------------------------------------
-std::shared_ptr<const PieceSource> MediumMaker::makeOf(Source source, std::vector<Source> fields,
-  int flat, double depth, vtkDataObject* bodies, Tally& tally)
+std::shared_ptr<const PieceSource> MediumMaker::makeOf(
+  Flow flow, std::vector<Flow> fields, int flat, double depth, vtkDataObject* bodies, Tally& tally)
 {
   const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat, depth);
   const auto outside = static_cast<Outside>(this->settings.Outside);
-  std::optional<AmrLevels> levels = findLevels(source.leaves);
+  std::optional<AmrLevels> levels = findLevels(flow.leaves);
   if (!levels)
   {
     if (flat >= 0)
     {
-      source = extruded(source, flat, depth);
-      for (Source& field : fields)
+      flow = extruded(flow, flat, depth);
+      for (Flow& field : fields)
       {
         field = extruded(field, flat, depth);
       }
     }
-    const PreparedLeaves leaves = preparedLeaves(source, fields, tally);
+    const PreparedLeaves leaves = preparedLeaves(flow, fields, tally);
     this->progressOf(0, 1).reach(0.1);
     return sourceOfMeshes(
       leaves, { outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
@@ -298,41 +298,41 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(Source source, std::vecto
   }
   std::for_each(fields.begin(), fields.end(), bringToCells);
   return sourceOf(
-    std::make_unique<AmrPiece>(*levels, source, fields, tally, this->progressOf(0.02, 1)),
-    ownBodies, outside);
+    std::make_unique<AmrPiece>(*levels, flow, fields, tally, this->progressOf(0.02, 1)), ownBodies,
+    outside);
 }
 
 //------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfCells(
   const Choice& choice, vtkDataObject* bodies, bool withFields, std::string& warning)
 {
-  Source source = choice.source;
+  Flow flow = choice.flow;
   const int flat = choice.flatAxis;
-  const double depth = flat < 0 ? 0 : depthOf(source, flat);
+  const double depth = flat < 0 ? 0 : depthOf(flow, flat);
   const std::string ofShape = choice.revolution ? choice.revolution->note
-    : flat >= 0                                 ? warningOfExtrusion(source, flat)
-                                                : noteOnWedge(source);
-  std::vector<Source> fields;
+    : flat >= 0                                 ? warningOfExtrusion(flow, flat)
+                                                : noteOnWedge(flow);
+  std::vector<Flow> fields;
   if (withFields)
   {
-    fields = fieldSources(source.choice.settings, choice.input, source);
+    fields = fieldFlows(flow.choice.settings, choice.input, flow);
   }
   if (choice.revolution)
   {
-    source = mirrored(source, *choice.revolution);
-    for (Source& field : fields)
+    flow = mirrored(flow, *choice.revolution);
+    for (Flow& field : fields)
     {
       field = mirrored(field, *choice.revolution);
     }
   }
   this->progressOf(0, 1).reach(0.02);
   Tally tally;
-  const auto made = this->makeOf(source, std::move(fields), flat, depth, bodies, tally);
+  const auto made = this->makeOf(flow, std::move(fields), flat, depth, bodies, tally);
   if (!made->hasGas())
   {
-    throw std::runtime_error(noGas(source.label));
+    throw std::runtime_error(noGas(flow.label));
   }
-  warning = this->warningOf(source, tally, bodies && !made->meetsBodies());
+  warning = this->warningOf(flow, tally, bodies && !made->meetsBodies());
   addText(warning, ofShape);
   if (choice.revolution)
   {

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "Common/WorkProgress.h"
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 #include "Sources/ImagePiece.h"
-#include "Sources/KeptMesh.h"
+#include "Sources/MeshCache.h"
+#include "Sources/RefractivityCache.h"
 #include "Sources/Revolution.h"
-#include "Sources/SharedRefractivity.h"
 
 #include "vtkSchlierenFiltersModule.h" // for export macro
 
@@ -31,12 +31,12 @@ namespace filters
 struct Choice
 {
   vtkDataObject* input = nullptr;
-  Source source;
+  Flow flow;
   std::optional<Revolution> revolution; ///< of axisymmetric data
   int flatAxis = -1; ///< coordinate axis across the plane of the data; -1: no plane
 
   /// Returns whether data are an image, whose grid is kept.
-  bool keepsGrid() const { return this->source.image && !this->revolution; }
+  bool keepsGrid() const { return this->flow.image && !this->revolution; }
 };
 
 /// Makes the medium of data: a source for the tracer, or the refractivity of an image on its own grid. Functions throw
@@ -73,14 +73,14 @@ public:
   std::shared_ptr<MadeRefractivity> make(
     const Choice& choice, vtkDataObject* bodies, bool withFields = false, bool isLarge = false);
 
-  std::shared_ptr<KeptMesh> mesh() const { return this->Mesh; }
-  void setMesh(std::shared_ptr<KeptMesh> mesh) { this->Mesh = std::move(mesh); }
+  std::shared_ptr<MeshCache> mesh() const { return this->Mesh; }
+  void setMesh(std::shared_ptr<MeshCache> mesh) { this->Mesh = std::move(mesh); }
   /// Drops the state of the last data, for a medium that is made elsewhere.
   void forgetLast();
 
-  /// Returns a warning about a medium of `source` with these values; `bodiesMissed`: no body is in
+  /// Returns a warning about a medium of `flow` with these values; `bodiesMissed`: no body is in
   /// the data. Does not repeat the last notes.
-  std::string warningOf(const Source& source, const Tally& tally, bool bodiesMissed);
+  std::string warningOf(const Flow& flow, const Tally& tally, bool bodiesMissed);
 
 private:
   WorkProgress progressOf(double from, double to) const;
@@ -90,12 +90,12 @@ private:
     vtkImageData* refractivity, vtkDataObject* bodies, bool withFields, std::string& warning);
   std::shared_ptr<const schlieren::MediumSource> sourceOfCells(
     const Choice& choice, vtkDataObject* bodies, bool withFields, std::string& warning);
-  std::shared_ptr<const PieceSource> makeOf(Source source, std::vector<Source> fields, int flatAxis,
+  std::shared_ptr<const PieceSource> makeOf(Flow flow, std::vector<Flow> fields, int flatAxis,
     double depth, vtkDataObject* bodies, Tally& tally);
 
   Progress Report;
   KnownArrays Known;
-  std::shared_ptr<KeptMesh> Mesh = std::make_shared<KeptMesh>();
+  std::shared_ptr<MeshCache> Mesh = std::make_shared<MeshCache>();
   std::string ToldOfGases, ToldOfValues; // the last notes, not repeated for every time step
 };
 

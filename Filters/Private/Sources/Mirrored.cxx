@@ -220,16 +220,16 @@ void addBothSides(const Leaf& leaf, const Revolution& revolution, Remade& made)
 
 } // namespace
 
-Source mirrored(const Source& source, const Revolution& revolution)
+Flow mirrored(const Flow& flow, const Revolution& revolution)
 {
-  Source result = source;
+  Flow result = flow;
   result.image = nullptr; // an ordinary leaf
   if (!revolution.isMirrored)
   {
     return result;
   }
   result.leaves.clear();
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     Remade made;
     auto* image = vtkImageData::SafeDownCast(leaf.data);

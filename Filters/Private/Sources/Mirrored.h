@@ -8,6 +8,6 @@ namespace filters
 {
 
 /// Adds the other side of the axis to data on one side.
-Source mirrored(const Source& source, const Revolution& revolution);
+Flow mirrored(const Flow& flow, const Revolution& revolution);
 
 } // namespace filters

@@ -12,7 +12,7 @@ namespace filters
 
 PieceSource::PieceSource(std::unique_ptr<const DataPiece> piece,
   std::shared_ptr<const GasBoundary> boundary, double ambient,
-  std::shared_ptr<LatticesOfMesh> lattices, const std::optional<DataPiece::Facts>& facts)
+  std::shared_ptr<LatticeCache> lattices, const std::optional<DataPiece::Facts>& facts)
   : Piece(std::move(piece))
   , All(facts ? *facts : this->Piece->facts())
   , Boundary(std::move(boundary))
@@ -22,19 +22,53 @@ PieceSource::PieceSource(std::unique_ptr<const DataPiece> piece,
 {
 }
 
+std::vector<unsigned char> DataPiece::hold(
+  const std::vector<Point>& places, const WorkProgress& progress) const
+{
+  std::vector<unsigned char> are(places.size(), 0);
+  forChunks(static_cast<vtkIdType>(places.size()), progress,
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+      {
+        const double sum = places[n][0] + places[n][1] + places[n][2];
+        are[n] = std::isfinite(sum) && this->holds(places[n]) ? 1 : 0;
+      }
+    });
+  return are;
+}
+
 schlieren::MediumSource::Content PieceSource::contentOf(const schlieren::Box& box) const
 {
   return this->contentFrom(
-    box, [this](const Point& place) { return this->Piece->holds(place); },
+    box, [&](std::size_t n) { return this->Piece->holds(GasBoundary::testedPlaces(box)[n]); },
     [&] { return this->Piece->contentOf(box); });
 }
 
 schlieren::MediumSource::Content PieceSource::contentFrom(const schlieren::Box& box,
-  const CellTest& holds, const std::function<CellTree::Content()>& cells) const
+  const std::function<bool(std::size_t)>& holds,
+  const std::function<CellTree::Content()>& cells) const
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Content content{ 1, 0, { infinity, infinity, infinity }, false, false, false };
-  this->Boundary->findPlaces(box, holds, content);
+  const auto [hasWall, hasWindow] = this->Boundary->facesIn(box);
+  Content content{ 1, 0, { infinity, infinity, infinity }, hasWall, hasWall || hasWindow,
+    hasWindow };
+  if (content.hasGas)
+  {
+    content.areWallsFlat = hasWall && !hasWindow && this->Boundary->areWallsFlatNear(box);
+  }
+  else
+  {
+    // A box without a boundary is all gas or not; outside may be mixed.
+    const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
+    for (std::size_t n = 0; n < tested.size() && !content.hasGas; ++n)
+    {
+      const schlieren::Place found = this->Boundary->kindAt(tested[n], holds(n));
+      content.hasGas = found == schlieren::Place::Gas;
+      content.hasWall = content.hasWall || found == schlieren::Place::Wall;
+      content.hasWindow = content.hasWindow || found == schlieren::Place::Window;
+    }
+  }
   if (content.hasGas)
   {
     const CellTree::Content found = cells();
@@ -75,7 +109,7 @@ void PieceSource::sampleWithFields(const schlieren::Lattice& lattice, double* re
     this->Boundary->sample(lattice, found.data(), places, distances);
     if (isKept)
     {
-      this->Lattices->keep(lattice, knownLattice(std::move(cells), places, distances, size));
+      this->Lattices->keep(lattice, cachedLattice(std::move(cells), places, distances, size));
     }
   }
   const std::size_t count = values ? size * static_cast<std::size_t>(this->fields()) : 0;

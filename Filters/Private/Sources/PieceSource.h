@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Cells/LatticesOfMesh.h"
+#include "Cells/LatticeCache.h"
 #include "Sources/DataPiece.h"
 #include "Walls/GasBoundary.h"
 
 #include "Schlieren.h"
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,7 +25,7 @@ public:
   /// `ambient`: NaN for the middle of the range. `lattices`: of earlier time steps; may be null.
   /// `facts`: of all data; by default the piece's.
   PieceSource(std::unique_ptr<const DataPiece> piece, std::shared_ptr<const GasBoundary> boundary,
-    double ambient, std::shared_ptr<LatticesOfMesh> lattices = nullptr,
+    double ambient, std::shared_ptr<LatticeCache> lattices = nullptr,
     const std::optional<DataPiece::Facts>& facts = {});
 
   bool hasGas() const { return this->All.cells > 0; }
@@ -55,8 +56,10 @@ protected:
   const DataPiece& piece() const { return *this->Piece; }
   const DataPiece::Facts& facts() const { return this->All; }
 
-  /// Combines kinds of points, by the boundary, with the cells that have gas.
-  Content contentFrom(const schlieren::Box& box, const CellTest& holds,
+  /// Combines kinds of points, by the boundary, with the cells that have gas. `holds`: whether the
+  /// piece holds a point of GasBoundary::testedPlaces(). Both are used where the boundary leaves it
+  /// open.
+  Content contentFrom(const schlieren::Box& box, const std::function<bool(std::size_t)>& holds,
     const std::function<CellTree::Content()>& cells) const;
 
   /// Call DataPiece::sample() and DataPiece::sampleIn().
@@ -69,7 +72,7 @@ private:
   const std::unique_ptr<const DataPiece> Piece;
   const DataPiece::Facts All;
   const std::shared_ptr<const GasBoundary> Boundary;
-  const std::shared_ptr<LatticesOfMesh> Lattices;
+  const std::shared_ptr<LatticeCache> Lattices;
   const double Ambient;
 };
 

@@ -96,23 +96,23 @@ vtkSmartPointer<vtkDataSet> withValues(
   return prepared;
 }
 
-/// Makes the meshes of a source. `shared`: their common points, found if null. `others`: sources of
+/// Makes the meshes of a flow. `shared`: their common points, found if null. `others`: sources of
 /// the same leaves, later.
-MeshLeaves leavesOf(const Source& source, const std::vector<Source>& others, Tally& tally,
+MeshLeaves leavesOf(const Flow& flow, const std::vector<Flow>& others, Tally& tally,
   std::shared_ptr<const SharedPoints>& shared)
 {
-  const int dimension = flatAxisOf(source) < 0 ? 3 : 2;
+  const int dimension = flatAxisOf(flow) < 0 ? 3 : 2;
   MeshLeaves leaves;
   std::vector<std::vector<bool>> kinds; // of each leaf, which of the others it has
-  for (std::size_t number = 0; number < source.leaves.size(); ++number)
+  for (std::size_t number = 0; number < flow.leaves.size(); ++number)
   {
-    const Leaf& leaf = source.leaves[number];
+    const Leaf& leaf = flow.leaves[number];
     if (!hasCells(leaf.data, dimension))
     {
       continue;
     }
-    leaves.push_back(asLinearCells(withValues(leaf, dimension, source.model, tally)));
-    for (const Source& other : others)
+    leaves.push_back(asLinearCells(withValues(leaf, dimension, flow.model, tally)));
+    for (const Flow& other : others)
     {
       kinds.resize(leaves.size());
       // Recognizes replacements of missing arrays, which have no name.
@@ -154,12 +154,12 @@ bool hasCells(vtkDataSet* data, int dimension)
   return false;
 }
 
-PreparedLeaves preparedLeaves(const Source& source, const std::vector<Source>& fields, Tally& tally)
+PreparedLeaves preparedLeaves(const Flow& flow, const std::vector<Flow>& fields, Tally& tally)
 {
   std::shared_ptr<const SharedPoints> shared;
-  PreparedLeaves prepared{ leavesOf(source, fields, tally, shared), {} };
+  PreparedLeaves prepared{ leavesOf(flow, fields, tally, shared), {} };
   Tally notReported;
-  for (const Source& field : fields)
+  for (const Flow& field : fields)
   {
     prepared.fields.push_back(leavesOf(field, {}, notReported, shared));
   }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Cells/CellTree.h"
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 
 #include "vtkSmartPointer.h"
 
@@ -28,11 +28,9 @@ struct PreparedLeaves
 /// Returns whether any cell has so many dimensions.
 bool hasCells(vtkDataSet* data, int dimension);
 
-/// Makes meshes of the leaves that have cells of the source's dimension, with N alone at their
-/// points (NaN if invalid), and other cells hidden; and the same of each field. Values of cells are
-/// averaged at points, which get CellsAround, too. Leaves with common points are joined,
-/// but leaves that lack some of the fields not with those that have them.
-PreparedLeaves preparedLeaves(
-  const Source& source, const std::vector<Source>& fields, Tally& tally);
+/// Makes meshes of the leaves that have cells of the flow's dimension, with N alone at their points
+/// (NaN if invalid) and other cells hidden; and the same of each field. Values of cells are averaged
+/// at points, which get CellsAround, too. Joins leaves with common points that have the same fields.
+PreparedLeaves preparedLeaves(const Flow& flow, const std::vector<Flow>& fields, Tally& tally);
 
 } // namespace filters

@@ -49,12 +49,12 @@ struct Candidate
 };
 
 /// Finds the slopes of the first array at the axis, by the nearest layers of cells.
-void measure(const Source& source, const std::array<double, 3>& origin, Candidate& candidate)
+void measure(const Flow& flow, const std::array<double, 3>& origin, Candidate& candidate)
 {
   const auto radial = static_cast<std::size_t>(candidate.radial);
   double near = 0, nearLength = 0, all = 0, allLength = 0;
   vtkNew<vtkIdList> ids;
-  for (const Leaf& leaf : source.leaves)
+  for (const Leaf& leaf : flow.leaves)
   {
     const vtkIdType cells =
       leaf.ofCells ? 0 : leaf.data->GetNumberOfCells(); // withValuesAtPoints()
@@ -97,9 +97,9 @@ void measure(const Source& source, const std::array<double, 3>& origin, Candidat
 }
 
 /// Averages cell values at points, because slopes need neighbours.
-Source withValuesAtPoints(const Source& source)
+Flow withValuesAtPoints(const Flow& flow)
 {
-  Source result = source;
+  Flow result = flow;
   for (Leaf& leaf : result.leaves)
   {
     if (!leaf.ofCells)
@@ -146,7 +146,7 @@ std::vector<Candidate> candidatesFor(
   return candidates;
 }
 
-Candidate bestOf(std::vector<Candidate> candidates, const Source& source,
+Candidate bestOf(std::vector<Candidate> candidates, const Flow& flow,
   const std::array<double, 3>& origin, double tolerance)
 {
   const auto touching = [&](const Candidate& one) { return one.touches(tolerance); };
@@ -159,7 +159,7 @@ Candidate bestOf(std::vector<Candidate> candidates, const Source& source,
   {
     return candidates.at(0);
   }
-  const Source atPoints = withValuesAtPoints(source);
+  const Flow atPoints = withValuesAtPoints(flow);
   for (Candidate& candidate : candidates)
   {
     measure(atPoints, origin, candidate);
@@ -192,9 +192,9 @@ schlieren::Box Revolution::box() const
   return result;
 }
 
-Revolution revolutionOf(const Source& source)
+Revolution revolutionOf(const Flow& flow)
 {
-  const MediumSettings& settings = source.choice.settings;
+  const MediumSettings& settings = flow.choice.settings;
   const int given = settings.SymmetryAxis - 1; // -1: not given
   const std::array<double, 3> origin = settings.symmetryOrigin();
   if (!std::all_of(origin.begin(), origin.end(), [](double x) { return std::isfinite(x); }))
@@ -202,14 +202,14 @@ Revolution revolutionOf(const Source& source)
     throw std::runtime_error(
       "SymmetryOrigin holds a number that is not finite. Give a point of the axis.");
   }
-  const int flat = flatAxisOf(source);
+  const int flat = flatAxisOf(flow);
   if (flat < 0)
   {
     throw std::runtime_error("Symmetry is Axisymmetric, but the input is 3-D: neither a plane "
                              "through the axis nor a wedge of "
                              "one cell. Set Symmetry to None, or take a plane (Slice) of it.");
   }
-  if (source.image && !source.image->GetDirectionMatrix()->IsIdentity())
+  if (flow.image && !flow.image->GetDirectionMatrix()->IsIdentity())
   {
     throw std::runtime_error("Symmetry is Axisymmetric, but the image has axes of its own. Use an "
                              "image along x, y and z.");
@@ -219,9 +219,9 @@ Revolution revolutionOf(const Source& source)
     throw std::runtime_error("SymmetryAxis is " + std::string(1, "XYZ"[flat]) +
       ", which is across the plane of the data. Choose one of the two in it, or Auto.");
   }
-  const vtkBoundingBox box = boundsOfPlanes(source);
+  const vtkBoundingBox box = boundsOfPlanes(flow);
   const double tolerance = axisTolerance * box.GetMaxLength();
-  const int chosen = given >= 0 ? given : source.axisOfWedge;
+  const int chosen = given >= 0 ? given : flow.axisOfWedge;
   std::optional<Candidate> found;
   if (chosen >= 0)
   {
@@ -239,7 +239,7 @@ Revolution revolutionOf(const Source& source)
         "Symmetry is Axisymmetric, but the plane of the data lies on both sides of each coordinate "
         "axis. Set SymmetryAxis to the axis, and SymmetryOrigin to a point of it.");
     }
-    found = bestOf(candidates, source, origin, tolerance);
+    found = bestOf(candidates, flow, origin, tolerance);
   }
   const bool isPositive = found->high > tolerance;
   Revolution revolution{ found->axis, found->radial, flat, origin, box.GetBound(2 * found->axis),

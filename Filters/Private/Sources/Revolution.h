@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 
 #include "Schlieren.h"
 
@@ -28,6 +28,6 @@ struct Revolution
 };
 
 /// Returns the chosen or best axis. Throws for data that are not flat or have no such axis.
-Revolution revolutionOf(const Source& source);
+Revolution revolutionOf(const Flow& flow);
 
 } // namespace filters

@@ -28,7 +28,7 @@ constexpr double fewestPoints = 128, mostPoints = 256; // along the longest side
 schlieren::Lattice latticeFor(const schlieren::Box& box, const Choice& choice)
 {
   double cells = 0;
-  for (const Leaf& leaf : choice.source.leaves)
+  for (const Leaf& leaf : choice.flow.leaves)
   {
     cells += static_cast<double>(leaf.data->GetNumberOfCells());
   }

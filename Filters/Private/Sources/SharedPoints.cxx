@@ -3,12 +3,10 @@
 #include "Sources/SharedPoints.h"
 
 #include "Cells/MeshArrays.h"
-#include "Common/CellTypes.h"
 #include "Common/WorkProgress.h"
 #include "Input/CoincidentPoints.h"
 #include "Input/DatasetPieces.h"
 
-#include "vtkBoundingBox.h"
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkStructuredGrid.h"
@@ -104,34 +102,14 @@ struct Candidates
   std::size_t size() const { return this->points.size(); }
 };
 
-/// Returns whether the boxes of other leaves intersect this one's.
-bool mayOverlap(const Leaves& leaves, std::size_t number)
-{
-  vtkBoundingBox own(leaves[number]->GetBounds());
-  own.ScaleAboutCenter(1 - 1e-6); // where boxes touch there is rounding
-  return std::any_of(leaves.begin(), leaves.end(),
-    [&](vtkDataSet* other)
-    { return other != leaves[number] && own.Intersects(vtkBoundingBox(other->GetBounds())) != 0; });
-}
-
-/// Adds the points of visible cells; of grids that overlap no others, those of their sides.
+/// Adds the points of visible cells.
 void addCandidates(
   const Leaves& leaves, std::size_t number, const MeshArrays& mesh, Candidates& all)
 {
-  const bool onSidesOnly = mesh.isStructured() && !mayOverlap(leaves, number);
-  const std::array<int, 3> n = structureOf(leaves[number]);
   const std::vector<double> sizes = smallestEdges(mesh);
   const bool areOfCells = leaves[number]->GetCellData()->GetScalars() != nullptr;
   for (vtkIdType point = 0; point < mesh.points(); ++point)
   {
-    if (onSidesOnly)
-    {
-      const vtkIdType i = point % n[0], j = point / n[0] % n[1], k = point / n[0] / n[1];
-      if (i > 0 && j > 0 && k > 0 && i < n[0] - 1 && j < n[1] - 1 && k < n[2] - 1)
-      {
-        continue;
-      }
-    }
     Point x;
     mesh.coordinates(point, x.data());
     const double size = sizes[static_cast<std::size_t>(point)];

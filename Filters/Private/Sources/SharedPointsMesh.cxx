@@ -8,7 +8,7 @@
 #include "Cells/MeshArrays.h"
 #include "Cells/MeshKey.h"
 #include "Common/Vectors.h"
-#include "Input/RefractivitySource.h"
+#include "Input/Flow.h"
 #include "Walls/MeshFaces.h"
 
 #include "vtkCellArray.h"

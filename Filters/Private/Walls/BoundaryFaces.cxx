@@ -17,9 +17,9 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <iterator>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -31,23 +31,6 @@ namespace
 
 constexpr double lookingPart = 0.05;   // depth of tests behind a face, in cell heights or edges
 constexpr double cellTolerance = 4e-3; // maximum distance of points in a cell, in cell heights
-
-/// A face seen from its cell.
-struct Sides
-{
-  Point middle;
-  Point outward; // unit length, or 0
-  double height; // approximate height of the cell above the face
-  double width;  // smallest edge
-};
-
-/// A face with visible cells on one side only.
-struct OpenFace
-{
-  std::vector<std::int32_t> corners; // seen from the gas, counter-clockwise
-  Sides sides;
-  bool hidesBehind;
-};
 
 /// Removes the sides of a layer across z, whose corners all have the same z.
 Faces withoutSidesAcrossZ(const Faces& all)
@@ -71,8 +54,20 @@ Faces withoutSidesAcrossZ(const Faces& all)
   return faces;
 }
 
-Sides sidesOf(const Faces& faces, std::size_t face, double rounding)
+} // namespace
+
+OpenFaces::OpenFaces(Faces faces, Extent extent)
+  : All(extent == Extent::Layer ? withoutSidesAcrossZ(faces) : std::move(faces))
+  , Ends(extent)
+  , Rounding(relativeRounding(this->All.points))
 {
+  const std::vector<std::int32_t> before = this->mergePoints();
+  this->removePairs(before);
+}
+
+OpenFaces::Sides OpenFaces::sidesOf(std::size_t face) const
+{
+  const Faces& faces = this->All;
   Sides sides{ { 0, 0, 0 }, { 0, 0, 0 }, 0, std::numeric_limits<double>::infinity() };
   const std::size_t begin = faces.starts[face], count = faces.starts[face + 1] - begin;
   const auto corner = [&](std::size_t i) -> const Point&
@@ -81,7 +76,7 @@ Sides sidesOf(const Faces& faces, std::size_t face, double rounding)
   {
     sides.middle = sides.middle + (1. / static_cast<double>(count)) * corner(i);
     const double edge = norm(corner(i + 1) - corner(i));
-    if (edge > rounding * norm(corner(i)))
+    if (edge > this->Rounding * norm(corner(i)))
     {
       sides.width = std::min(sides.width, edge);
     }
@@ -101,14 +96,15 @@ Sides sidesOf(const Faces& faces, std::size_t face, double rounding)
 }
 
 /// Merges points that coincide. Returns the corners' numbers from before.
-std::vector<std::int32_t> mergePoints(Faces& faces, double rounding)
+std::vector<std::int32_t> OpenFaces::mergePoints()
 {
+  Faces& faces = this->All;
   std::vector<double> sizes(faces.points.size(), std::numeric_limits<double>::infinity());
   for (std::size_t face = 0; face < faces.size(); ++face)
   {
-    const Sides sides = sidesOf(faces, face, rounding);
+    const Sides sides = this->sidesOf(face);
     double size = sides.width;
-    if (sides.height > rounding * norm(sides.middle))
+    if (sides.height > this->Rounding * norm(sides.middle))
     {
       size = std::min(size, sides.height);
     }
@@ -128,8 +124,9 @@ std::vector<std::int32_t> mergePoints(Faces& faces, double rounding)
 }
 
 /// Returns a face's corners without those that coincide with neighbours; empty if it has no area.
-std::vector<std::int32_t> distinctCorners(const Faces& faces, std::size_t face)
+std::vector<std::int32_t> OpenFaces::distinctCorners(std::size_t face) const
 {
+  const Faces& faces = this->All;
   std::vector<std::int32_t> corners(
     faces.corners.begin() + static_cast<std::ptrdiff_t>(faces.starts[face]),
     faces.corners.begin() + static_cast<std::ptrdiff_t>(faces.starts[face + 1]));
@@ -145,10 +142,11 @@ std::vector<std::int32_t> distinctCorners(const Faces& faces, std::size_t face)
 }
 
 /// Describes a face, seen from its cell.
-OpenFace openFaceOf(const Faces& faces, std::size_t face, double rounding, bool hidesBehind)
+OpenFaces::Face OpenFaces::openFaceOf(std::size_t face, bool hidesBehind) const
 {
-  const Sides sides = sidesOf(faces, face, rounding);
-  std::vector<std::int32_t> corners = distinctCorners(faces, face);
+  const Faces& faces = this->All;
+  const Sides sides = this->sidesOf(face);
+  std::vector<std::int32_t> corners = this->distinctCorners(face);
   Point area{ 0, 0, 0 };
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
@@ -166,9 +164,10 @@ OpenFace openFaceOf(const Faces& faces, std::size_t face, double rounding, bool 
 /// Returns whether cells of one dataset have two faces at the same place with different points. A
 /// wall ends at points that the dataset has once, but not beyond its trailing edge, where points
 /// have been merged.
-bool isSheet(
-  const Faces& faces, const std::vector<std::int32_t>& before, std::size_t one, std::size_t other)
+bool OpenFaces::isSheet(
+  const std::vector<std::int32_t>& before, std::size_t one, std::size_t other) const
 {
+  const Faces& faces = this->All;
   bool areOthers = false;
   for (std::size_t i = faces.starts[one]; i < faces.starts[one + 1]; ++i)
   {
@@ -189,10 +188,10 @@ bool isSheet(
   return areOthers;
 }
 
-/// Removes faces between two visible cells. `before`: corners before they were merged.
-std::vector<OpenFace> withoutPairs(const Faces& faces, const std::vector<std::int32_t>& before,
-  double rounding, std::vector<OpenFace>& sheets)
+/// Finds the faces that are not between two visible cells. `before`: corners before they were merged.
+void OpenFaces::removePairs(const std::vector<std::int32_t>& before)
 {
+  const Faces& faces = this->All;
   struct Key
   {
     std::array<std::int32_t, 5> lowest; // number of corners, and the four lowest ones
@@ -202,7 +201,7 @@ std::vector<OpenFace> withoutPairs(const Faces& faces, const std::vector<std::in
   keys.reserve(faces.size());
   for (std::size_t face = 0; face < faces.size(); ++face)
   {
-    std::vector<std::int32_t> corners = distinctCorners(faces, face);
+    std::vector<std::int32_t> corners = this->distinctCorners(face);
     if (!corners.empty())
     {
       Key key{ { static_cast<std::int32_t>(corners.size()), -1, -1, -1, -1 }, face };
@@ -216,17 +215,16 @@ std::vector<OpenFace> withoutPairs(const Faces& faces, const std::vector<std::in
     [](const Key& a, const Key& b)
     { return std::tie(a.lowest, a.face) < std::tie(b.lowest, b.face); });
 
-  std::vector<OpenFace> kept;
   for (auto first = keys.begin(); first != keys.end();)
   {
     const auto end =
       std::find_if(first, keys.end(), [&](const Key& key) { return key.lowest != first->lowest; });
-    const Point outward = sidesOf(faces, first->face, rounding).outward;
+    const Point outward = this->sidesOf(first->face).outward;
     bool isVisible[2] = { false, false }, isHidden[2] = { false, false };
     std::size_t owner[2] = { 0, 0 };
     for (; first != end; ++first)
     {
-      const Sides sides = sidesOf(faces, first->face, rounding);
+      const Sides sides = this->sidesOf(first->face);
       const int side = dot(sides.outward, outward) < 0 ? 1 : 0;
       if (faces.states[first->face] == State::Visible)
       {
@@ -241,71 +239,88 @@ std::vector<OpenFace> withoutPairs(const Faces& faces, const std::vector<std::in
     if (isVisible[0] != isVisible[1])
     {
       const int side = isVisible[0] ? 0 : 1;
-      kept.push_back(openFaceOf(faces, owner[side], rounding, isHidden[1 - side]));
+      this->Open.push_back(this->openFaceOf(owner[side], isHidden[1 - side]));
     }
-    else if (isVisible[0] && isSheet(faces, before, owner[0], owner[1]))
+    else if (isVisible[0] && this->isSheet(before, owner[0], owner[1]))
     {
-      sheets.push_back(openFaceOf(faces, owner[0], rounding, false));
-      sheets.push_back(openFaceOf(faces, owner[1], rounding, false));
+      this->Sheets.push_back(this->openFaceOf(owner[0], false));
+      this->Sheets.push_back(this->openFaceOf(owner[1], false));
     }
   }
-  return kept;
 }
 
-/// Removes faces with cells on both sides.
-void removeCovered(const Faces& faces, const CellsTest& areInCells, std::vector<OpenFace>& kept)
+Point OpenFaces::behind(const Face& face)
 {
-  std::vector<Point> middles;
-  middles.reserve(kept.size());
-  for (const OpenFace& face : kept)
+  const double step = std::max(
+    lookingPart * std::min(face.sides.height, face.sides.width), cellTolerance * face.sides.height);
+  return face.sides.middle + step * face.sides.outward;
+}
+
+std::vector<Point> OpenFaces::middles() const
+{
+  std::vector<Point> places(this->Open.size());
+  std::transform(this->Open.begin(), this->Open.end(), places.begin(), behind);
+  return places;
+}
+
+std::vector<Point> OpenFaces::corners(const Flags& areMiddlesInCells) const
+{
+  std::vector<Point> places;
+  for (std::size_t i = 0; i < this->Open.size(); ++i)
   {
-    const double step = std::max(lookingPart * std::min(face.sides.height, face.sides.width),
-      cellTolerance * face.sides.height);
-    middles.push_back(face.sides.middle + step * face.sides.outward);
-  }
-  const std::vector<unsigned char> haveMiddle = areInCells(middles);
-  std::vector<Point> corners;
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    for (std::size_t n = 0; haveMiddle[i] && n < kept[i].corners.size(); ++n)
+    const Face& face = this->Open[i];
+    for (std::size_t n = 0; areMiddlesInCells[i] && n < face.corners.size(); ++n)
     {
-      const Point& corner = faces.points[static_cast<std::size_t>(kept[i].corners[n])];
-      corners.push_back(middles[i] + 0.8 * (corner - kept[i].sides.middle));
+      const Point& corner = this->All.points[static_cast<std::size_t>(face.corners[n])];
+      places.push_back(behind(face) + 0.8 * (corner - face.sides.middle));
     }
   }
-  const std::vector<unsigned char> haveCorner = areInCells(corners);
+  return places;
+}
+
+void OpenFaces::removeCovered(const Flags& areMiddlesInCells, const Flags& areCornersInCells)
+{
   std::size_t left = 0;
-  auto next = haveCorner.begin();
-  for (std::size_t i = 0; i < kept.size(); ++i)
+  auto next = areCornersInCells.begin();
+  for (std::size_t i = 0; i < this->Open.size(); ++i)
   {
-    bool isCovered = haveMiddle[i] != 0;
+    bool isCovered = areMiddlesInCells[i] != 0;
     if (isCovered)
     {
-      const auto end = next + static_cast<std::ptrdiff_t>(kept[i].corners.size());
+      const auto end = next + static_cast<std::ptrdiff_t>(this->Open[i].corners.size());
       isCovered = std::all_of(next, end, [](unsigned char is) { return is != 0; });
       next = end;
     }
     if (!isCovered)
     {
-      std::swap(kept[left++], kept[i]);
+      std::swap(this->Open[left++], this->Open[i]);
     }
   }
-  kept.resize(left);
+  this->Open.resize(left);
 }
 
-BoundaryFaces triangulate(const Faces& faces, const std::vector<OpenFace>& kept)
+BoundaryFaces OpenFaces::boundary(Outside outside) const
 {
   BoundaryFaces result;
+  result.extent = this->Ends;
+  std::vector<const Face*> kept;
+  const auto pointerTo = [](const Face& face) { return &face; };
+  std::transform(this->Open.begin(), this->Open.end(), std::back_inserter(kept), pointerTo);
+  if (outside != Outside::Passes)
+  {
+    std::transform(this->Sheets.begin(), this->Sheets.end(), std::back_inserter(kept), pointerTo);
+  }
+  const Faces& faces = this->All;
   std::vector<std::int32_t> numbers(faces.points.size(), -1);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkUnsignedCharArray> hides;
   hides->SetName("hides");
-  for (const OpenFace& face : kept)
+  for (const Face* face : kept)
   {
-    polygons->InsertNextCell(static_cast<int>(face.corners.size()));
-    for (const std::int32_t corner : face.corners)
+    polygons->InsertNextCell(static_cast<int>(face->corners.size()));
+    for (const std::int32_t corner : face->corners)
     {
       const auto from = static_cast<std::size_t>(corner);
       if (numbers[from] < 0)
@@ -317,7 +332,7 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<OpenFace>& kept)
       }
       polygons->InsertCellPoint(numbers[from]);
     }
-    hides->InsertNextValue(face.hidesBehind ? 1 : 0);
+    hides->InsertNextValue(face->hidesBehind ? 1 : 0);
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
@@ -339,52 +354,6 @@ BoundaryFaces triangulate(const Faces& faces, const std::vector<OpenFace>& kept)
       static_cast<std::int32_t>(ids[1]), static_cast<std::int32_t>(ids[2]) });
     result.hidesBehind.push_back(hidesOf->GetValue(cell++));
   }
-  return result;
-}
-
-} // namespace
-
-CellsTest testInParallel(const CellTest& isInCell, const WorkProgress& progress)
-{
-  return [isInCell, progress](const std::vector<Point>& places)
-  {
-    std::vector<unsigned char> areInCells(places.size(), 0);
-    forChunks(static_cast<vtkIdType>(places.size()), progress,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-        {
-          const double sum = places[i][0] + places[i][1] + places[i][2];
-          areInCells[i] = std::isfinite(sum) && isInCell(places[i]) ? 1 : 0;
-        }
-      });
-    return areInCells;
-  };
-}
-
-BoundaryFaces boundaryOf(Faces faces, const CellsTest& areInCells, Sheets sheets,
-  const WorkProgress& progress, Extent extent)
-{
-  if (extent == Extent::Layer)
-  {
-    faces = withoutSidesAcrossZ(faces);
-  }
-  progress.reach(0.1);
-  const double rounding = relativeRounding(faces.points);
-  const std::vector<std::int32_t> before = mergePoints(faces, rounding);
-  std::vector<OpenFace> walls, kept = withoutPairs(faces, before, rounding, walls);
-  progress.reach(0.3);
-  if (areInCells)
-  {
-    removeCovered(faces, areInCells, kept);
-  }
-  progress.reach(0.7);
-  if (sheets == Sheets::Walls)
-  {
-    kept.insert(kept.end(), walls.begin(), walls.end());
-  }
-  BoundaryFaces result = triangulate(faces, kept);
-  result.extent = extent;
   return result;
 }
 

@@ -15,15 +15,6 @@
 namespace filters
 {
 
-GasBoundary::GasBoundary(filters::Faces faces, vtkDataObject* bodies, Outside outside,
-  const CellsTest& areInCells, const WorkProgress& progress, Extent extent)
-  : GasBoundary(boundaryOf(std::move(faces), areInCells,
-                  outside == Outside::Passes ? Sheets::Ignored : Sheets::Walls,
-                  progress.part(0, 0.8), extent),
-      bodies, outside, progress.part(0.8, 1))
-{
-}
-
 GasBoundary::GasBoundary(
   BoundaryFaces faces, vtkDataObject* bodies, Outside outside, const WorkProgress& progress)
   : Faces(std::move(faces))
@@ -128,7 +119,6 @@ GasBoundary::Kinds GasBoundary::facesIn(const schlieren::Box& box) const
   return kinds;
 }
 
-/// Returns false for sheets, whose voxels depend on the voxel size.
 bool GasBoundary::areWallsFlatNear(const schlieren::Box& box) const
 {
   constexpr double around = 1. / 8; // of the box: reach of distances in it
@@ -173,32 +163,6 @@ bool GasBoundary::areWallsFlatNear(const schlieren::Box& box) const
       { look(this->Bodies->surface(), triangle, this->Bodies->isOfClosed(triangle)); });
   }
   return isFlat;
-}
-
-void GasBoundary::findPlaces(const schlieren::Box& box, const CellTest& isInCell,
-  schlieren::MediumSource::Content& content) const
-{
-  const Kinds faces = this->facesIn(box);
-  content.hasWall = faces.wall;
-  content.hasWindow = faces.window;
-  content.hasGas = faces.wall || faces.window;
-  if (content.hasGas)
-  {
-    content.areWallsFlat = faces.wall && !faces.window && this->areWallsFlatNear(box);
-    return;
-  }
-  // Tests points of a box without a boundary, which is all gas or not; outside may be mixed.
-  for (const Point& place : testedPlaces(box))
-  {
-    const Place found = this->kindAt(place, isInCell(place));
-    content.hasGas = found == Place::Gas;
-    content.hasWall = content.hasWall || found == Place::Wall;
-    content.hasWindow = content.hasWindow || found == Place::Window;
-    if (content.hasGas)
-    {
-      break;
-    }
-  }
 }
 
 std::array<Point, 9> GasBoundary::testedPlaces(const schlieren::Box& box)

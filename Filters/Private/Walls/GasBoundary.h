@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Common/Triangles.h"
+#include "Common/WorkProgress.h"
 #include "Schlieren.h"
 #include "Walls/BodySurfaces.h"
 #include "Walls/BoundaryFaces.h"
@@ -17,14 +18,6 @@ class vtkDataSet;
 namespace filters
 {
 
-/// Treatment of boundaries of the gas.
-enum class Outside
-{
-  Auto,   ///< bodies and sheets are walls, outer boundaries are not: see findOuter()
-  Blocks, ///< all boundaries are walls
-  Passes  ///< only hidden cells and Bodies are walls
-};
-
 /**
  * The boundary of the gas of meshes, and its walls. Faces to hidden cells, and Bodies, are walls
  * with any `Outside`. Thread-safe.
@@ -34,12 +27,7 @@ class GasBoundary
 public:
   using Place = schlieren::Place;
 
-  /// `faces`, `areInCells` (may be empty): see boundaryOf(). `bodies`: may be null; see
-  /// BodySurfaces. Keeps copies of all data.
-  GasBoundary(filters::Faces faces, vtkDataObject* bodies, Outside outside,
-    const CellsTest& areInCells, const WorkProgress& progress = WorkProgress(),
-    Extent extent = Extent::Volume);
-  /// Makes the boundary of given faces.
+  /// `bodies`: may be null; see BodySurfaces. Keeps copies of all data.
   GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,
     const WorkProgress& progress = WorkProgress());
   GasBoundary(const GasBoundary&) = delete;
@@ -57,10 +45,10 @@ public:
     bool wall, window;
   };
   Kinds facesIn(const schlieren::Box& box) const;
-  /// Sets `hasWall`, `hasGas`, `hasWindow` and `areWallsFlat` of a box, given visible cells.
-  void findPlaces(const schlieren::Box& box, const CellTest& isInCell,
-    schlieren::MediumSource::Content& content) const;
-  /// Returns the points that findPlaces() may test: the middle and the corners of a box.
+  /// Returns whether all faces in and near a box are in one plane of a wall; false for sheets, whose
+  /// voxels depend on the voxel size.
+  bool areWallsFlatNear(const schlieren::Box& box) const;
+  /// Returns the points that show what is in a box without faces: its middle and its corners.
   static std::array<Point, 9> testedPlaces(const schlieren::Box& box);
   /// Returns whether any of the Bodies meets a box.
   bool hasBodiesIn(const schlieren::Box& box) const;
@@ -88,7 +76,6 @@ public:
 private:
   void findWindows();
   bool isBeyondAll(const Point& place) const;
-  bool areWallsFlatNear(const schlieren::Box& box) const;
 
   BoundaryFaces Faces;
   TriangleTree Tree;

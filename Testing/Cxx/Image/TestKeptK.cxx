@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Which images have a k, and surroundings, of their own, and which keep those of an earlier image.
-#include "Changing.h"
 #include "Series.h"
 
 #include <map>
@@ -47,7 +46,7 @@ protected:
     return says;
   }
 
-  vtkNew<Series> series;
+  const vtkSmartPointer<Changing> series = ::series();
   vtkSmartPointer<Filter> filter;
   std::map<double, double> own; ///< the automatic k of an image at this time
 };

@@ -136,7 +136,7 @@ Source sourceOf(vtkRefractiveIndex* filter, vtkDataObject* input, vtkDataObject*
 
 /// The source of prepared meshes.
 std::shared_ptr<const filters::PieceSource> stepOf(
-  const filters::PreparedLeaves& prepared, std::shared_ptr<filters::KeptMesh>& kept)
+  const filters::PreparedLeaves& prepared, std::shared_ptr<filters::MeshCache>& kept)
 {
   return filters::sourceOfMeshes(
     prepared, { filters::Outside::Auto, -1 }, nullptr, filters::WorkProgress(), kept);
@@ -453,7 +453,7 @@ TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
       return std::vector<vtkSmartPointer<vtkDataSet>>{ mesh };
     };
     const schlieren::Lattice lattice{ { -0.2, 0.1, 0.1 }, { 0.07, 0.06, 0.05 }, { 20, 20, 20 } };
-    auto kept = std::make_shared<filters::KeptMesh>();
+    auto kept = std::make_shared<filters::MeshCache>();
     for (const double time : { 0., 3. })
     {
       const auto made = stepOf({ leavesAt(time), { leavesAt(time), leavesAt(time + 1) } }, kept);
@@ -518,7 +518,7 @@ TEST(MeshSteps, LatticesAreKeptAsLongAsTheyAreNeeded)
     std::vector<float> distances(values.size());
     source.sample(lattice, values.data(), places.data(), hasDistances ? distances.data() : nullptr);
   };
-  auto kept = std::make_shared<filters::KeptMesh>();
+  auto kept = std::make_shared<filters::MeshCache>();
   sample(*stepOf({ leavesAt(0), {} }, kept), 0.1, false);
   EXPECT_EQ(kept->lattices, nullptr);
   std::vector<std::size_t> bytes;

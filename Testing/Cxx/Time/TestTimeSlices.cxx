@@ -548,10 +548,10 @@ TEST(TimeSlices, StopLeavesWhatIsThere)
 // Another time of the same source changes none of the filter's or the source's own times.
 TEST(TimeSlices, WhatIsStoppedIsOneTimeStep)
 {
-  vtkNew<Series> series;
-  const auto atTime = [&series](vtkSchlierenFilter* filter, double time)
+  const auto steps = series();
+  const auto atTime = [&steps](vtkSchlierenFilter* filter, double time)
   {
-    filter->SetInputConnection(series->GetOutputPort());
+    filter->SetInputConnection(steps->GetOutputPort());
     filter->UpdateTimeStep(time);
   };
   auto filter = smallBench(nullptr);

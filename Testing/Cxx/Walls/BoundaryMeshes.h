@@ -18,7 +18,9 @@
 #include "vtkThreshold.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 
 using filters::GasBoundary;
 using filters::Outside;
@@ -27,6 +29,7 @@ using schlieren::Place;
 
 using Data = vtkSmartPointer<vtkDataSet>;
 using Mapping = std::function<Vec(double, double, double)>;
+using CellTest = std::function<bool(const filters::Point& place)>;
 
 /// A curvilinear grid over the unit cube of its parameters, N = 1 everywhere.
 inline vtkSmartPointer<vtkStructuredGrid> curvilinear(
@@ -166,7 +169,7 @@ public:
     }
     return false;
   }
-  filters::CellTest test() const
+  CellTest test() const
   {
     return [this](const filters::Point& x) { return this->hold(x); };
   }
@@ -205,11 +208,23 @@ inline std::vector<Data> withSharedPoints(const std::vector<Data>& leaves)
 
 /// As for an image: points that coincide are one before.
 inline GasBoundary boundaryOfLeaves(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
-  Outside outside, const filters::CellTest& isInCell)
+  Outside outside, const CellTest& isInCell)
 {
   const std::vector<Data> joined = withSharedPoints({ leaves.begin(), leaves.end() });
-  return { filters::facesOf(pointers(joined), filters::WorkProgress()), bodies, outside,
-    isInCell ? filters::testInParallel(isInCell, filters::WorkProgress()) : nullptr };
+  filters::OpenFaces open(filters::facesOf(pointers(joined), filters::WorkProgress()));
+  if (isInCell)
+  {
+    const auto areIn = [&](const std::vector<filters::Point>& places)
+    {
+      filters::OpenFaces::Flags are;
+      std::transform(places.begin(), places.end(), std::back_inserter(are),
+        [&](const filters::Point& place) { return isInCell(place) ? 1 : 0; });
+      return are;
+    };
+    const auto middles = areIn(open.middles());
+    open.removeCovered(middles, areIn(open.corners(middles)));
+  }
+  return { open.boundary(outside), bodies, outside };
 }
 
 inline Areas areasOf(const std::vector<Data>& leaves, Outside outside = Outside::Auto)

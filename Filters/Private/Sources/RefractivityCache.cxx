@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Sources/SharedRefractivity.h"
+#include "Sources/RefractivityCache.h"
 
 #include "vtkImageData.h"
 
@@ -57,7 +57,7 @@ std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& 
 }
 
 //------------------------------------------------------------------------------
-void shareRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made)
+void cacheRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made)
 {
   const std::lock_guard<std::mutex> lock(entries().Mutex);
   std::vector<Entry>& all = entries().All;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SchlierenFilterInternals.h"
+#include "Filter/SchlierenFilterInternals.h"
 
 #include "Image/PixelInWords.h"
 #include "Image/RealOptics.h"

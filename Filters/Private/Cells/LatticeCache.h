@@ -18,7 +18,7 @@ namespace filters
 {
 
 /// Results at a lattice's points that depend on the mesh alone.
-struct KnownLattice
+struct CachedLattice
 {
   CellsOfLattice cells;
   std::vector<schlieren::Place> places; // empty: all gas
@@ -29,7 +29,7 @@ struct KnownLattice
 };
 
 /// `distances`: may be null.
-KnownLattice knownLattice(
+CachedLattice cachedLattice(
   CellsOfLattice cells, const schlieren::Place* places, const float* distances, std::size_t points);
 
 /**
@@ -37,16 +37,16 @@ KnownLattice knownLattice(
  * the view and its content change little. Limited to `maxBytes`. Drops those that two steps have
  * not used. Thread-safe.
  */
-class LatticesOfMesh
+class LatticeCache
 {
 public:
   static constexpr std::size_t maxBytes = std::size_t{ 1 } << 29;
 
   /// Returns null for unknown lattices.
-  std::shared_ptr<const KnownLattice> find(const schlieren::Lattice& lattice, bool hasDistances);
+  std::shared_ptr<const CachedLattice> find(const schlieren::Lattice& lattice, bool hasDistances);
 
   bool hasRoomFor(const schlieren::Lattice& lattice) const;
-  void keep(const schlieren::Lattice& lattice, KnownLattice known);
+  void keep(const schlieren::Lattice& lattice, CachedLattice known);
 
   /// Drops lattices that the last two steps have not used.
   void beginStep();
@@ -56,11 +56,11 @@ public:
 private:
   using Key = std::array<double, 10>;
   static Key keyOf(const schlieren::Lattice& lattice, bool hasDistances);
-  static std::size_t bytesOf(const KnownLattice& known);
+  static std::size_t bytesOf(const CachedLattice& known);
 
   struct Entry
   {
-    std::shared_ptr<const KnownLattice> known;
+    std::shared_ptr<const CachedLattice> known;
     std::uint64_t step;
   };
   mutable std::mutex One;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Cells/LatticesOfMesh.h"
+#include "Cells/LatticeCache.h"
 
 #include <algorithm>
 #include <utility>
@@ -8,17 +8,17 @@
 namespace filters
 {
 
-void KnownLattice::copyTo(schlieren::Place* toPlaces, float* toDistances, std::size_t points) const
+void CachedLattice::copyTo(schlieren::Place* toPlaces, float* toDistances, std::size_t points) const
 {
   std::fill_n(toPlaces, points, schlieren::Place::Gas);
   std::copy(this->places.begin(), this->places.end(), toPlaces);
   std::copy(this->distances.begin(), this->distances.end(), toDistances);
 }
 
-KnownLattice knownLattice(
+CachedLattice cachedLattice(
   CellsOfLattice cells, const schlieren::Place* places, const float* distances, std::size_t points)
 {
-  KnownLattice known{ std::move(cells), {}, {} };
+  CachedLattice known{ std::move(cells), {}, {} };
   if (!std::all_of(places, places + points,
         [](schlieren::Place place) { return place == schlieren::Place::Gas; }))
   {
@@ -31,7 +31,7 @@ KnownLattice knownLattice(
   return known;
 }
 
-LatticesOfMesh::Key LatticesOfMesh::keyOf(const schlieren::Lattice& lattice, bool hasDistances)
+LatticeCache::Key LatticeCache::keyOf(const schlieren::Lattice& lattice, bool hasDistances)
 {
   Key key;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -44,13 +44,13 @@ LatticesOfMesh::Key LatticesOfMesh::keyOf(const schlieren::Lattice& lattice, boo
   return key;
 }
 
-std::size_t LatticesOfMesh::bytesOf(const KnownLattice& known)
+std::size_t LatticeCache::bytesOf(const CachedLattice& known)
 {
   return known.cells.bytes() + known.places.size() + known.distances.size() * sizeof(float) +
-    sizeof(Key) + sizeof(Entry) + sizeof(KnownLattice);
+    sizeof(Key) + sizeof(Entry) + sizeof(CachedLattice);
 }
 
-std::shared_ptr<const KnownLattice> LatticesOfMesh::find(
+std::shared_ptr<const CachedLattice> LatticeCache::find(
   const schlieren::Lattice& lattice, bool hasDistances)
 {
   const std::lock_guard<std::mutex> lock(this->One);
@@ -63,12 +63,12 @@ std::shared_ptr<const KnownLattice> LatticesOfMesh::find(
   return entry->second.known;
 }
 
-bool LatticesOfMesh::hasRoomFor(const schlieren::Lattice& lattice) const
+bool LatticeCache::hasRoomFor(const schlieren::Lattice& lattice) const
 {
   return lattice.size() <= CellsOfLattice::maxPoints && this->bytes() < maxBytes;
 }
 
-void LatticesOfMesh::keep(const schlieren::Lattice& lattice, KnownLattice known)
+void LatticeCache::keep(const schlieren::Lattice& lattice, CachedLattice known)
 {
   const Key key = keyOf(lattice, !known.distances.empty());
   const std::size_t bytes = bytesOf(known);
@@ -76,12 +76,12 @@ void LatticesOfMesh::keep(const schlieren::Lattice& lattice, KnownLattice known)
   const auto [entry, isNew] = this->Entries.try_emplace(key);
   if (isNew)
   {
-    entry->second = { std::make_shared<KnownLattice>(std::move(known)), this->Step };
+    entry->second = { std::make_shared<CachedLattice>(std::move(known)), this->Step };
     this->Bytes += bytes;
   }
 }
 
-void LatticesOfMesh::beginStep()
+void LatticeCache::beginStep()
 {
   const std::lock_guard<std::mutex> lock(this->One);
   for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
@@ -97,7 +97,7 @@ void LatticesOfMesh::beginStep()
   ++this->Step;
 }
 
-std::size_t LatticesOfMesh::bytes() const
+std::size_t LatticeCache::bytes() const
 {
   const std::lock_guard<std::mutex> lock(this->One);
   return this->Bytes;

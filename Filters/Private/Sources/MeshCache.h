@@ -19,12 +19,12 @@ namespace filters
 {
 
 /// The state of a medium that depends on meshes alone, kept for the next time step.
-struct KeptMesh
+struct MeshCache
 {
   std::vector<std::uint64_t> keys; ///< of the pieces of all ranks, and keyOfWalls()
   std::shared_ptr<PieceMesh> piece;
   std::shared_ptr<const GasBoundary> boundary; ///< null: nothing is kept
-  std::shared_ptr<LatticesOfMesh> lattices;    ///< null in the first time step
+  std::shared_ptr<LatticeCache> lattices;      ///< null in the first time step
   // Over several ranks:
   std::vector<LeafPoint> origins; ///< of boundary points, among those of all ranks
   std::array<double, 3> voxelShape{};
@@ -36,7 +36,7 @@ struct KeptMesh
 };
 
 /// Releases what is kept, or leaves it to others that share it.
-void leave(std::shared_ptr<KeptMesh>& kept);
+void leave(std::shared_ptr<MeshCache>& cache);
 
 /// Hashes what boundaries of gas depend on beside meshes. `bodies`: may be null.
 std::uint64_t keyOfWalls(Outside outside, vtkDataObject* bodies);
@@ -52,6 +52,6 @@ struct MeshChoices
 /// choices, and keeps it otherwise. `bodies`: may be null.
 std::shared_ptr<const PieceSource> sourceOfMeshes(const PreparedLeaves& prepared,
   const MeshChoices& choices, vtkDataObject* bodies, const WorkProgress& progress,
-  std::shared_ptr<KeptMesh>& kept);
+  std::shared_ptr<MeshCache>& cache);
 
 } // namespace filters

@@ -9,7 +9,7 @@
 #include "Image/TimeSlicedImage.h"
 #include "Ranks/InputsOfRanks.h"
 #include "Sources/MediumMaker.h"
-#include "Sources/SharedRefractivity.h"
+#include "Sources/RefractivityCache.h"
 #include "vtkSchlierenFilter.h"
 
 #include "Common/FieldFromImage.h"

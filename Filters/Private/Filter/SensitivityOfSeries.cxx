@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // How vtkSchlierenFilter finds one k for a series.
-#include "SchlierenFilterInternals.h"
+#include "Filter/SchlierenFilterInternals.h"
 
 #include "Common/AtTheEnd.h"
 #include "Image/RealOptics.h"

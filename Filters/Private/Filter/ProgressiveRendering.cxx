@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // How vtkSchlierenFilter makes an image: at once, time-sliced, or between updates (Refine).
-#include "SchlierenFilterInternals.h"
+#include "Filter/SchlierenFilterInternals.h"
 
 #include "Common/AvailableMemory.h"
 #include "Common/Guarded.h"

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // What vtkSchlierenFilter makes of its inputs before there is a view.
-#include "SchlierenFilterInternals.h"
+#include "Filter/SchlierenFilterInternals.h"
 
 #include "Gas/GasChoices.h"
 #include "Image/SceneFromSettings.h"
+#include "Input/Flow.h"
 #include "Input/InputDescription.h"
-#include "Input/RefractivitySource.h"
 #include "Sources/FieldTints.h"
 #include "Sources/MediumMaker.h"
 
@@ -127,7 +127,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   const bool arePieces = this->Inside->Ranks.areInPieces();
   MediumMaker& maker = this->GetMaker();
   RefractivityKey key{ input, bodies, arePieces ? this->DescribePieces(input, bodies) : description,
-    arePieces ? maker.choiceFor(input).settings : this->Chosen(input).source.choice.settings,
+    arePieces ? maker.choiceFor(input).settings : this->Chosen(input).flow.choice.settings,
     this->ColorByField };
   const std::shared_ptr<const MadeRefractivity> found = findRefractivity(key);
   if (found && this->Inside->Ranks.use(found->Source.get()))
@@ -142,7 +142,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   std::shared_ptr<const MadeRefractivity> made = this->MakeRefractivity(input, bodies);
   if (made)
   {
-    shareRefractivity(std::move(key), made);
+    cacheRefractivity(std::move(key), made);
   }
   return made;
 }

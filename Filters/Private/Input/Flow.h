@@ -23,7 +23,7 @@ namespace filters
 {
 
 /// The data and arrays to read of an input.
-struct Source
+struct Flow
 {
   std::vector<Leaf> leaves;                     // at least one
   std::vector<vtkSmartPointer<vtkObject>> made; // modified data and arrays: masked, extruded
@@ -54,15 +54,15 @@ MediumChoice choiceFor(
   const MediumSettings& settings, KnownArrays& known, const std::vector<vtkDataSet*>& dataSets);
 
 /// Selects what to read of an input. `known`: notes its arrays, unless it has those of all ranks.
-/// `like`: the source of other arrays of the same input, which decides whether a layer is
+/// `like`: the flow of other arrays of the same input, which decides whether a layer is
 /// flattened; null: flattens if possible.
-Source chooseSource(const MediumSettings& settings, KnownArrays& known, vtkDataObject* input,
-  const Source* like = nullptr);
+Flow chooseFlow(const MediumSettings& settings, KnownArrays& known, vtkDataObject* input,
+  const Flow* like = nullptr);
 
 /// Lists all arrays that complete settings may read.
 std::vector<std::string> arraysOf(const MediumSettings& settings);
 
 /// Checks the values that are used.
-Implausible implausibleIn(const Source& source);
+Implausible implausibleIn(const Flow& flow);
 
 } // namespace filters

@@ -22,7 +22,7 @@ class SharedMedia;
 }
 namespace filters
 {
-struct KeptMesh;
+struct MeshCache;
 }
 
 /// The refractivity of a filter's data, independent of views. Immutable once made.
@@ -37,10 +37,10 @@ struct MadeRefractivity
   vtkNew<vtkImageData> Image;
   std::shared_ptr<const schlieren::MediumSource> Source; ///< for meshes, instead of Image
   vtkMTimeType SourceTime = 0;
-  std::shared_ptr<filters::KeptMesh> Mesh; ///< of Source
-  std::string Grid;                        ///< about Image, as text
-  int FlatAxis = -1;                       ///< see Choice
-  std::string Warning;                     ///< for each filter that uses it
+  std::shared_ptr<filters::MeshCache> Mesh; ///< of Source
+  std::string Grid;                         ///< about Image, as text
+  int FlatAxis = -1;                        ///< see Choice
+  std::string Warning;                      ///< for each filter that uses it
 };
 
 /// The inputs of a refractivity: equal keys mean equal refractivity.
@@ -63,7 +63,7 @@ struct RefractivityKey
 /// Returns the refractivity in this process that a filter with the same data uses; null if there is
 /// none.
 std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& key);
-void shareRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made);
+void cacheRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made);
 
 /// Returns the media made of these refractivities.
 std::shared_ptr<schlieren::SharedMedia> mediaOfProcess();

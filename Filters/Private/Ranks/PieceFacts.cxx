@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Ranks/PieceFacts.h"
+
+#include "Cells/MeshKey.h"
+#include "Input/FlatData.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+
+namespace filters
+{
+
+namespace
+{
+
+/// Layers of cells that a point may depend on: its trend depends on the points of the cells around
+/// it, and of the next ones if these are few; point values found from cells need twice as many.
+constexpr int layersForPoints = 2;
+constexpr int layersForCells = 4;
+
+/// Returns whether cells have values.
+bool hasCellValues(vtkDataSet* mesh)
+{
+  return mesh->GetCellData()->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);
+}
+
+/// Hashes the positions of a dataset, and of some of its points and cells.
+std::uint64_t placesOf(vtkDataSet* data)
+{
+  Hash hash;
+  const auto addPoint = [&](vtkIdType id)
+  {
+    double at[3];
+    data->GetPoint(id, at);
+    hash.add(at, 3);
+  };
+  constexpr vtkIdType most = 200;
+  const auto forSome = [most](vtkIdType count, const auto& add)
+  {
+    for (vtkIdType n = 0; n < std::min(count, most); ++n)
+    {
+      add(count <= most ? n : n * (count / most));
+    }
+  };
+  double bounds[6];
+  data->GetBounds(bounds);
+  hash.add(bounds, 6);
+  hash.add(static_cast<std::uint64_t>(data->GetNumberOfPoints()));
+  hash.add(static_cast<std::uint64_t>(data->GetNumberOfCells()));
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      hash.add(static_cast<std::uint64_t>(image->GetDimensions()[axis]));
+    }
+    return hash.value(); // sufficient for images, of which there may be many
+  }
+  forSome(data->GetNumberOfPoints(), addPoint);
+  vtkNew<vtkIdList> points;
+  forSome(data->GetNumberOfCells(),
+    [&](vtkIdType cell)
+    {
+      data->GetCellPoints(cell, points);
+      std::for_each(points->begin(), points->end(), addPoint);
+    });
+  return hash.value();
+}
+
+/// Lists the names, types and components of all arrays.
+std::string arraysIn(vtkDataSet* data)
+{
+  std::string text;
+  for (const int kind : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = data->GetAttributes(kind);
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* array = attributes->GetAbstractArray(i);
+      const char* name = array->GetName() ? array->GetName() : "";
+      if (std::string(name) != vtkDataSetAttributes::GhostArrayName())
+      {
+        text += std::to_string(kind) + name + '/' + std::to_string(array->GetDataType()) + '/' +
+          std::to_string(array->GetNumberOfComponents()) + ';';
+      }
+    }
+  }
+  return text;
+}
+
+} // namespace
+
+PieceFacts factsOf(const DatasetPiece& piece)
+{
+  PieceFacts facts{ piece.slot, arraysIn(piece.data),
+    { piece.data->GetDataObjectType(), dimensionOf(piece.data),
+      hasCellValues(piece.data) ? layersForCells : layersForPoints, piece.data->GetNumberOfCells(),
+      placesOf(piece.data), noPoints, layerBoundsOf(piece.data) } };
+  if (isGrid(piece.data))
+  {
+    facts.numbers.extent = extentOf(piece.data, false);
+  }
+  return facts;
+}
+
+} // namespace filters

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Input/DatasetPieces.h"
+#include "Input/OneLayer.h"
+#include "Ranks/GhostCells.h"
+
+#include "vtkType.h"
+
+#include <cstdint>
+#include <string>
+
+namespace filters
+{
+
+/// The description of a piece that is sent to all ranks.
+struct PieceFacts
+{
+  Slot slot;
+  std::string arrays;
+  struct Numbers
+  {
+    int type, dimension, layers;
+    vtkIdType cells;
+    std::uint64_t places;
+    PointExtent extent;
+    LayerBounds layer;
+  } numbers;
+};
+
+PieceFacts factsOf(const DatasetPiece& piece);
+
+} // namespace filters
