@@ -5,16 +5,15 @@
 import os
 
 import numpy as np
-from views_testing import FOLDER, INSIDE, ViewsSession
+from window_testing import BENCH, FOLDER, PROPERTIES, ViewsSession
 from series_testing import write_series
-from window_testing import BENCH
 
 SERIES = os.path.join(FOLDER, "flow.pvd")
-TIMES = list(range(41))
+TIMES = list(range(21))
 
 
 def blob(x, y, z, time):
-    strength = 0.1 + 0.4 * max(0, 1 - abs(time - 20) / 10)
+    strength = 0.1 + 0.4 * max(0, 1 - abs(time - 10) / 5)
     return 1 - strength * np.maximum(0, 1 - (x**2 + y**2 + z**2) / 0.6**2)**2
 
 
@@ -28,7 +27,7 @@ def check():
     "Fits, at the first time, whose own k is five times that of the strongest."
     settle_views()
     abort, bench, own = widget("AbortButton"), inside_window.BENCH, k()
-    end = click_during(bench.GetClientSideObject(), 0.02, abort)
+    end = click_during(bench.GetClientSideObject(), 0.04, abort)
     fit()
     end()
     inside_window.SETTLE()
@@ -44,13 +43,13 @@ def check():
 KEPT = """
 inside_window.SETTLE()
 scene = GetAnimationScene()
-for time in 20, 40, 0:
+for time in 10, 20, 0:
     scene.AnimationTime = time
     inside_window.SETTLE()
     assert k() == inside_window.fitted, (time, k())
 """
 
-write_series(SERIES, TIMES, 25, blob)
+write_series(SERIES, TIMES, 21, blob)
 user = ViewsSession(BENCH)
 user.press("OneImage")
 user.python(HELPERS + """
@@ -60,6 +59,9 @@ check()
 """)
 user.python(HELPERS + KEPT + "SetActiveSource(FindSource('flow'))\n")
 user.choose_filter("Schlieren")
+user.properties = PROPERTIES
+user.choose("ImageSize/LineEdit0", "64")
+user.choose("ImageSize/LineEdit1", "64")
 user.apply()
 user.python(HELPERS + """
 bench = FindSource("Schlieren1")
@@ -68,7 +70,7 @@ settle(bench)
 check()
 """)
 user.python(HELPERS + KEPT)
-user.play(INSIDE + f"""
+user.play(f"""
 from paraview.simple import *
 flow = OpenDataFile({SERIES!r}, registrationName="flow")
 flow.UpdatePipeline()

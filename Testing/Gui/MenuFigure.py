@@ -39,6 +39,8 @@ user.save_state("example.pvsm")
 
 # Of a filter that is chosen and applied.
 user.choose_filter("Schlieren")
+user.choose("ImageSize/LineEdit0", "64")
+user.choose("ImageSize/LineEdit1", "64")
 user.apply()
 user.python("settle_views()")
 save_figure(user, IMAGE)

@@ -99,8 +99,6 @@ user.click(WIDGET + "/PaintOnImage")
 user.check(WIDGET + "/PaintOnImage", "checked", "false")
 
 user.play(f"""
-import sys
-sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
 from paraview.simple import *
 flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()

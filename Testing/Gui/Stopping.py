@@ -1,16 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """ParaView's abort button where Apply waits for the image of a filter, with the builtin server: there is none then, until
-something is changed."""
+something is changed. Where a view waits for the refractive index of data that are to be drawn as Schlieren, it stops
+that, and another setting begins anew."""
 
-import os
+from window_testing import DISPLAY, MESH, ViewsSession
 
-from views_testing import FOLDER, INSIDE, MESH, ViewsSession
-
-REPORT = os.path.join(FOLDER, "report.txt")
-with open(REPORT, "w", encoding="utf-8"):
-    pass
-STEPS = f"""
+BOX = DISPLAY + "/Representation/displayRepresentationWidget/comboBox"
+STEPS = """
 bench = FindSource("Schlieren1")
 abort, accept = widget("AbortButton"), widget("propertiesPanel", "Accept")
 def points(source):
@@ -22,21 +19,20 @@ def apply_and_abort(source, fraction):
     click(accept)
     end()
     assert not abort.isEnabled()
-def report(text):
-    with open({REPORT!r}, "a") as file:
-        file.write(text + "\\n")
 """
 
 user = ViewsSession()
 user.choose_filter("Schlieren")
+user.choose("ImageSize/LineEdit0", "256")
+user.choose("ImageSize/LineEdit1", "256")
 user.apply()
 user.python(STEPS + """
 settle(bench)
-assert points(bench) == 512 * 512 and not line().startswith("No image")
+assert points(bench) == 256 * 256 and not line().startswith("No image")
 """)
 
 # The image.
-user.type("SamplesPerPixel/LineEdit0", "200")
+user.type("SamplesPerPixel/LineEdit0", "800")
 user.python(STEPS + """
 apply_and_abort(bench, 0.05)
 assert points(bench) == 0 and line() == "No image: it was stopped", (points(bench), line())
@@ -45,18 +41,53 @@ assert points(bench) == 0 and line() == "No image: it was stopped", (points(benc
 Render(FindView("Image of Schlieren1"))
 bench.UpdatePipeline()
 assert points(bench) == 0
-report("stopped")
 """)
 user.type("SamplesPerPixel/LineEdit0", "2")
 user.apply()
 user.python(STEPS + """
 settle(bench)
-assert points(bench) == 512 * 512 and information(bench, "Status").startswith("2 samples")
-report("applied")
+assert points(bench) == 256 * 256 and information(bench, "Status").startswith("2 samples")
+Delete(bench)
+Delete(FindView("Image of Schlieren1"))
+
+# Drawn in a view.
+import inside_window
+view = FindView("RenderView1")
+SetActiveView(view)
+HideAll(view)
+flow = Tetrahedralize(Input=Calculator(Input=Wavelet(WholeExtent=3 * [-24, 24]), ResultArrayName="rho", Function="RTData"), registrationName="flow")
+display = Show(flow, view)
+display.SetRepresentationType("Outline")
+ResetCamera(view)
+SetActiveSource(flow)
+Render(view)
+inside_window.END = click_during(display.SchlierenBench.GetClientSideObject(), 0.05, abort)
 """)
-
-user.play(INSIDE + MESH)
-
-with open(REPORT, encoding="utf-8") as file:
-    steps = file.read().split("\n")
-assert steps == ["stopped", "applied", ""], steps
+user.event(BOX, "set_string", "Schlieren")
+user.python("""
+import inside_window
+inside_window.END()
+abort = widget("AbortButton")
+view, display = GetActiveView(), GetDisplayProperties(FindSource("flow"), GetActiveView())
+bench = display.SchlierenBench
+pause(0.5)
+assert (information(bench, "MediumBuilds"), information(bench, "PictureCount")) == (0, 0), (
+    information(bench, "MediumBuilds"), information(bench, "PictureCount"), information(bench, "Status"))
+assert not abort.isEnabled()
+# Nothing begins anew by itself.
+view.GetActiveCamera().Azimuth(10)
+Render(view)
+pause(0.5)
+assert information(bench, "MediumBuilds") == 0
+""")
+user.event(BOX, "set_string", "Outline")
+user.event(BOX, "set_string", "Schlieren")
+user.python("""
+view = GetActiveView()
+bench = GetDisplayProperties(FindSource("flow"), view).SchlierenBench
+bench.GladstoneDaleConstant = 3e-4
+Render(view)
+settle_views()
+assert information(bench, "MediumBuilds") == 1
+""")
+user.play(MESH)

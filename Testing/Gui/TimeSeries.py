@@ -7,7 +7,7 @@ import json
 import os
 
 import numpy as np
-from views_testing import FOLDER, INSIDE, ViewsSession, drawn, load, png, simple, views
+from views_testing import FOLDER, ViewsSession, png, simple
 from plugin_testing import Schlieren
 from series_testing import write_series
 from filter_testing import saved
@@ -71,7 +71,13 @@ def vcr(name):
 
 
 user.press("OneImage")
-user.python(SETTLE + NOTE + begin("played"))
+user.python(SETTLE + NOTE + begin("played") + f"""
+# The air around the blob is clear, though not a value is above its density.
+volume = GetRepresentation(FindSource("flow"), FindView("RenderView1"))
+assert volume.Representation == "Volume"
+points = np.reshape(volume.ScalarOpacityFunction.Points, (-1, 4))
+assert np.allclose(points[:, :2], [[{AIR} - 0.1, 0.5], [{AIR}, 0]], atol=2e-3), points
+""")
 vcr("Play")
 user.python(SETTLE + "save('played')\n" + begin("stepped"))
 user.check_at(PANEL + "/Accept", "enabled", "false")
@@ -81,7 +87,6 @@ with open({NOTES!r}, "w") as file:
     for text in (widget("propertiesPanel", "Sensitivity", "Note").text(), information(bench, "Status")):
         file.write(text + "\\n")
 """)
-user.save_state("played.pvsm")
 vcr("FirstFrame")
 user.python(SETTLE + "save('first')\n")
 vcr("NextFrame")
@@ -93,7 +98,7 @@ bench.SamplesPerPixel = 400
 scene = FindView("RenderView1")
 scene.CameraPosition = [1 + scene.CameraPosition[2] / 3, 0.5, scene.CameraPosition[2]]
 Render(scene)
-until(lambda: " of 400 " in information(bench, "Status"), 20)
+until(lambda: " of 400 " in information(bench, "Status"))
 bench.SamplesPerPixel = 16
 """
 user.python(BEGIN + begin("again") + "GetAnimationScene().GoToFirst()")
@@ -103,9 +108,8 @@ user.python(BEGIN + begin("saved") + f"""
 shown.OrientationAxesVisibility = display.SchlierenLegend = 0
 SaveAnimation(os.path.join(FOLDER, "saved.png"), shown, FrameWindow=[0, 3], ImageResolution={SIZE})
 """ + begin("over") + SETTLE + "save('saved')\n")
-user.save_state("saved.pvsm")
 
-user.play(INSIDE + f"""
+user.play(f"""
 from paraview.simple import *
 flow = OpenDataFile({SERIES!r}, registrationName="flow")
 flow.UpdatePipeline()
@@ -188,23 +192,3 @@ for step, time in enumerate(TIMES):
     intensity = scripted("saved", time, SIZE)[0].reshape(SIZE[::-1])
     difference = np.abs(frame - np.clip(intensity, 0, 1))
     assert difference.max() < 1.5 / 255, (time, difference.max())
-
-# A script that loads the state saves the same frames.
-load("saved.pvsm")
-(_, (_, view)) = views()
-(flow,) = simple.GetSources().values()
-bench = drawn(flow, view).SchlierenBench
-assert bench.KMode == "Automatic Kept"
-simple.SaveAnimation(os.path.join(FOLDER, "script.png"), view, FrameWindow=[0, 3], ImageResolution=SIZE)
-for step in range(len(TIMES)):
-    difference = png(os.path.join(FOLDER, f"script.{step:04}.png")) - png(os.path.join(FOLDER, f"saved.{step:04}.png"))
-    assert np.abs(difference).max() <= 1, (step, np.abs(difference).max())
-
-# The air around the blob is clear, though not a value is above its density.
-load("played.pvsm")
-((_, scene), _) = views()
-(flow,) = simple.GetSources().values()
-volume = simple.GetRepresentation(flow, scene)
-assert volume.Representation == "Volume"
-points = np.reshape(volume.ScalarOpacityFunction.Points, (-1, 4))
-assert np.allclose(points[:, :2], [[AIR - 0.1, 0.5], [AIR, 0]], atol=2e-3), points

@@ -11,8 +11,6 @@ SIZE = 96
 
 # The script that sets it up: "flow" in RenderView1, "bench" in RenderView2 and "shadows" in RenderView3.
 SCENE = f"""
-import os, sys
-sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Gui"))
 from paraview.simple import *
 flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()

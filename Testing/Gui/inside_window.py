@@ -15,6 +15,8 @@ sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "
 
 import quick_sessions  # noqa: E402, F401
 from paraview import servermanager, simple  # noqa: E402
+from shown_testing import (check_display, check_linked, drawn, filters, frame_view, shown, values,  # noqa: E402, F401
+                           views)
 from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
@@ -41,7 +43,7 @@ def process_events():
     return time.perf_counter() - start
 
 
-def until(condition, seconds=120):
+def until(condition, seconds=300):
     """Lets the window run until something is so."""
     end = time.monotonic() + seconds
     while not condition():
@@ -79,6 +81,11 @@ def displays():
             if getattr(display, "Representation", "") == "Schlieren" and display.Visibility == 1]
 
 
+def shown_at_all():
+    """Whether all that is drawn as Schlieren has an image, complete or not."""
+    return displays() and all(information(display.SchlierenBench, "PictureCount") > 0 for display in displays())
+
+
 def settle_views():
     """Until all that is drawn as Schlieren is complete and nothing changes it any more."""
     def whole():
@@ -108,6 +115,22 @@ def save(name, source, *views):
             ("view_up", camera.GetViewUp()), ("angle", camera.GetViewAngle()),
             ("parallel", camera.GetParallelProjection()),
             ("parallel_scale", camera.GetParallelScale()))})
+
+
+def check_linked_now(scene, *others):
+    """As check_linked() does in a state."""
+    save_state(os.path.join(FOLDER, "links.pvsm"))
+    check_linked("links.pvsm", scene, *others)
+
+
+def has_links():
+    """Whether any views are linked."""
+    return servermanager.ProxyManager().SMProxyManager.GetNumberOfLinks() > 0
+
+
+def intensity(bench):
+    """The image that a bench has, as it is."""
+    return np.array(vtk_to_numpy(bench.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Intensity")))
 
 
 def by_name(*names):
@@ -153,6 +176,7 @@ def _run_step(number):
     try:
         with open(name, encoding="utf-8") as file:
             exec(compile(file.read(), name, "exec"), {"__name__": "__main__"})
+        print(f"Step {number} is done.", flush=True)
     except Exception:  # PyQt would end the window
         traceback.print_exc()
 

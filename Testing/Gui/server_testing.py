@@ -31,12 +31,13 @@ def start_server():
 
 
 def connect(port):
-    """The script that connects the window and loads the plugin on the server."""
+    """The script that connects the window and loads the plugin on the server, for all scripts of the session."""
     return f"""
 import os
+from paraview import simple
+simple.Connect("localhost", {port})
+simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=True, ns=vars(simple))
 from paraview.simple import *
-Connect("localhost", {port})
-LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=True, ns=globals())
 """
 
 

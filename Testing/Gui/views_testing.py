@@ -6,53 +6,17 @@ import base64
 import os
 import re
 import subprocess
-import sys
 
 import numpy as np
 
-SOURCE = os.environ["SCHLIEREN_SOURCE_DIR"]
-sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python"))
+from window_testing import FOLDER, JET, MESH, OPEN_JET, SOURCE, ViewsSession  # noqa: F401, finds the next
+from plugin_testing import image_array, simple  # noqa: F401
+from shown_testing import check_display, check_linked, drawn, filters, frame_view, shown, values, views  # noqa: F401
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
-from plugin_testing import image_array, simple  # noqa: E402, F401
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
-from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter  # noqa: E402
-from window_testing import FOLDER, Session  # noqa: E402
-
-JET = os.path.join(SOURCE, "Testing", "Data", "ladenburg_jet_3d.vti")
-TOOLBAR = "pqClientMainWindow/SchlierenToolBar/"
 TRACE = os.path.join(FOLDER, "trace.py")
-
-# Lets a session's scripts import inside_window.py.
-INSIDE = f"""
-import sys
-sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
-"""
-
-# Opened and applied: images are shown as outlines.
-OPEN_JET = f"""
-from paraview.simple import *
-jet = OpenDataFile({JET!r}, registrationName="jet")
-jet.UpdatePipeline()
-view = GetActiveViewOrCreate("RenderView")
-Show(jet, view)
-view.ResetCamera()
-SetActiveSource(jet)
-"""
-
-# A mesh with a density, shown as a surface.
-MESH = """
-from paraview.simple import *
-wave = Wavelet(WholeExtent=3 * [-8, 8], registrationName="wave")
-rho = Calculator(Input=wave, Function="1e-3*RTData+1", ResultArrayName="rho",
-                 registrationName="density")
-mesh = AppendDatasets(Input=[rho], registrationName="mesh")
-mesh.UpdatePipeline()
-view = GetActiveViewOrCreate("RenderView")
-Show(mesh, view)
-view.ResetCamera()
-SetActiveSource(mesh)
-"""
 
 # Writes the Python trace of what is done first, when the view shows it.
 TRACE_FIRST_STEP = f"""
@@ -67,26 +31,6 @@ def write(*_):
             smtrace.stop_trace()
 view.SMProxy.AddObserver("EndEvent", write)
 """
-
-
-class ViewsSession(Session):
-    def press(self, name):
-        self.event(TOOLBAR + name, "activate")
-
-    def check_button(self, name, prop, value):
-        self.check_at(TOOLBAR + name, prop, value)
-
-    def check_message(self, text):
-        """The message that a mistake ends in; it is closed."""
-        box = "pqClientMainWindow/SchlierenMessage"
-        self.check_at(box, "text", text)
-        self.event(box + "/qt_msgbox_buttonbox/1QPushButton0", "activate")
-
-    def undo(self):
-        self.menu("menu_Edit", "actionEditUndo")
-
-    def redo(self):
-        self.menu("menu_Edit", "actionEditRedo")
 
 
 def traced(script, name):
@@ -104,7 +48,7 @@ def play_trace(state, before):
                    "[Delete(view) for view in GetRenderViews()]\n")
     environment = dict(os.environ, PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
     done = subprocess.run(["pvpython", script], cwd=FOLDER, env=environment, text=True, check=False,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=100)
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
     print(done.stdout)
     assert done.returncode == 0, f"pvpython ended with {done.returncode}"
 
@@ -112,71 +56,6 @@ def play_trace(state, before):
 def load(state):
     simple.ResetSession()
     simple.LoadState(os.path.join(FOLDER, state))
-
-
-def views():
-    """Those of the layout, in the order of their cells: (cell, view)."""
-    layout = list(simple.GetLayouts().values())[0]
-    found = [(layout.GetViewLocation(view.SMProxy), view) for view in simple.GetRenderViews()]
-    return sorted(found, key=lambda pair: pair[0])
-
-
-def filters():
-    """The Schlieren filters by their names."""
-    return {key[0]: proxy for key, proxy in sorted(simple.GetSources().items())
-            if proxy.GetXMLName() == "Schlieren"}
-
-
-def shown(bench, view):
-    """How the view shows it; null where it does not."""
-    found = view.SMProxy.FindRepresentation(bench.SMProxy, 0)
-    return simple.servermanager._getPyProxy(found) if found else None  # pylint: disable=protected-access
-
-
-def drawn(flow, view):
-    """How the view draws the flow as Schlieren."""
-    display = shown(flow, view)
-    assert display.Representation == "Schlieren" and display.Visibility == 1
-    return display
-
-
-def check_linked(state, scene, *others):
-    """The views have the camera of the 3-D view, and keep it, because each is linked with it in a state file."""
-    for view in others:
-        for name in ("CameraPosition", "CameraFocalPoint", "CameraViewUp", "CameraViewAngle", "CameraParallelScale",
-                     "CameraParallelProjection"):
-            mine, its = view.GetPropertyValue(name), scene.GetPropertyValue(name)
-            assert np.allclose(mine, its), (name, mine, its)
-    with open(os.path.join(FOLDER, state), encoding="utf-8") as file:
-        links = re.findall("<CameraLink name=.*?</CameraLink>", file.read(), re.DOTALL)
-    pairs = [set(re.findall(r'id="(\d+)"', link)) for link in links]
-    assert len(pairs) >= len(others) and all(len(pair) == 2 for pair in pairs), links
-    assert len(set.union(*pairs)) == 1 + len(pairs), "Views without a link"
-
-
-def frame_view(view, scale):
-    """Parallel light, an image that is 2 * scale high, at its own k where k is automatic, and nothing else in it: no
-    window's size matters then."""
-    view.CameraParallelProjection, view.CameraParallelScale = 1, scale
-    view.OrientationAxesVisibility = 0
-    for display in view.Representations:
-        if display.GetProperty("SchlierenBench") is not None:
-            if display.SchlierenBench.KMode == "Automatic Kept":
-                display.SchlierenBench.KMode, display.SchlierenBench.LockedK = "Automatic", 0
-            display.SchlierenLegend = 0
-
-
-def check_display(representation, white=1):
-    """Intensity in grey between fixed ends, without a legend and with its own colours."""
-    assert representation.Visibility == 1
-    assert list(representation.ColorArrayName)[:2] == ["POINTS", "Intensity"]
-    assert representation.UseSeparateColorMap == 1 and representation.MapScalars == 1
-    points = np.reshape(representation.LookupTable.RGBPoints, (-1, 4))
-    assert points[0, 0] == 0 and points[-1, 0] == white, points
-    assert np.ptp(points[:, 1:], axis=1).max() == 0, "The colour map is not grey"
-    assert representation.LookupTable.AutomaticRescaleRangeMode == "Never"
-    assert not representation.LookupTable.SMProxy.IsScalarBarVisible(
-        simple.LocateView(representation).SMProxy)
 
 
 def screenshot(view, name, size):
@@ -254,10 +133,3 @@ def png_of_text(text):
     with open(path, "wb") as file:
         file.write(base64.b64decode(text[len(head):]))
     return png(path)
-
-
-def values(proxy, without=()):
-    """All that is set on a filter, as text."""
-    return {name: str(proxy.GetPropertyValue(name)) for name in proxy.ListProperties()
-            if name not in ("Input", "Bodies", "TransferFunctions", "GradedFilter") + without
-            and not proxy.GetProperty(name).SMProperty.GetInformationOnly()}

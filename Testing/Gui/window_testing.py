@@ -5,10 +5,13 @@
 import os
 import re
 import subprocess
+import sys
 from xml.sax.saxutils import quoteattr
 
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
+SOURCE = os.environ["SCHLIEREN_SOURCE_DIR"]
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python"))
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
 VIEW = ("pqClientMainWindow/centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget"
         "/MultiViewWidget1/Container/Frame.{}/CentralWidgetFrame/Viewport")
@@ -18,6 +21,34 @@ PROPERTIES = (PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetConten
 # Of data that the active view shows: how, and of those drawn as Schlieren the settings of the image.
 DISPLAY = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/DisplayFrame/ProxyPanel"
 BENCH = DISPLAY + "/SchlierenBench/ProxySelectionWidget/frame/ChosenProxyWidget"
+
+JET = os.path.join(SOURCE, "Testing", "Data", "ladenburg_jet_3d.vti")
+TOOLBAR = "pqClientMainWindow/SchlierenToolBar/"
+
+# Opened and applied: images are shown as outlines.
+OPEN_JET = f"""
+from paraview.simple import *
+jet = OpenDataFile({JET!r}, registrationName="jet")
+jet.UpdatePipeline()
+view = GetActiveViewOrCreate("RenderView")
+Show(jet, view)
+view.ResetCamera()
+SetActiveSource(jet)
+"""
+
+# A mesh with a density, shown as a surface.
+MESH = """
+from paraview.simple import *
+wave = Wavelet(WholeExtent=3 * [-8, 8], registrationName="wave")
+rho = Calculator(Input=wave, Function="1e-3*RTData+1", ResultArrayName="rho",
+                 registrationName="density")
+mesh = AppendDatasets(Input=[rho], registrationName="mesh")
+mesh.UpdatePipeline()
+view = GetActiveViewOrCreate("RenderView")
+Show(mesh, view)
+view.ResetCamera()
+SetActiveSource(mesh)
+"""
 
 
 class Session:
@@ -129,7 +160,7 @@ until(lambda: plane.property("side") == {side})
     def view_event(self, frame, event, place, button, buttons):
         self.event(VIEW.format(frame), event, f"({place[0]:g},{place[1]:g},{button},{buttons},0)")
 
-    def play(self, script, seconds=240, expected=None):
+    def play(self, script, seconds=500, expected=None):
         """Plays it after the Python script `script`, and fails where a step does or VTK complains, but for lines with
         the text `expected`, which must be there."""
         events, before = os.path.join(FOLDER, "events.xml"), os.path.join(FOLDER, "before.py")
@@ -140,13 +171,19 @@ until(lambda: plane.property("side") == {side})
                        f"from inside_window import add_steps\nadd_steps({self.scripts})\n{script}")
         environment = dict(os.environ, XDG_CONFIG_HOME=os.path.join(FOLDER, "window"),
                            PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
-        done = subprocess.run(
-            [os.environ["SCHLIEREN_PARAVIEW"], "--dr", f"--script={before}",
-             f"--test-script={events}", f"--test-directory={FOLDER}", "--exit"],
-            env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-            timeout=seconds, check=False)
+        try:
+            done = subprocess.run(
+                [os.environ["SCHLIEREN_PARAVIEW"], "--dr", f"--script={before}",
+                 f"--test-script={events}", f"--test-directory={FOLDER}", "--exit"],
+                env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                timeout=seconds, check=False)
+        except subprocess.TimeoutExpired as late:
+            print((late.stdout or b"").decode(errors="replace"))
+            raise
         print(done.stdout)
         assert done.returncode == 0, f"paraview ended with {done.returncode}"
+        for number in range(1, self.scripts + 1):
+            assert f"Step {number} is done." in done.stdout, f"Step {number} did not come to its end"
         # Of a server without a display, which since VTK 9.6 draws even so.
         said = re.sub(r"Generic Warning: In vtkXOpenGLRenderWindow.*\nbad X server connection", "", done.stdout)
         if expected:
@@ -155,3 +192,23 @@ until(lambda: plane.property("side") == {side})
         assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", said)
         # What ParaView warns of where an image is shown by an array that it does not have.
         assert not re.search("Could not determine array range|Failed to locate selected", done.stdout)
+
+
+class ViewsSession(Session):
+    def press(self, name):
+        self.event(TOOLBAR + name, "activate")
+
+    def check_button(self, name, prop, value):
+        self.check_at(TOOLBAR + name, prop, value)
+
+    def check_message(self, text):
+        """The message that a mistake ends in; it is closed."""
+        box = "pqClientMainWindow/SchlierenMessage"
+        self.check_at(box, "text", text)
+        self.event(box + "/qt_msgbox_buttonbox/1QPushButton0", "activate")
+
+    def undo(self):
+        self.menu("menu_Edit", "actionEditUndo")
+
+    def redo(self):
+        self.menu("menu_Edit", "actionEditRedo")
