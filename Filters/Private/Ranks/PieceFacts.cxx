@@ -3,6 +3,7 @@
 #include "Ranks/PieceFacts.h"
 
 #include "Cells/MeshKey.h"
+#include "Cells/Polyhedra.h"
 #include "Input/FlatData.h"
 
 #include "vtkCellData.h"
@@ -22,9 +23,10 @@ namespace
 {
 
 /// Layers of cells that a point may depend on: its trend depends on the points of the cells around
-/// it, and of the next ones if these are few; point values found from cells need twice as many.
-constexpr int layersForPoints = 2;
-constexpr int layersForCells = 4;
+/// it, and of the next ones if these are few, and its limits on the second derivatives at these
+/// points; point values found from means need two more.
+constexpr int layersForPoints = 4;
+constexpr int layersForMeans = 6;
 
 /// Returns whether cells have values.
 bool hasCellValues(vtkDataSet* mesh)
@@ -101,8 +103,8 @@ PieceFacts factsOf(const DatasetPiece& piece)
 {
   PieceFacts facts{ piece.slot, arraysIn(piece.data),
     { piece.data->GetDataObjectType(), dimensionOf(piece.data),
-      hasCellValues(piece.data) ? layersForCells : layersForPoints, piece.data->GetNumberOfCells(),
-      placesOf(piece.data), noPoints, layerBoundsOf(piece.data) } };
+      hasCellValues(piece.data) || hasPolyhedra(piece.data) ? layersForMeans : layersForPoints,
+      piece.data->GetNumberOfCells(), placesOf(piece.data), noPoints, layerBoundsOf(piece.data) } };
   if (isGrid(piece.data))
   {
     facts.numbers.extent = extentOf(piece.data, false);
