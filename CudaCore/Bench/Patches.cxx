@@ -14,8 +14,13 @@ namespace schlieren
 namespace
 {
 
-constexpr double pixelsOfSet = 1024; ///< of patches, about
-constexpr std::int64_t around = 2;   ///< pixels, what the film knows of a pixel's neighbours
+constexpr std::int64_t around = 2; ///< pixels, what the film knows of a pixel's neighbours
+
+/// Patches of both sets, at the most. Of n independent ones all miss what covers a part f of the pixels with a probability
+/// of (1 - f)^n: of 100, for 2 and 3 %, 0.13 and 0.05. Spread as they are they miss a disc with 0.01 and 0.001, a band along
+/// columns with 0.06 and 0.01, one along rows with 0.01 and less; what is scattered all over the image as independent ones.
+constexpr std::size_t patchesElsewhere = 100;
+constexpr std::size_t patchesAtBodies = 32, patchesAtBorders = 32, patchesAtVariations = 32;
 
 /// Chooses the places of patches.
 class Planner
@@ -38,9 +43,21 @@ private:
   };
   using Cells = std::vector<Cell>;
 
+  /// The rays between four scouts: where they land, and how far they are moved.
+  struct Quad
+  {
+    double lowPlace[2], highPlace[2], lowMoved[2], highMoved[2];
+  };
+  void makeQuads();
+
   /// By their direction from the middle, so that no side is left out.
   static void sortAlongBorder(Cells& cells);
-  void spread(const Cells& cells, double pixels, PatchPlace where);
+  enum class Order
+  {
+    Rows,
+    Border
+  };
+  void spread(const Cells& cells, Order order, std::size_t most, PatchPlace where);
   /// Aims a patch at where the light comes from that lands on it. False if that is from all over the image, or from
   /// outside, where no scouts are.
   bool findOrigin(Patch& patch) const;
@@ -50,6 +67,7 @@ private:
 
   const Scouts& scouts_;
   const View& view_;
+  std::vector<Quad> quads_;
   PatchLayout layout_;
   std::int64_t lost_ = 0; ///< patches whose light comes from all over the image, or from outside
 };
@@ -61,6 +79,7 @@ PatchLayout Planner::layOut(std::int64_t margin, bool wantsAllPixels)
   const std::int64_t size = (Patch::edge + stride - 1) / stride; // scouts
   const std::vector<double> variations = scouts_.variationsOnFilm();
   Cells within, atBodies, atBorders;
+  makeQuads();
   for (std::int64_t row = 0; row < scouts_.rows(); row += size)
   {
     for (std::int64_t column = 0; column < scouts_.columns(); column += size)
@@ -103,11 +122,11 @@ PatchLayout Planner::layOut(std::int64_t margin, bool wantsAllPixels)
   const double least = sorted.empty() ? 0 : sorted[static_cast<std::size_t>(rank)].variation;
   const auto weak = std::stable_partition(
     within.begin(), within.end(), [&](const Cell& cell) { return cell.variation > least; });
-  spread(Cells(within.begin(), weak), 0.25 * pixelsOfSet, PatchPlace::Elsewhere);
-  spread(Cells(weak, within.end()), 0.375 * pixelsOfSet, PatchPlace::Elsewhere);
-  spread(atBodies, 0.25 * pixelsOfSet, PatchPlace::Body);
+  spread(Cells(within.begin(), weak), Order::Rows, patchesAtVariations, PatchPlace::Elsewhere);
+  spread(Cells(weak, within.end()), Order::Rows, patchesElsewhere, PatchPlace::Elsewhere);
+  spread(atBodies, Order::Rows, patchesAtBodies, PatchPlace::Body);
   sortAlongBorder(atBorders);
-  spread(atBorders, 0.25 * pixelsOfSet, PatchPlace::Border);
+  spread(atBorders, Order::Border, patchesAtBorders, PatchPlace::Border);
 
   takeWholeIfCheaper(margin, wantsAllPixels);
   return std::move(layout_);
@@ -179,31 +198,100 @@ void Planner::takeWholeIfCheaper(std::int64_t margin, bool isWanted)
   }
 }
 
-/// Puts patches with so many pixels into each set, in some of these cells: one of each few, in the order of rows, so that no
-/// column is left out.
-void Planner::spread(const Cells& cells, double pixels, PatchPlace where)
+/// Puts patches into both sets, in some of these cells: evenly over their order, and of Order::Rows in each row by
+/// multiples of the golden ratio, as points of Hammersley's set are. Patches are tiles of the image, and each is another
+/// one of those of its cell: they see all pixels equally, whatever repeats from cell to cell, and have none in common.
+void Planner::spread(const Cells& cells, Order order, std::size_t most, PatchPlace where)
 {
   constexpr std::int64_t edge = Patch::edge;
   const std::int64_t size =
     std::max(scouts_.stride(), (edge + scouts_.stride() - 1) / scouts_.stride() * scouts_.stride());
-  const auto within = [&](std::int64_t first, std::int64_t pixelsOfView)
-  { return std::max<std::int64_t>(0, std::min(first + (size - edge) / 2, pixelsOfView - edge)); };
-  const auto most = static_cast<std::size_t>(2 * pixels / static_cast<double>(edge * edge));
   const std::size_t places = std::min(cells.size(), most);
-  const double weight = static_cast<double>(cells.size()) * static_cast<double>(size * size) /
-    (0.5 * static_cast<double>(places) * static_cast<double>(edge * edge));
+  const double perPlace = static_cast<double>(cells.size()) / static_cast<double>(places);
+  std::vector<bool> isTaken(cells.size(), false);
   for (std::size_t n = 0; n < places; ++n)
   {
-    constexpr double goldenRatio = 0.6180339887498949;
-    const double jitter = std::fmod(goldenRatio * static_cast<double>(n + 1), 1.);
-    const double perPlace = static_cast<double>(cells.size()) / static_cast<double>(places);
-    const Cell& cell =
-      cells[static_cast<std::size_t>((static_cast<double>(n) + jitter) * perPlace)];
-    const std::int64_t column = within(cell.column, view_.width),
-                       row = within(cell.row, view_.height);
-    Patch patch{ column, row, weight, column, row };
+    const auto fraction = [&](double factor)
+    { return std::fmod(factor * static_cast<double>(n + 1), 1.); };
+    constexpr double goldenRatio = 0.6180339887498949, rootOfTwo = 1.4142135623730950;
+    const auto at = static_cast<std::size_t>(
+      (static_cast<double>(n) + fraction(order == Order::Rows ? rootOfTwo : goldenRatio)) *
+      perPlace);
+    std::size_t taken = at;
+    if (order == Order::Rows)
+    {
+      const auto isBelow = [](const Cell& a, const Cell& b) { return a.row < b.row; };
+      const auto row = std::equal_range(cells.begin(), cells.end(), cells[at], isBelow);
+      taken = static_cast<std::size_t>(row.first - cells.begin()) +
+        static_cast<std::size_t>(
+          fraction(goldenRatio) * static_cast<double>(row.second - row.first));
+    }
+    while (isTaken[taken])
+    {
+      taken = (taken + 1) % cells.size();
+    }
+    isTaken[taken] = true;
+    const Cell& cell = cells[taken];
+    std::int64_t tiles = 1; // of the cell
+    const auto within = [&](std::int64_t first, std::int64_t pixelsOfView, double part)
+    {
+      const std::int64_t begin = (first + edge - 1) / edge;
+      const std::int64_t end = (std::min(first + size, pixelsOfView) + edge - 1) / edge;
+      const std::int64_t count = std::max<std::int64_t>(1, end - begin);
+      tiles *= count;
+      const auto tile = static_cast<std::int64_t>(part * static_cast<double>(count));
+      return std::max<std::int64_t>(0, std::min((begin + tile) * edge, pixelsOfView - edge));
+    };
+    // One over the only positive root of x^3 = x + 1, and its square, fill a plane as the golden ratio does a line.
+    constexpr double plastic = 0.7548776662466927;
+    const std::int64_t column = within(cell.column, view_.width, fraction(plastic)),
+                       row = within(cell.row, view_.height, fraction(plastic * plastic));
+    Patch patch{ column, row, 2 * perPlace * static_cast<double>(tiles), column, row };
     lost_ += findOrigin(patch) ? 0 : 1;
     layout_.sets[n % 2][static_cast<std::size_t>(where)].push_back(patch);
+  }
+}
+
+/// What is beyond the outermost scouts moves as these do.
+void Planner::makeQuads()
+{
+  if (scouts_.areOfCamera())
+  {
+    return;
+  }
+  const std::int64_t counts[2] = { scouts_.columns(), scouts_.rows() };
+  const double last[2] = { static_cast<double>(view_.width - 1),
+    static_cast<double>(view_.height - 1) };
+  for (std::int64_t row = 0; row + 1 < counts[1]; ++row)
+  {
+    for (std::int64_t column = 0; column + 1 < counts[0]; ++column)
+    {
+      constexpr double infinite = std::numeric_limits<double>::infinity();
+      Quad quad{ { infinite, infinite }, { -infinite, -infinite }, { infinite, infinite },
+        { -infinite, -infinite } };
+      for (std::int64_t corner = 0; corner < 4; ++corner)
+      {
+        const std::int64_t at[2] = { column + corner % 2, row + corner / 2 };
+        const Scout& scout = *scouts_.at(at[0], at[1]);
+        if (scout.fate != RayFate::Left && scout.fate != RayFate::Missed)
+        {
+          continue;
+        }
+        for (std::size_t axis = 0; axis < 2; ++axis)
+        {
+          const double moved = scout.moved[axis];
+          const double place =
+            (static_cast<double>(at[axis]) + 0.5) * static_cast<double>(scouts_.stride()) - 0.5;
+          const double low = at[axis] == 0 ? 0 : place;
+          const double high = at[axis] + 1 == counts[axis] ? std::max(place, last[axis]) : place;
+          quad.lowMoved[axis] = std::min(quad.lowMoved[axis], moved);
+          quad.highMoved[axis] = std::max(quad.highMoved[axis], moved);
+          quad.lowPlace[axis] = std::min(quad.lowPlace[axis], low + moved);
+          quad.highPlace[axis] = std::max(quad.highPlace[axis], high + moved);
+        }
+      }
+      quads_.push_back(quad);
+    }
   }
 }
 
@@ -215,45 +303,20 @@ bool Planner::findOrigin(Patch& patch) const
     static_cast<double>(patch.row) - 1 };
   double least[2] = { 0, 0 }, most[2] = { 0, 0 };
   bool isFound = false;
-  for (std::int64_t row = 0; row + 1 < scouts_.rows() && !scouts_.areOfCamera(); ++row)
+  for (const Quad& quad : quads_)
   {
-    for (std::int64_t column = 0; column + 1 < scouts_.columns(); ++column)
+    bool isOver = true;
+    for (std::size_t axis = 0; axis < 2; ++axis)
     {
-      constexpr double infinite = std::numeric_limits<double>::infinity();
-      double lowMoved[2] = { infinite, infinite }, highMoved[2] = { -infinite, -infinite };
-      double lowPlace[2] = { infinite, infinite }, highPlace[2] = { -infinite, -infinite };
-      for (std::int64_t corner = 0; corner < 4; ++corner)
-      {
-        const std::int64_t at[2] = { column + corner % 2, row + corner / 2 };
-        const Scout& scout = *scouts_.at(at[0], at[1]);
-        if (scout.fate != RayFate::Left && scout.fate != RayFate::Missed)
-        {
-          continue;
-        }
-        for (std::size_t axis = 0; axis < 2; ++axis)
-        {
-          const double place =
-            (static_cast<double>(at[axis]) + 0.5) * static_cast<double>(scouts_.stride()) - 0.5 +
-            scout.moved[axis];
-          lowMoved[axis] = std::min(lowMoved[axis], scout.moved[axis]);
-          highMoved[axis] = std::max(highMoved[axis], scout.moved[axis]);
-          lowPlace[axis] = std::min(lowPlace[axis], place);
-          highPlace[axis] = std::max(highPlace[axis], place);
-        }
-      }
-      bool isOver = true;
-      for (std::size_t axis = 0; axis < 2; ++axis)
-      {
-        isOver = isOver && lowPlace[axis] <= low[axis] + static_cast<double>(Patch::edge) + 1 &&
-          highPlace[axis] >= low[axis];
-      }
-      for (std::size_t axis = 0; axis < 2 && isOver; ++axis)
-      {
-        least[axis] = isFound ? std::min(least[axis], lowMoved[axis]) : lowMoved[axis];
-        most[axis] = isFound ? std::max(most[axis], highMoved[axis]) : highMoved[axis];
-      }
-      isFound = isFound || isOver;
+      isOver = isOver && quad.lowPlace[axis] <= low[axis] + static_cast<double>(Patch::edge) + 1 &&
+        quad.highPlace[axis] >= low[axis];
     }
+    for (std::size_t axis = 0; axis < 2 && isOver; ++axis)
+    {
+      least[axis] = isFound ? std::min(least[axis], quad.lowMoved[axis]) : quad.lowMoved[axis];
+      most[axis] = isFound ? std::max(most[axis], quad.highMoved[axis]) : quad.highMoved[axis];
+    }
+    isFound = isFound || isOver;
   }
   double spreadOf = 0;
   std::int64_t moved[2] = { 0, 0 };
