@@ -18,7 +18,7 @@ user.python(f"""
 views = [FindView(name) for name in ("Straight Rays", "Refracted Rays")]
 np.savez({NOTES!r}, *[view.ViewSize for view in views])
 until(shown_at_all)
-assert sum(information(display.SchlierenBench, "MediumBuilds") for display in displays()) == 1, "A medium for each view"
+assert sum(builds(display.SchlierenBench) for display in displays()) == 1, "A medium for each view"
 import inside_window
 inside_window.made = [values(display.SchlierenBench) for display in displays()]
 """)

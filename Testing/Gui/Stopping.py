@@ -71,14 +71,14 @@ abort = widget("AbortButton")
 view, display = GetActiveView(), GetDisplayProperties(FindSource("flow"), GetActiveView())
 bench = display.SchlierenBench
 pause(0.5)
-assert (information(bench, "MediumBuilds"), information(bench, "PictureCount")) == (0, 0), (
-    information(bench, "MediumBuilds"), information(bench, "PictureCount"), information(bench, "Status"))
+assert (builds(bench), information(bench, "PictureCount")) == (0, 0), (
+    builds(bench), information(bench, "PictureCount"), information(bench, "Status"))
 assert not abort.isEnabled()
 # Nothing begins anew by itself.
 view.GetActiveCamera().Azimuth(10)
 Render(view)
 pause(0.5)
-assert information(bench, "MediumBuilds") == 0
+assert builds(bench) == 0
 """)
 user.event(BOX, "set_string", "Outline")
 user.event(BOX, "set_string", "Schlieren")
@@ -88,6 +88,6 @@ bench = GetDisplayProperties(FindSource("flow"), view).SchlierenBench
 bench.GladstoneDaleConstant = 3e-4
 Render(view)
 settle_views()
-assert information(bench, "MediumBuilds") == 1
+assert builds(bench) == 1
 """)
 user.play(MESH)

@@ -44,7 +44,7 @@ made = [values(drawn(FindSource("jet"), view).SchlierenBench) for view in in_tab
 user = ViewsSession(BENCH)
 user.press("ThreeImages")
 user.python("until(shown_at_all)\n" + IN_VIEWS + """
-assert sum(information(bench, "MediumBuilds") for bench in benches) == 1, "A medium for each view"
+assert sum(builds(bench) for bench in benches) == 1, "A medium for each view"
 inside_window.made = [values(bench) for bench in benches]
 """)
 user.save_state("three.pvsm")

@@ -77,13 +77,13 @@ def watch(*_):
     if not pressed and algorithm.GetProgress() > 0.05:
         QTimer.singleShot(0, press)
 QApplication.setActiveWindow(widget())
-tag, builds = algorithm.AddObserver("ProgressEvent", watch), information(bench, "MediumBuilds")
+tag, builds = algorithm.AddObserver("ProgressEvent", watch), algorithm.GetMediumBuilds()
 bench.GladstoneDaleConstant = 3e-4
 Render(FindView("Schlieren View"))
 algorithm.RemoveObserver(tag)
 assert pressed and all(0 < progress < 1 for progress in pressed), pressed
 settle_views()
-assert GetSources() and information(bench, "MediumBuilds") > builds and not QApplication.activeModalWidget()
+assert GetSources() and algorithm.GetMediumBuilds() > builds and not QApplication.activeModalWidget()
 QTimer.singleShot(0, press)
 QTimer.singleShot(500, confirm)
 """)

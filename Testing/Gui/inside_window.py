@@ -19,6 +19,7 @@ from shown_testing import (check_display, check_linked, drawn, filters, frame_vi
                            views)
 from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 
+import_module("schlieren.vtkSchlierenFilters")  # for GetMediumBuilds, before the first filter is wrapped
 FOLDER = os.environ["SCHLIEREN_TEST_OUTPUT"]
 
 # The Qt that the window uses: 5 or 6.
@@ -62,6 +63,11 @@ def information(source, name):
     prop = source.SMProxy.GetProperty(name)
     source.SMProxy.UpdatePropertyInformation(prop)
     return prop.GetElement(0)
+
+
+def builds(source):
+    """How often the medium of a bench has been built."""
+    return source.GetClientSideObject().GetMediumBuilds()
 
 
 def finished(source):

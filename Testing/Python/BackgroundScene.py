@@ -70,9 +70,8 @@ display.SchlierenBench.BackgroundDistance = -1
 
 
 def counts():
-    bench = display.SchlierenBench.SMProxy
-    bench.UpdatePropertyInformation()
-    return [bench.GetProperty(name).GetElement(0) for name in ("PictureCount", "TotalRaysTraced")]
+    bench = display.SchlierenBench.GetClientSideObject()
+    return [bench.GetPictureCount(), bench.GetTotalRaysTraced()]
 
 
 simple.Render(view)

@@ -110,8 +110,8 @@ assert not shown_with, f"{shown_with} depend on Cutoff, but this test does not k
 def work(proxy):
     """How often it has built the medium, and how many rays it has traced."""
     proxy.UpdatePipeline()
-    proxy.UpdatePropertyInformation()
-    return (proxy.GetProperty("MediumBuilds").GetData(), proxy.GetProperty("TotalRaysTraced").GetData())
+    bench = proxy.GetClientSideObject()
+    return (bench.GetMediumBuilds(), bench.GetTotalRaysTraced())
 
 
 def current(name):

@@ -283,7 +283,6 @@ if rank == 2:
 
 if sys.argv[1:2] == ["images"]:
     import plugin_testing  # noqa: F401, loads the plugin
-    import schlieren.vtkSchlierenFilters  # noqa: F401, for GetMediumBuilds, before the first of them is wrapped
     np.savez(sys.argv[2], **images())
     if sys.argv[3:] == ["failures"]:
         say("Expected: failures")

@@ -11,9 +11,7 @@ SIZE = (120, 90)
 
 
 def builds(*benches):
-    for bench in benches:
-        bench.UpdatePropertyInformation()
-    return [bench.GetProperty("MediumBuilds").GetData() for bench in benches]
+    return [bench.GetClientSideObject().GetMediumBuilds() for bench in benches]
 
 
 def new_view(azimuth):

@@ -4,6 +4,7 @@
 
 import math
 import os
+from importlib import import_module
 
 import numpy as np
 import quick_sessions  # noqa: F401
@@ -13,6 +14,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=globals())
+import_module("schlieren.vtkSchlierenFilters")  # for GetMediumBuilds, before the first filter is wrapped
 
 AMPLITUDE = 2.7e-4
 RADIUS = 0.3
