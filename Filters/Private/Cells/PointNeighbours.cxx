@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Cells/PointNeighbours.h"
 
+#include "Common/Vectors.h"
+
 #include <algorithm>
 #include <atomic>
 #include <numeric>
@@ -77,8 +79,9 @@ CellsOfPoints cellsOfPoints(const MeshArrays& mesh, const std::vector<unsigned c
   return result;
 }
 
-/// Finds the points of all cells around a point, which is the first of them, and if these are few those of all cells
-/// around these. `forCells(point, visit)` visits the numbers of the cells around a point.
+/// Finds the points of all cells around a point, which is the first of them. If these are few tetrahedra those of all cells
+/// around these; if few other cells, those around the nearest of the points with the most cells: a third layer behind a
+/// boundary, and no wider ones along it. `forCells(point, visit)` visits the numbers of the cells around a point.
 template <class ForCells>
 void findNeighbours(
   const MeshArrays& mesh, const ForCells& forCells, vtkIdType point, PointSet& found)
@@ -102,13 +105,38 @@ void findNeighbours(
   };
   addAround(found.points()[0]);
   const std::size_t end = found.points().size();
-  if (end <= (corners < 6 * cells ? fewOfTetrahedra : fewOfHexahedra))
+  const bool areTetrahedra = corners < 6 * cells;
+  if (end > (areTetrahedra ? fewOfTetrahedra : fewOfHexahedra))
   {
-    for (std::size_t i = 1; i < end; ++i)
+    return;
+  }
+  Vector here;
+  mesh.coordinates(point, here.data());
+  std::size_t most = 0;
+  double nearest = 0;
+  std::uint32_t inside = found.points()[0];
+  for (std::size_t i = 1; i < end; ++i)
+  {
+    const std::uint32_t other = found.points()[i];
+    if (areTetrahedra)
     {
-      addAround(found.points()[i]);
+      addAround(other);
+      continue;
+    }
+    std::size_t count = 0;
+    forCells(static_cast<vtkIdType>(other), [&](vtkIdType) { ++count; });
+    Vector away;
+    mesh.coordinates(static_cast<vtkIdType>(other), away.data());
+    away = away - here;
+    const double distance = dot(away, away);
+    if (count > most || (count == most && distance < nearest))
+    {
+      most = count;
+      nearest = distance;
+      inside = other;
     }
   }
+  addAround(inside);
 }
 
 } // namespace
