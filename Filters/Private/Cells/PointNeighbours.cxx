@@ -80,8 +80,9 @@ CellsOfPoints cellsOfPoints(const MeshArrays& mesh, const std::vector<unsigned c
 }
 
 /// Finds the points of all cells around a point, which is the first of them. If these are few tetrahedra those of all cells
-/// around these; if few other cells, those around the nearest of the points with the most cells: a third layer behind a
-/// boundary, and no wider ones along it. `forCells(point, visit)` visits the numbers of the cells around a point.
+/// around these; if few other cells, those around the nearest of the points that have the most cells, if more than this one
+/// (all that are as near): a third layer behind a boundary, and no wider ones along it.
+/// `forCells(point, visit)` visits the numbers of the cells around a point.
 template <class ForCells>
 void findNeighbours(
   const MeshArrays& mesh, const ForCells& forCells, vtkIdType point, PointSet& found)
@@ -105,38 +106,56 @@ void findNeighbours(
   };
   addAround(found.points()[0]);
   const std::size_t end = found.points().size();
-  const bool areTetrahedra = corners < 6 * cells;
+  const std::size_t own = cells;
+  const bool areTetrahedra = corners < 6 * own;
   if (end > (areTetrahedra ? fewOfTetrahedra : fewOfHexahedra))
   {
     return;
   }
+  if (areTetrahedra)
+  {
+    for (std::size_t i = 1; i < end; ++i)
+    {
+      addAround(found.points()[i]);
+    }
+    return;
+  }
   Vector here;
   mesh.coordinates(point, here.data());
+  const auto squareTo = [&](std::uint32_t other)
+  {
+    Vector there;
+    mesh.coordinates(static_cast<vtkIdType>(other), there.data());
+    return dot(there - here, there - here);
+  };
+  const auto cellsAround = [&](std::uint32_t other)
+  {
+    std::size_t count = 0;
+    forCells(static_cast<vtkIdType>(other), [&](vtkIdType) { ++count; });
+    return count;
+  };
   std::size_t most = 0;
   double nearest = 0;
-  std::uint32_t inside = found.points()[0];
   for (std::size_t i = 1; i < end; ++i)
   {
     const std::uint32_t other = found.points()[i];
-    if (areTetrahedra)
-    {
-      addAround(other);
-      continue;
-    }
-    std::size_t count = 0;
-    forCells(static_cast<vtkIdType>(other), [&](vtkIdType) { ++count; });
-    Vector away;
-    mesh.coordinates(static_cast<vtkIdType>(other), away.data());
-    away = away - here;
-    const double distance = dot(away, away);
-    if (count > most || (count == most && distance < nearest))
+    const std::size_t count = cellsAround(other);
+    const double square = squareTo(other);
+    if (count > most || (count == most && square < nearest))
     {
       most = count;
-      nearest = distance;
-      inside = other;
+      nearest = square;
     }
   }
-  addAround(inside);
+  constexpr double asNear = 1.001;
+  for (std::size_t i = 1; i < end && most > own; ++i)
+  {
+    const std::uint32_t other = found.points()[i];
+    if (cellsAround(other) == most && squareTo(other) <= asNear * nearest)
+    {
+      addAround(other);
+    }
+  }
 }
 
 } // namespace
