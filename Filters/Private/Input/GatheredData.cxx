@@ -258,6 +258,7 @@ vtkSmartPointer<vtkDataSet> joinedMesh(const std::vector<vtkDataSet*>& pieces)
   merge->SetAbsoluteTolerance(0);
   merge->SetOutputPointsPrecision(vtkAlgorithm::DEFAULT_PRECISION);
   merge->Update();
+  merge->SetMergingArray(nullptr); // its destructor leaks the empty name that it begins with
   return merge->GetOutput();
 }
 
