@@ -52,12 +52,7 @@ private:
 
   /// By their direction from the middle, so that no side is left out.
   static void sortAlongBorder(Cells& cells);
-  enum class Order
-  {
-    Rows,
-    Border
-  };
-  void spread(const Cells& cells, Order order, std::size_t most, PatchPlace where);
+  void spread(const Cells& cells, std::size_t most, PatchPlace where);
   /// Aims a patch at where the light comes from that lands on it. False if that is from all over the image, or from
   /// outside, where no scouts are.
   bool findOrigin(Patch& patch) const;
@@ -122,11 +117,11 @@ PatchLayout Planner::layOut(std::int64_t margin, bool wantsAllPixels)
   const double least = sorted.empty() ? 0 : sorted[static_cast<std::size_t>(rank)].variation;
   const auto weak = std::stable_partition(
     within.begin(), within.end(), [&](const Cell& cell) { return cell.variation > least; });
-  spread(Cells(within.begin(), weak), Order::Rows, patchesAtVariations, PatchPlace::Elsewhere);
-  spread(Cells(weak, within.end()), Order::Rows, patchesElsewhere, PatchPlace::Elsewhere);
-  spread(atBodies, Order::Rows, patchesAtBodies, PatchPlace::Body);
+  spread(Cells(within.begin(), weak), patchesAtVariations, PatchPlace::Elsewhere);
+  spread(Cells(weak, within.end()), patchesElsewhere, PatchPlace::Elsewhere);
+  spread(atBodies, patchesAtBodies, PatchPlace::Body);
   sortAlongBorder(atBorders);
-  spread(atBorders, Order::Border, patchesAtBorders, PatchPlace::Border);
+  spread(atBorders, patchesAtBorders, PatchPlace::Border);
 
   takeWholeIfCheaper(margin, wantsAllPixels);
   return std::move(layout_);
@@ -198,11 +193,12 @@ void Planner::takeWholeIfCheaper(std::int64_t margin, bool isWanted)
   }
 }
 
-/// Puts patches into both sets, in some of these cells: evenly over their order, and of Order::Rows in each row by
+/// Puts patches into both sets, in some of these cells: evenly over their order, and in each row, but at borders, by
 /// multiples of the golden ratio, as points of Hammersley's set are. Patches are tiles of the image, and each is another
 /// one of those of its cell: they see all pixels equally, whatever repeats from cell to cell, and have none in common.
-void Planner::spread(const Cells& cells, Order order, std::size_t most, PatchPlace where)
+void Planner::spread(const Cells& cells, std::size_t most, PatchPlace where)
 {
+  const bool areInRows = where != PatchPlace::Border;
   constexpr std::int64_t edge = Patch::edge;
   const std::int64_t size =
     std::max(scouts_.stride(), (edge + scouts_.stride() - 1) / scouts_.stride() * scouts_.stride());
@@ -215,10 +211,9 @@ void Planner::spread(const Cells& cells, Order order, std::size_t most, PatchPla
     { return std::fmod(factor * static_cast<double>(n + 1), 1.); };
     constexpr double goldenRatio = 0.6180339887498949, rootOfTwo = 1.4142135623730950;
     const auto at = static_cast<std::size_t>(
-      (static_cast<double>(n) + fraction(order == Order::Rows ? rootOfTwo : goldenRatio)) *
-      perPlace);
+      (static_cast<double>(n) + fraction(areInRows ? rootOfTwo : goldenRatio)) * perPlace);
     std::size_t taken = at;
-    if (order == Order::Rows)
+    if (areInRows)
     {
       const auto isBelow = [](const Cell& a, const Cell& b) { return a.row < b.row; };
       const auto row = std::equal_range(cells.begin(), cells.end(), cells[at], isBelow);

@@ -28,10 +28,6 @@ constexpr double flat = 0.01;
 /// Added to squared distances, relative to their mean, so that weights are finite.
 constexpr double leastSquare = 1e-6;
 
-/// Squares of the distance to the middle of the neighbours, in units of how far they reach along that direction: up to
-/// where a point has neighbours on all sides, and from where it has them on one side alone.
-constexpr double inside = 0.15, outside = 0.45;
-
 constexpr int unknowns = 9; // three first derivatives, six second ones
 constexpr std::size_t fewest = 3;
 

@@ -27,6 +27,10 @@ struct PointFit
     Means
   };
 
+  /// Squares of the distance to the middle of what is around a point, in units of how far that reaches along the same
+  /// direction: up to where it is on all sides, and from where it is on one side alone.
+  static constexpr double onAllSides = 0.15, onOneSide = 0.45;
+
   /// Sets how many neighbours the points have at most, and that they have none as yet.
   void clear(std::size_t most, Values values = Values::AtPoints);
 

@@ -378,7 +378,7 @@ private:
     const Real away = m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
     const Real along = m[0] * (m[0] * second[0] + m[1] * second[3] + m[2] * second[5]) +
       m[1] * (m[1] * second[1] + m[2] * second[4]) + m[2] * m[2] * second[2];
-    Real part = (away - inside) / (outside - inside);
+    Real part = (away - PointFit::onAllSides) / (PointFit::onOneSide - PointFit::onAllSides);
     part = part > 0 ? part : this->Zero;
     part = part < 1 ? part : this->Zero + 1;
     const Real bend =

@@ -64,8 +64,8 @@ private:
 };
 
 /**
- * Which points are around each point of a mesh: those of the same cells, and where these are few those of the cells
- * around them, too. It depends on the mesh alone. (The weights of a fit through them would be ten times as many
+ * Which points are around each point of a mesh: those of the same cells, and where these are few some of the cells
+ * beside them, too. It depends on the mesh alone. (The weights of a fit through them would be ten times as many
  * numbers, and are found faster than they are read.)
  */
 class PointNeighbours

@@ -100,8 +100,8 @@ double partAtBoundary(const CellsAround& cells)
   }
   const double away =
     dot(first, { dot(rows[0], first), dot(rows[1], first), dot(rows[2], first) }); // up to 3/4
-  constexpr double inside = 0.15, outside = 0.45;
-  return std::clamp((away - inside) / (outside - inside), 0., 1.);
+  return std::clamp(
+    (away - PointFit::onAllSides) / (PointFit::onOneSide - PointFit::onAllSides), 0., 1.);
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -106,7 +106,8 @@ schlieren::MediumSource::Content SamplesOverRanks::contentWith(
   const schlieren::Box& box, const OwnContent& found) const
 {
   return this->contentFrom(
-    box, [&](std::size_t n) { return found.holds[n] != 0; }, [&] { return found.cells; });
+    box, [&](std::size_t n, const Point&) { return found.holds[n] != 0; },
+    [&] { return found.cells; });
 }
 
 SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box& box) const

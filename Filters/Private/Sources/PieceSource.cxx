@@ -41,12 +41,12 @@ std::vector<unsigned char> DataPiece::hold(
 schlieren::MediumSource::Content PieceSource::contentOf(const schlieren::Box& box) const
 {
   return this->contentFrom(
-    box, [&](std::size_t n) { return this->Piece->holds(GasBoundary::testedPlaces(box)[n]); },
+    box, [&](std::size_t, const Point& place) { return this->Piece->holds(place); },
     [&] { return this->Piece->contentOf(box); });
 }
 
 schlieren::MediumSource::Content PieceSource::contentFrom(const schlieren::Box& box,
-  const std::function<bool(std::size_t)>& holds,
+  const std::function<bool(std::size_t, const Point&)>& holds,
   const std::function<CellTree::Content()>& cells) const
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -63,7 +63,7 @@ schlieren::MediumSource::Content PieceSource::contentFrom(const schlieren::Box& 
     const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
     for (std::size_t n = 0; n < tested.size() && !content.hasGas; ++n)
     {
-      const schlieren::Place found = this->Boundary->kindAt(tested[n], holds(n));
+      const schlieren::Place found = this->Boundary->kindAt(tested[n], holds(n, tested[n]));
       content.hasGas = found == schlieren::Place::Gas;
       content.hasWall = content.hasWall || found == schlieren::Place::Wall;
       content.hasWindow = content.hasWindow || found == schlieren::Place::Window;

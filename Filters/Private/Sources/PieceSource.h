@@ -57,9 +57,10 @@ protected:
   const DataPiece::Facts& facts() const { return this->All; }
 
   /// Combines kinds of points, by the boundary, with the cells that have gas. `holds`: whether the
-  /// piece holds a point of GasBoundary::testedPlaces(). Both are used where the boundary leaves it
+  /// piece holds a point of GasBoundary::testedPlaces(), by its number and place. Both are used where the boundary leaves it
   /// open.
-  Content contentFrom(const schlieren::Box& box, const std::function<bool(std::size_t)>& holds,
+  Content contentFrom(const schlieren::Box& box,
+    const std::function<bool(std::size_t, const Point&)>& holds,
     const std::function<CellTree::Content()>& cells) const;
 
   /// Call DataPiece::sample() and DataPiece::sampleIn().
