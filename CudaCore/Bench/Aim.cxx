@@ -3,6 +3,8 @@
 // Images whose settings are found so that they keep a target error: see Scene::targetError.
 #include "Bench/Stages.h"
 
+#include "Device/DeviceError.h"
+
 #include <utility>
 
 namespace schlieren
@@ -14,24 +16,26 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   const Field& field = ofImage.field;
   Scene& scene = ofImage.scene;
   UnfinishedImage request(field, scene);
+  request.device = ofImage.device;
   MediumInUse<Real> inUse(media, field, clearedFor(request));
   const std::optional<ViewSetup<Real>> view = setUp(inUse, request, watch);
   if (!view)
   {
     return true;
   }
-  Pilot<Real>& pilot = targets.pilotOf<Real>(
-    { view->key, field.lengthScale, view->projection, scene.seed, scene.estimatesErrors },
-    [&] { return std::make_unique<Pilot<Real>>(*view, scene); });
+  Pilot<Real>& pilot =
+    targets.pilotOf<Real>({ view->key, ofImage.device, field.lengthScale, view->projection,
+                            scene.seed, scene.estimatesErrors },
+      [&] { return std::make_unique<Pilot<Real>>(*view, scene); });
   const double k = scene.kScale.value_or(
     automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
   if (ofImage.isPaused)
   {
-    pilot.resume();
+    pilot.resume(view->tracer);
   }
   else
   {
-    pilot.begin(scene, k);
+    pilot.begin(view->tracer, scene, k);
   }
   const KnownErrors known = knownErrors(pilot, k);
   const bool isMemoryShort = inUse.medium().tree && inUse.medium().tree->statistics().isMemoryShort;
@@ -52,8 +56,40 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   accurate.samplesPerPixel = chosen.samples;
   ofImage.request = std::make_unique<UnfinishedImage>(field, accurate);
   ofImage.request->device = ofImage.device;
+  ofImage.request->deviceNote = ofImage.deviceNote;
   ofImage.request->accuracy = chosen.accuracy;
   return true;
+}
+
+bool Bench::Stages::findOrChangeDevice(Aim& ofImage, const std::function<bool()>& find)
+{
+  try
+  {
+    return find();
+  }
+  catch (const DeviceError& failure)
+  {
+    clearRays();
+    media.leaveDevice();
+    const bool mayHaveRoom = dynamic_cast<const OutOfDeviceMemory*>(&failure) != nullptr;
+    if (mayHaveRoom && !ofImage.hasLeftDevice)
+    {
+      ofImage.hasLeftDevice = true;
+      return false;
+    }
+    if (ofImage.device == Device::Cpu || ofImage.scene.device == Device::Cuda)
+    {
+      throw;
+    }
+    ofImage.device = Device::Cpu;
+    ofImage.deviceNote = failure.what();
+    return false;
+  }
+  catch (...) // what another process may have thrown, after some of the rays
+  {
+    clearRays();
+    throw;
+  }
 }
 
 void Bench::Stages::beginAim(const Field& field, const Scene& scene, Device device)
@@ -83,6 +119,7 @@ Image Bench::Stages::renderFirst(const Monitor& monitor)
     first.samplesPerPixel = 1;
     request = std::make_unique<UnfinishedImage>(ofImage.field, first);
     request->device = ofImage.device;
+    request->deviceNote = ofImage.deviceNote;
   }
   Image image = render(std::move(request), monitor);
   if (!image.aborted)
@@ -109,7 +146,7 @@ Image Bench::Stages::renderAim(const Monitor& monitor)
       return ofImage.scene.precision == Precision::Single ? findSettings<float>(ofImage, watch)
                                                           : findSettings<double>(ofImage, watch);
     };
-    while (!watch.isAborted() && !find())
+    while (!watch.isAborted() && !findOrChangeDevice(ofImage, find))
     {
     }
   }

@@ -83,13 +83,14 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
   const ViewKey key{ frame, scene.view.width, scene.view.height, settings.kernel,
     LightKey::of(scene, frame, filmDistance(scene, frame, light.faces), light.faces),
     onDevices.changes };
+  const Tracer<Real> tracer(
+    onDevices, request.device, processes, scene.threads, field.gradients.version);
   const auto look = [&]
   {
     RaySettings coarse = settings;
     coarse.stepVoxels = longestStep;
     coarse.adaptiveTolerance = std::max(settings.adaptiveTolerance, usualTolerance);
-    return lookAtLight(
-      makeTask<Real>(medium, nullptr, {}, light, coarse), scene.view, scene.threads);
+    return lookAtLight(tracer, makeTask<Real>(medium, nullptr, {}, light, coarse), scene.view);
   };
   const std::int64_t margin =
     marginFor(isOfCamera(scene.cutoff) ? std::vector<MovedRay>{} : rays.movedIn(key, look), scene,
@@ -111,7 +112,7 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
   // Of straight rays all is of first order, and the bend makes nothing longer.
   const bool bends = settings.kernel.path != PathModel::Straight;
   const double ofVoxels = medium.tree ? medium.tree->statistics().deflectionError : 0;
-  return ViewSetup<Real>{ onDevices, key, light, settings,
+  return ViewSetup<Real>{ onDevices, tracer, key, light, settings,
     makeTask<Real>(medium, map, medium.gradientsOf(field), light, settings), margin,
     exitRefractivity, bound,
     { light.faces.ratio * noiseFloor(medium, field, light), light.faces.ratio * ofVoxels },
@@ -216,8 +217,7 @@ Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
     key.gradients = request.field.gradients.version;
   }
   work.raySets += rays.prepare(key, view->margin) ? 1 : 0;
-  const bool hasAllPasses =
-    PassLoop<Real>(*view, request, watch, rays, cutoffs, processes, work).run();
+  const bool hasAllPasses = PassLoop<Real>(*view, request, watch, rays, cutoffs, work).run();
   if (watch.isAborted())
   {
     return abortedImage();

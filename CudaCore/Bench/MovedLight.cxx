@@ -3,9 +3,7 @@
 #include "Bench/MovedLight.h"
 
 #include "Bench/Scouts.h"
-#include "Device/Parallel.h"
 #include "Film/Shading.h"
-#include "Rays/Cpu/CpuTracer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +13,7 @@ namespace schlieren
 {
 
 template <class Real>
-std::vector<MovedRay> lookAtLight(RayTask<Real> task, const View& view, int threads)
+std::vector<MovedRay> lookAtLight(const Tracer<Real>& tracer, RayTask<Real> task, const View& view)
 {
   constexpr double pixelsByRays = 64, fewest = 256, most = 16384;
   constexpr std::int64_t rowsOfBand = 4; // packs of rays are of as many rows at the most
@@ -28,41 +26,32 @@ std::vector<MovedRay> lookAtLight(RayTask<Real> task, const View& view, int thre
   const double first = 0.5 * static_cast<double>(stride - 1) - static_cast<double>(around);
   task.light = lightOfPart(task.light, first, first, static_cast<double>(stride));
   const std::int64_t columns = (width + stride - 1) / stride, rows = (height + stride - 1) / stride;
-  const std::int64_t bands = (rows + rowsOfBand - 1) / rowsOfBand;
+  std::vector<Pass> bands;
+  for (std::int64_t row = 0; row < rows; row += rowsOfBand)
+  {
+    const auto number = static_cast<std::int64_t>(bands.size());
+    bands.push_back({ 0, row, columns, std::min(rowsOfBand, rows - row), pixelOffset(number, 1) });
+  }
+  const TracedPass traced = tracer.trace(task, bands);
   Projection toSlopes{ 1, 1, 0, task.light.inclination };
   toSlopes.exitRatio = task.light.faces.ratio;
-  std::vector<std::vector<MovedRay>> ofBands(static_cast<std::size_t>(bands));
-  parallelFor(bands, 1, threads,
-    [&](std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t band = begin; band < end; ++band)
-      {
-        const std::int64_t row = band * rowsOfBand;
-        const Pass pass{ 0, row, columns, std::min(rowsOfBand, rows - row), pixelOffset(band, 1) };
-        TracedPass traced;
-        traced.resize(pass, 0);
-        traceOnCpu(task, pass, traced, 1, {});
-        for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
-        {
-          const RayExit& exit = traced.exits[static_cast<std::size_t>(ray)];
-          if (exit.fate != RayFate::Left)
-          {
-            continue;
-          }
-          constexpr float none[2] = { 0, 0 };
-          const FilmShift slope = shiftOnFilm(
-            exit.deflection, none, pass.columnOf(ray), pass.rowOf(ray), pass.tilt, toSlopes);
-          ofBands[static_cast<std::size_t>(band)].push_back(
-            { { static_cast<double>(exit.displacement[0]),
-                static_cast<double>(exit.displacement[1]) },
-              { slope.moved[0], slope.moved[1] } });
-        }
-      }
-    });
   std::vector<MovedRay> moved;
-  for (const std::vector<MovedRay>& band : ofBands)
+  const RayExit* exit = traced.exits.data();
+  for (const Pass& band : bands)
   {
-    moved.insert(moved.end(), band.begin(), band.end());
+    for (std::int64_t ray = 0; ray < band.columns * band.rows; ++ray, ++exit)
+    {
+      if (exit->fate != RayFate::Left)
+      {
+        continue;
+      }
+      constexpr float none[2] = { 0, 0 };
+      const FilmShift slope = shiftOnFilm(
+        exit->deflection, none, band.columnOf(ray), band.rowOf(ray), band.tilt, toSlopes);
+      moved.push_back({ { static_cast<double>(exit->displacement[0]),
+                          static_cast<double>(exit->displacement[1]) },
+        { slope.moved[0], slope.moved[1] } });
+    }
   }
   return moved;
 }
@@ -79,7 +68,7 @@ double maximumShift(const std::vector<MovedRay>& rays, double distance)
   return most;
 }
 
-template std::vector<MovedRay> lookAtLight(RayTask<float>, const View&, int);
-template std::vector<MovedRay> lookAtLight(RayTask<double>, const View&, int);
+template std::vector<MovedRay> lookAtLight(const Tracer<float>&, RayTask<float>, const View&);
+template std::vector<MovedRay> lookAtLight(const Tracer<double>&, RayTask<double>, const View&);
 
 } // namespace schlieren

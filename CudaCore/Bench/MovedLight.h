@@ -4,6 +4,7 @@
 // How far a view's light is moved, by a coarse look at it before its image is made.
 #pragma once
 
+#include "Bench/Tracer.h"
 #include "Rays/March/RayTask.h"
 #include "Types.h"
 
@@ -23,7 +24,7 @@ struct MovedRay
 /// of maxMargin(). Their places in rows of squares differ from band to band of rows, so that what is narrow and along u
 /// or v is met, too.
 template <class Real>
-std::vector<MovedRay> lookAtLight(RayTask<Real> task, const View& view, int threads);
+std::vector<MovedRay> lookAtLight(const Tracer<Real>& tracer, RayTask<Real> task, const View& view);
 
 /// The most that they are moved at a distance behind the exit plane, data units. What lies between them may be moved
 /// further: of a Gaussian's slope with a standard deviation as wide as the rays are apart, by less than a fifth.

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/PassLoop.h"
 
-#include "Rays/Cpu/CpuTracer.h"
-
 #include <algorithm>
 #include <chrono>
 
@@ -12,13 +10,12 @@ namespace schlieren
 
 template <class Real>
 PassLoop<Real>::PassLoop(const ViewSetup<Real>& ofView, UnfinishedImage& request,
-  const Watch& watch, RayCache& rays, CutoffMaker& cutoffs, Processes* processes, Work& work)
+  const Watch& watch, RayCache& rays, CutoffMaker& cutoffs, Work& work)
   : view_(ofView)
   , request_(request)
   , watch_(watch)
   , rays_(rays)
   , cutoffs_(cutoffs)
-  , processes_(processes)
   , work_(work)
 {
   const View& view = request.scene.view;
@@ -120,22 +117,7 @@ bool PassLoop<Real>::trace(TracedPass& traced, bool isWantedOnHost, const Monito
 {
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t countedBefore = traced.tilesDone > 0 ? traced.crossed : 0;
-  const RayTask<Real>& task = view_.task;
-  const int threads = request_.scene.threads;
-  bool isTraced = false;
-  if (request_.device == Device::Cuda)
-  {
-    isTraced = traceOnCuda(traced, isWantedOnHost, monitor);
-  }
-  else if (processes_)
-  {
-    isTraced = view_.medium.processTracer().trace(
-      task, pass_, versions(), *processes_, traced, threads, monitor);
-  }
-  else
-  {
-    isTraced = traceOnCpu(task, pass_, traced, threads, monitor);
-  }
+  const bool isTraced = view_.tracer.trace(view_.task, pass_, traced, monitor, isWantedOnHost);
   request_.traceSeconds +=
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (isTraced || request_.device == Device::Cpu)
@@ -143,24 +125,6 @@ bool PassLoop<Real>::trace(TracedPass& traced, bool isWantedOnHost, const Monito
     work_.raysTraced += traced.crossed - countedBefore;
   }
   return isTraced;
-}
-
-template <class Real>
-bool PassLoop<Real>::traceOnCuda(TracedPass& traced, bool isWantedOnHost, const Monitor& monitor)
-{
-  using Exits = typename CudaTracer<Real>::Exits;
-  const Exits exits = isWantedOnHost ? Exits::OnHost : Exits::OnDevice;
-  CudaTracer<Real>& tracer = view_.medium.cudaTracer();
-  return processes_ && ProcessTracer<Real>::haveCuda(*processes_)
-    ? view_.medium.processTracer().traceOnCuda(
-        tracer, exits, view_.task, pass_, versions(), *processes_, traced, monitor)
-    : tracer.trace(view_.task, pass_, versions(), exits, traced, monitor);
-}
-
-template <class Real>
-TaskVersions PassLoop<Real>::versions() const
-{
-  return { request_.field.gradients.version, view_.medium.mapTolerance() };
 }
 
 template class PassLoop<float>;

@@ -19,9 +19,9 @@ template <class Real>
 class PassLoop
 {
 public:
-  /// All stay with their owner. `processes`: null where there are no others.
+  /// All stay with their owner.
   PassLoop(const ViewSetup<Real>& view, UnfinishedImage& request, const Watch& watch,
-    RayCache& rays, CutoffMaker& cutoffs, Processes* processes, Work& work);
+    RayCache& rays, CutoffMaker& cutoffs, Work& work);
 
   /// False if aborted or paused before all of a pass was on the film.
   bool run();
@@ -37,15 +37,12 @@ private:
 
   /// Traces a pass, or resumes it. False if aborted or paused.
   bool trace(TracedPass& traced, bool isWantedOnHost, const Monitor& monitor);
-  bool traceOnCuda(TracedPass& traced, bool isWantedOnHost, const Monitor& monitor);
-  TaskVersions versions() const;
 
   const ViewSetup<Real>& view_;
   UnfinishedImage& request_;
   const Watch& watch_;
   RayCache& rays_;
   CutoffMaker& cutoffs_;
-  Processes* processes_;
   Work& work_;
   Pass pass_; ///< the next one
 };

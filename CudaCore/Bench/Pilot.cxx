@@ -6,7 +6,6 @@
 #include "Device/Parallel.h"
 #include "Film/ProgressiveImage.h"
 #include "Math/Units.h"
-#include "Rays/Cpu/CpuTracer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,47 +56,53 @@ const typename Pilot<Real>::Traced* Pilot<Real>::trace(
 {
   Traced& traced = group.traced[keyOf(pass)];
   const PatchList& places = *group.patches;
-  const auto count = static_cast<std::int64_t>(places.size());
   if (isPaused_)
   {
     return nullptr;
   }
+  if (traced.rays.size() == places.size())
+  {
+    return &traced;
+  }
+  std::vector<Pass> passes;
+  for (std::size_t n = 0; n < places.size(); ++n)
+  {
+    passes.push_back(passOf(places[n], pass.in(n)));
+    passes.back().firstColumn += places[n].fromColumn;
+    passes.back().firstRow += places[n].fromRow;
+  }
+  TracedPass& together = traced.together;
+  if (together.tilesDone == 0)
+  {
+    together.resize(passes, 0);
+  }
+  const bool isTraced = setup_.tracer.trace(
+    taskFor(pass.set->step), passes, together, { {}, monitor.aborted, monitor.paused });
+  isPaused_ = monitor.paused && monitor.paused();
+  if (!isTraced)
+  {
+    return nullptr;
+  }
   traced.rays.resize(places.size());
-  const RayTask<Real> whole = taskFor(pass.set->step);
-  const auto traceOne = [&](std::size_t n)
+  const RayExit* first = together.exits.data();
+  for (std::size_t n = 0; n < places.size(); ++n)
   {
     const Patch& patch = places[n];
-    RayTask<Real> task = whole;
-    task.light = lightOfPart(
-      setup_.light, static_cast<double>(patch.fromColumn), static_cast<double>(patch.fromRow), 1);
-    const Pass rays = passOf(patch, pass.in(n));
-    TracedPass& ofPatch = traced.rays[n];
-    ofPatch.resize(rays, 0);
-    traceOnCpu(task, rays, ofPatch, layout_.isWhole ? scene_.threads : 1, {});
+    RayExits& exits = traced.rays[n].exits;
+    exits.assign(first, first + passes[n].columns * passes[n].rows);
+    first += exits.size();
     const double shift[2] = { static_cast<double>(patch.fromColumn - patch.column),
       static_cast<double>(patch.fromRow - patch.row) };
-    for (RayExit& exit : ofPatch.exits)
+    for (RayExit& exit : exits)
     {
       for (std::size_t axis = 0; axis < 2; ++axis)
       {
         exit.displacement[axis] += static_cast<float>(shift[axis] / setup_.projection.perDataUnit);
       }
     }
-  };
-  if (traced.done < count)
-  {
-    traced.done = parallelFrom(traced.done, count, 1, scene_.threads,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t n = begin; n < end; ++n)
-        {
-          traceOne(static_cast<std::size_t>(n));
-        }
-      },
-      { {}, monitor.aborted, monitor.paused });
-    isPaused_ = monitor.paused && monitor.paused();
   }
-  return traced.done < count ? nullptr : &traced;
+  together = {};
+  return &traced;
 }
 
 template <class Real>

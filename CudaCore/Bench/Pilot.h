@@ -56,10 +56,10 @@ public:
   const PilotView& view() const { return scouts_.view(); }
 
   /// Exposes patches by another cutoff of a scene with the same rays from now on. `k`: see Scene::kScale.
-  void begin(const Scene& scene, double k)
+  void begin(const Tracer<Real>& tracer, const Scene& scene, double k)
   {
     cutoff_ = cutoffs_.cutoffOf(scene, k, setup_.pixels);
-    resume();
+    resume(tracer);
     scene_ = scene;
     for (auto& set : groups_)
     {
@@ -70,7 +70,11 @@ public:
     }
   }
   /// Continues after a pause.
-  void resume() { isPaused_ = false; }
+  void resume(const Tracer<Real>& tracer)
+  {
+    setup_.tracer = tracer;
+    isPaused_ = false;
+  }
 
   /// Two sets of patches that have no pixel in common: one to choose by, one to verify the choice with.
   enum class Patches
@@ -94,8 +98,8 @@ public:
 private:
   struct Traced
   {
-    std::vector<TracedPass> rays; ///< of each patch
-    std::int64_t done = 0;        ///< patches
+    TracedPass together;          ///< until all are traced
+    std::vector<TracedPass> rays; ///< of each patch, then
   };
   struct Exposed
   {

@@ -3,7 +3,6 @@
 #include "Bench/Scouts.h"
 
 #include "Bench/Differences.h"
-#include "Rays/Cpu/CpuTracer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,10 +45,7 @@ Scouts::Scouts(RayTask<Real> task, const ViewSetup<Real>& setup, const Scene& sc
   task.light = lightOfPart(setup.light, middle, middle, static_cast<double>(stride_));
   const Pass pass{ 0, 0, (view.width + stride_ - 1) / stride_,
     (view.height + stride_ - 1) / stride_, { 0, 0 } };
-  TracedPass traced;
-  traced.resize(pass, 0);
-  const int threads = scene.threads;
-  traceOnCpu(task, pass, traced, threads, {});
+  const TracedPass traced = setup.tracer.trace(task, pass);
 
   columns_ = pass.columns;
   rows_ = pass.rows;
@@ -84,7 +80,7 @@ Scouts::Scouts(RayTask<Real> task, const ViewSetup<Real>& setup, const Scene& sc
   view_.steepestPath =
     exceededBy(mayExceed, slopes) * setup.settings.lengthScale / projection.perDataUnit;
   view_.strongDeflection = strongDeflection({ pass, traced.exits.data(), nullptr },
-    static_cast<int>(pass.columns), static_cast<int>(pass.rows), setup.errors, threads);
+    static_cast<int>(pass.columns), static_cast<int>(pass.rows), setup.errors, scene.threads);
 }
 
 const Scout* Scouts::at(std::int64_t column, std::int64_t row) const

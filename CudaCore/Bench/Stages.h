@@ -15,8 +15,10 @@
 #include "Schlieren.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace schlieren
 {
@@ -27,6 +29,8 @@ struct Aim
   Field field;
   Scene scene; ///< with the medium that the target needs, as far as that is known
   Device device;
+  std::string deviceNote{};                   ///< why it is another one than was chosen at first
+  bool hasLeftDevice = false;                 ///< to give its memory back
   std::unique_ptr<UnfinishedImage> request{}; ///< with all settings, once they are found
   bool isPaused = false;
   bool isShown = false; ///< with one ray per pixel
@@ -73,6 +77,8 @@ private:
   /// into the scene.
   template <class Real>
   bool findSettings(Aim& ofImage, const Watch& watch);
+  /// The same, or false after a failure of the device: with its memory given back, and then on the CPU.
+  bool findOrChangeDevice(Aim& ofImage, const std::function<bool()>& find);
 
   /// Drops rays, before their medium goes or after it has changed.
   void clearRays()

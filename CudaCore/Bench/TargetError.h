@@ -61,6 +61,7 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& known,
 struct PilotKey
 {
   ViewKey view;
+  Device device;
   double lengthScale;
   Projection projection;
   std::uint32_t seed;
@@ -70,7 +71,7 @@ struct PilotKey
   {
     const Projection& p = projection;
     return std::tuple_cat(view.tie(),
-      std::tie(lengthScale, p.distance, p.perDataUnit, p.pathPerDataUnit, p.exitRatio,
+      std::tie(device, lengthScale, p.distance, p.perDataUnit, p.pathPerDataUnit, p.exitRatio,
         p.perSourceDistance, p.isOfCamera, seed, wantsAllPixels));
   }
 };

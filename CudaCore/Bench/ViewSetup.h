@@ -4,6 +4,7 @@
 
 #include "Bench/MediumCache.h"
 #include "Bench/RayCache.h"
+#include "Bench/Tracer.h"
 #include "Film/Shading.h"
 #include "Optics/AutomaticK.h"
 #include "Rays/March/MakeTask.h"
@@ -19,6 +20,7 @@ template <class Real>
 struct ViewSetup
 {
   MediumOnDevices<Real>& medium; ///< stays with its owner
+  Tracer<Real> tracer;
   ViewKey key;
   Light light; ///< with the faces of all voxels
   RaySettings settings;

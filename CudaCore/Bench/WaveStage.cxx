@@ -5,7 +5,6 @@
 #include "Bench/ImagingOfScene.h"
 #include "Bench/StageSettings.h"
 #include "Bench/WaveScene.h"
-#include "Rays/Cpu/CpuTracer.h"
 #include "Rays/March/MakeTask.h"
 
 #include <algorithm>
@@ -204,7 +203,7 @@ const TracedPass* WaveStage<Real>::tracePass(
   const auto trace = [&](TracedPass& traced, bool)
   {
     const auto start = std::chrono::steady_clock::now();
-    const bool isTraced = traceOnCpu(task, pass, traced, request_.scene.threads, monitor);
+    const bool isTraced = view_.tracer.trace(task, pass, traced, monitor);
     image.traceSeconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     work_.raysTraced += traced.crossed;
@@ -212,7 +211,7 @@ const TracedPass* WaveStage<Real>::tracePass(
   };
   constexpr std::size_t partOfBudget = 4; // the rest is for the image's own rays
   return rays_.raysOf(
-    number, pass, Device::Cpu, 0, request_.scene.memoryBudget / partOfBudget, trace);
+    number, pass, request_.device, 0, request_.scene.memoryBudget / partOfBudget, trace);
 }
 
 /// Before they are traced.
@@ -249,7 +248,7 @@ bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
   const std::int64_t border = borderOf(image, screen) * screen.raysPerPixel;
   const RaysKey key{ { frame, scene.view.width, scene.view.height, settings.kernel,
                        LightKey::of(scene, frame, 0, faces_), view_.medium.changes },
-    settings, scene.seed, Device::Cpu, {} };
+    settings, scene.seed, request_.device, {} };
   work_.raySets += rays_.prepare(key, border) ? 1 : 0;
   // Rays of a wider margin will do.
   const std::int64_t around = rays_.margin() - rays_.margin() % screen.raysPerPixel;
@@ -362,6 +361,10 @@ bool WaveStage<Real>::run(Image& image)
       return false;
     }
     image.lightModel = LightModel::Waves;
+  }
+  catch (const DeviceError&)
+  {
+    throw; // the CPU still can
   }
   catch (const Error& problem)
   {

@@ -4,6 +4,7 @@
 
 #include "Rays/CudaPass.h"
 #include "Rays/RayExit.h"
+#include "Rays/Tiles.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +14,7 @@
 namespace schlieren
 {
 
-/// The rays of a pass, row by row, and what each has gathered of each field's gradient: its integral
+/// The rays of passes, one after the other, and what each has gathered of each field's gradient: its integral
 /// over the ray, a number without unit. Nothing where the view has no fields.
 struct TracedPass
 {
@@ -32,13 +33,12 @@ struct TracedPass
   }
 
   /// Makes room on the host.
-  void resize(const Pass& pass, int fields)
+  void resize(const Passes& passes, int fields)
   {
     onDevice.reset();
     tilesDone = 0;
-    const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
-    exits.resize(rays);
-    gathered.assign(rays * static_cast<std::size_t>(fields), 0);
+    exits.resize(passes.rays());
+    gathered.assign(passes.rays() * static_cast<std::size_t>(fields), 0);
   }
   std::size_t bytes() const
   {

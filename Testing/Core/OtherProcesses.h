@@ -10,6 +10,7 @@
 #include "Rays/Ranks/RayWorker.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <thread>
@@ -37,7 +38,13 @@ public:
     bytes += message.size();
     const std::uint32_t kind = RayWorker::kindOf(message);
     arrays += kind == RayWorker::Array ? 1 : 0;
-    traces += kind == RayWorker::Trace ? 1 : 0;
+    if (kind == RayWorker::Trace)
+    {
+      ++traces;
+      TraceMessage<float> request; // of doubles the beginning is the same
+      read(message, request);
+      tiles += request.end - request.first;
+    }
     std::vector<std::vector<char>> answers(workers_.size());
     std::vector<std::exception_ptr> problems(workers_.size() + 1);
     std::vector<std::thread> threads;
@@ -87,10 +94,11 @@ public:
     return answers;
   }
 
-  std::size_t bytes = 0; ///< of requests
-  int arrays = 0;        ///< pieces of arrays that were sent
-  int traces = 0;        ///< requests of rays
-  int failing = -1;      ///< the one that fails
+  std::size_t bytes = 0;  ///< of requests
+  int arrays = 0;         ///< pieces of arrays that were sent
+  int traces = 0;         ///< requests of rays
+  std::int64_t tiles = 0; ///< of these, or bands
+  int failing = -1;       ///< the one that fails
   bool hasOtherDevice = false;
 
 private:

@@ -9,6 +9,7 @@
 #include "Rays/March/OneRay.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -18,6 +19,8 @@ namespace schlieren
 
 namespace
 {
+
+std::atomic<std::int64_t> tilesSoFar{ 0 };
 
 /// One ray, or a rectangle of pixels whose rays a kernel takes side by side: near each other, they look at
 /// the same samples of the medium.
@@ -30,7 +33,7 @@ struct Block
 
 template <class Number, int Lanes>
 std::int64_t traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchBatches,
-  const Pass& pass, const Tiles& tiles, TracedPass& traced, int threads, const Monitor& monitor)
+  const Passes& passes, const Tiles& tiles, TracedPass& traced, int threads, const Monitor& monitor)
 {
   struct OfTile
   {
@@ -39,9 +42,11 @@ std::int64_t traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, L
   };
   std::vector<OfTile> ofTiles(static_cast<std::size_t>(tiles.count()));
 
-  const auto enterBlock = [&](std::int64_t column, std::int64_t row, RayBatch<Number, Lanes>& batch,
-                            Entry(&entries)[Lanes], std::int64_t(&rays)[Lanes])
+  const auto enterBlock = [&](const PlacedPass& of, std::int64_t column, std::int64_t row,
+                            RayBatch<Number, Lanes>& batch, Entry(&entries)[Lanes],
+                            std::int64_t(&rays)[Lanes])
   {
+    const Pass& pass = of.pass;
     for (int i = 0; i < Lanes; ++i)
     {
       const std::int64_t atColumn = column + i % Block<Lanes>::columns;
@@ -50,8 +55,9 @@ std::int64_t traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, L
       batch.fate[i] = RayFate::Missed;
       if (atColumn < pass.columns && atRow < pass.rows)
       {
-        rays[i] = atRow * pass.columns + atColumn;
-        entries[i] = enterGrid(task, pass, rays[i], batch, i);
+        const std::int64_t ray = atRow * pass.columns + atColumn;
+        entries[i] = enterGrid(task, pass, ray, batch, i);
+        rays[i] = of.firstRay + ray;
         batch.gathered[i] = traced.gathered.data() + rays[i] * task.gradients.count;
       }
     }
@@ -70,26 +76,23 @@ std::int64_t traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, L
     }
   };
 
-  // Numbers as of all tiles of the pass, for the progress.
+  // Numbers as of all tiles, for the progress.
   const std::int64_t before = tiles.first / tiles.step;
   const std::int64_t done = parallelFrom(
     before, before + tiles.count(), 1, threads,
     [&](std::int64_t number, std::int64_t)
     {
-      const std::int64_t tile = tiles.first + (number - before) * tiles.step;
-      const std::int64_t left = tile % tilesAlong(pass) * tileEdge;
-      const std::int64_t low = tile / tilesAlong(pass) * tileEdge;
-      for (std::int64_t row = low; row < std::min(low + tileEdge, pass.rows);
-           row += Block<Lanes>::rows)
+      const TileOfPass tile = passes.tile(tiles.first + (number - before) * tiles.step);
+      for (std::int64_t row = tile.low; row < tile.low + tile.rows; row += Block<Lanes>::rows)
       {
-        for (std::int64_t column = left; column < std::min(left + tileEdge, pass.columns);
+        for (std::int64_t column = tile.left; column < tile.left + tile.columns;
              column += 2 * Block<Lanes>::columns)
         {
           RayBatch<Number, Lanes> batches[2]{};
           Entry entries[2][Lanes]{};
           std::int64_t rays[2][Lanes];
-          enterBlock(column, row, batches[0], entries[0], rays[0]);
-          enterBlock(column + Block<Lanes>::columns, row, batches[1], entries[1], rays[1]);
+          enterBlock(tile.of, column, row, batches[0], entries[0], rays[0]);
+          enterBlock(tile.of, column + Block<Lanes>::columns, row, batches[1], entries[1], rays[1]);
           marchBatches(task, batches[0], batches[1]);
           OfTile& here = ofTiles[static_cast<std::size_t>(number - before)];
           leaveBlock(batches[0], entries[0], rays[0], here);
@@ -150,29 +153,30 @@ Simd bestSimd()
 }
 
 template <class Real>
-bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
+bool traceOnCpu(const RayTask<Real>& task, const Passes& passes, TracedPass& traced, int threads,
   const Monitor& monitor, Simd simd)
 {
-  const std::int64_t all = tilesOf(pass);
+  const std::int64_t all = passes.tiles();
   traced.begin();
   traced.tilesDone +=
-    traceTiles(task, pass, { traced.tilesDone, all }, traced, threads, monitor, simd);
+    traceTiles(task, passes, { traced.tilesDone, all }, traced, threads, monitor, simd);
   const bool isFinished = traced.tilesDone == all;
   traced.tilesDone = isFinished ? 0 : traced.tilesDone;
   return isFinished;
 }
 
 template <class Real>
-std::int64_t traceTiles(const RayTask<Real>& task, const Pass& pass, const Tiles& tiles,
+std::int64_t traceTiles(const RayTask<Real>& task, const Passes& passes, const Tiles& tiles,
   TracedPass& traced, int threads, const Monitor& monitor, Simd simd)
 {
   const KernelChoice& kernel = task.kernel;
+  tilesSoFar += tiles.count();
   if (task.medium.planeStride > std::numeric_limits<std::uint32_t>::max())
   {
     simd = Simd::None; // the others multiply strides of 32 bits
   }
   const auto traceWith = [&](auto marchBatches)
-  { return traceTilesWith(task, marchBatches, pass, tiles, traced, threads, monitor); };
+  { return traceTilesWith(task, marchBatches, passes, tiles, traced, threads, monitor); };
   constexpr bool isSingle = std::is_same_v<Real, float>;
   constexpr int ofAvx512 = isSingle ? 16 : 8, ofAvx2 = isSingle ? 8 : 4;
   if constexpr (isCompiledFor(Simd::Avx512))
@@ -199,13 +203,15 @@ std::int64_t traceTiles(const RayTask<Real>& task, const Pass& pass, const Tiles
   return traceWith(marchOneByOne<Real>(kernel));
 }
 
+std::int64_t tilesTracedOnCpu() { return tilesSoFar; }
+
 template bool traceOnCpu(
-  const RayTask<float>&, const Pass&, TracedPass&, int, const Monitor&, Simd);
+  const RayTask<float>&, const Passes&, TracedPass&, int, const Monitor&, Simd);
 template bool traceOnCpu(
-  const RayTask<double>&, const Pass&, TracedPass&, int, const Monitor&, Simd);
+  const RayTask<double>&, const Passes&, TracedPass&, int, const Monitor&, Simd);
 template std::int64_t traceTiles(
-  const RayTask<float>&, const Pass&, const Tiles&, TracedPass&, int, const Monitor&, Simd);
+  const RayTask<float>&, const Passes&, const Tiles&, TracedPass&, int, const Monitor&, Simd);
 template std::int64_t traceTiles(
-  const RayTask<double>&, const Pass&, const Tiles&, TracedPass&, int, const Monitor&, Simd);
+  const RayTask<double>&, const Passes&, const Tiles&, TracedPass&, int, const Monitor&, Simd);
 
 } // namespace schlieren

@@ -24,16 +24,19 @@ bool hasSimd(Simd simd);
 /// The best ones that it has.
 Simd bestSimd();
 
-/// Traces a pass on the CPU into `traced`, which has its size, or resumes it. Returns false if aborted or
+/// Traces passes on the CPU into `traced`, which has their size, or resumes them. Returns false if aborted or
 /// paused; the same call then does the rest. `simd` must be one that the processor has.
 template <class Real>
-bool traceOnCpu(const RayTask<Real>& task, const Pass& pass, TracedPass& traced, int threads,
+bool traceOnCpu(const RayTask<Real>& task, const Passes& passes, TracedPass& traced, int threads,
   const Monitor& monitor, Simd simd = bestSimd());
 
-/// Traces tiles of a pass until the monitor stops it. Adds to what `traced` counts. Returns how many are done: the first
+/// Traces tiles of passes until the monitor stops it. Adds to what `traced` counts. Returns how many are done: the first
 /// ones.
 template <class Real>
-std::int64_t traceTiles(const RayTask<Real>& task, const Pass& pass, const Tiles& tiles,
+std::int64_t traceTiles(const RayTask<Real>& task, const Passes& passes, const Tiles& tiles,
   TracedPass& traced, int threads, const Monitor& monitor, Simd simd = bestSimd());
+
+/// How many tiles this process has been asked to trace so far, for whatever purpose.
+std::int64_t tilesTracedOnCpu();
 
 } // namespace schlieren

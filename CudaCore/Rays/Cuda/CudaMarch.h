@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Rays/March/RayTask.h"
+#include "Rays/Tiles.h"
 
 #include <cuda_runtime.h>
 
@@ -20,20 +21,22 @@ constexpr int blockRows = warpsUp * warpRows;
 constexpr int threadsPerWarp = 32;
 constexpr int threadsPerBlock = warpsAlong * warpsUp * threadsPerWarp;
 static_assert(warpColumns * warpRows == threadsPerWarp);
+static_assert(blockRows == bandRows);
 
-/// Sums up all rays of a pass.
+/// Sums up all rays of the passes.
 struct MarchTotals
 {
   long long worstDrift; ///< as the bits of a double, which grow with it
   unsigned long long crossed;
 };
 
-/// Some rows of a pass, from `firstRow` on. `gathered`: the sums of each ray's fields; null where they are not wanted.
+/// Some bands of passes, from `firstBand` on. `gathered`: the sums of each ray's fields; null where they are not wanted.
 /// All pointers are to the device's memory.
-struct MarchedRows
+struct MarchedBands
 {
-  Pass pass;
-  std::int64_t firstRow;
+  const PlacedPass* passes;
+  int count; ///< of passes
+  std::int64_t firstBand;
   RayExit* exits;
   float* gathered;
   MarchTotals* totals;
@@ -42,7 +45,7 @@ struct MarchedRows
 /// Starts the kernel of the task, with all that it points to on the device. CudaMarch*.cu instantiate it for one scheme
 /// each, those that take longest for one precision, so that they can be compiled at the same time.
 template <class Scheme, class Real>
-void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedRows& rows,
+void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedBands& bands,
   const dim3& blocks, cudaStream_t stream);
 
 } // namespace schlieren

@@ -20,19 +20,27 @@ constexpr int blocksAtATime = sizeof(Real) == sizeof(float) && !Kernel::Integrat
   ? 5
   : 1;
 
-/// The pixel of a thread, of those from a row on.
+/// The pixel of a thread: each row of blocks has a band.
 struct PixelOfThread
 {
-  std::int64_t column, row;
+  const PlacedPass* of;
+  std::int64_t column, row; ///< of its pass
 
-  __device__ explicit PixelOfThread(std::int64_t firstRow)
+  __device__ explicit PixelOfThread(const MarchedBands& bands)
+    : of(bands.passes)
   {
+    const std::int64_t band = bands.firstBand + blockIdx.y;
+    for (int left = bands.count; left > 1;)
+    {
+      const int half = left / 2;
+      of += of[half].firstBand <= band ? half : 0;
+      left -= half;
+    }
     const int warp = static_cast<int>(threadIdx.x) / threadsPerWarp;
     const int lane = static_cast<int>(threadIdx.x) % threadsPerWarp;
     column = std::int64_t{ blockIdx.x } * blockColumns + warp % warpsAlong * warpColumns +
       lane % warpColumns;
-    row = firstRow + std::int64_t{ blockIdx.y } * blockRows + warp / warpsAlong * warpRows +
-      lane / warpColumns;
+    row = (band - of->firstBand) * blockRows + warp / warpsAlong * warpRows + lane / warpColumns;
   }
 };
 
@@ -62,36 +70,38 @@ __device__ inline void addDrift(double worstDrift, long long* worst)
 
 /// All threads of a block come to its end. The task stays where parameters are: a copy would be in local memory.
 template <class Kernel, class May, class Real>
-__global__ void __launch_bounds__(threadsPerBlock, blocksAtATime<Kernel, Real>)
-  traceKernel(const __grid_constant__ RayTask<Real> task, const __grid_constant__ MarchedRows rows)
+__global__ void __launch_bounds__(threadsPerBlock, blocksAtATime<Kernel, Real>) traceKernel(
+  const __grid_constant__ RayTask<Real> task, const __grid_constant__ MarchedBands bands)
 {
-  const PixelOfThread pixel(rows.firstRow);
+  const PixelOfThread pixel(bands);
+  const Pass& pass = pixel.of->pass;
   bool hasCrossed = false;
   double worstDrift = 0;
-  if (pixel.column < rows.pass.columns && pixel.row < rows.pass.rows)
+  if (pixel.column < pass.columns && pixel.row < pass.rows)
   {
-    const std::int64_t ray = pixel.row * rows.pass.columns + pixel.column;
+    const std::int64_t inPass = pixel.row * pass.columns + pixel.column;
+    const std::int64_t ray = pixel.of->firstRay + inPass;
     float* sums = nullptr;
     if constexpr (May::fieldsToGather)
     {
-      sums = rows.gathered + ray * task.gradients.count;
+      sums = bands.gathered + ray * task.gradients.count;
       for (int field = 0; field < task.gradients.count; ++field)
       {
         sums[field] = 0;
       }
     }
     Real drift = 0;
-    const RayExit exit = traceRay<Kernel, May>(task, rows.pass, ray, sums, drift);
-    rows.exits[ray] = exit;
+    const RayExit exit = traceRay<Kernel, May>(task, pass, inPass, sums, drift);
+    bands.exits[ray] = exit;
     hasCrossed = exit.fate != RayFate::Missed;
     worstDrift = drift > 0 ? static_cast<double>(drift) : 0; // not NaN
   }
-  addCount(hasCrossed, &rows.totals->crossed);
-  addDrift(worstDrift, &rows.totals->worstDrift);
+  addCount(hasCrossed, &bands.totals->crossed);
+  addDrift(worstDrift, &bands.totals->worstDrift);
 }
 
 template <class Scheme, class Real>
-void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedRows& rows,
+void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedBands& bands,
   const dim3& blocks, cudaStream_t stream)
 {
   visitKernelOf<Scheme>(task.kernel,
@@ -104,7 +114,7 @@ void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedRows& row
         launchKernel(task.medium.leaves != nullptr
             ? traceKernel<Kind, MayMeet<false, true, fields>, Real>
             : traceKernel<Kind, MayMeet<true, false, fields>, Real>,
-          blocks, threadsPerBlock, 0, stream, task, rows);
+          blocks, threadsPerBlock, 0, stream, task, bands);
       };
       gathers ? start(std::true_type{}) : start(std::false_type{});
     });

@@ -6,8 +6,8 @@ namespace schlieren
 {
 
 template void launchMarch<QuadraticInterpolation>(
-  const RayTask<float>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
+  const RayTask<float>&, bool, const MarchedBands&, const dim3&, cudaStream_t);
 template void launchMarch<QuadraticInterpolation>(
-  const RayTask<double>&, bool, const MarchedRows&, const dim3&, cudaStream_t);
+  const RayTask<double>&, bool, const MarchedBands&, const dim3&, cudaStream_t);
 
 } // namespace schlieren

@@ -17,18 +17,18 @@ namespace schlieren
 namespace
 {
 
-/// Blocks for so many rows of a pass.
-dim3 blocksOf(const Pass& pass, std::int64_t rows)
+/// Blocks for so many bands.
+dim3 blocksOf(const Passes& passes, std::int64_t bands)
 {
-  return { static_cast<unsigned>((pass.columns + blockColumns - 1) / blockColumns),
-    static_cast<unsigned>((rows + blockRows - 1) / blockRows) };
+  return { static_cast<unsigned>((passes.columns() + blockColumns - 1) / blockColumns),
+    static_cast<unsigned>(bands) };
 }
 
-/// How many rows of blocks a launch should have.
-std::int64_t blockRowsOf(const Pass& pass, const LaunchPace& pace)
+/// How many bands a launch should have.
+std::int64_t bandsAtOnce(const Passes& passes, const LaunchPace& pace)
 {
   constexpr std::int64_t most = 65535; // along a grid's second axis
-  return std::clamp<std::int64_t>(pace.rays() / pass.columns / blockRows, 1, most);
+  return std::clamp<std::int64_t>(pace.rays() / passes.columns() / bandRows, 1, most);
 }
 
 void addTotals(const MarchTotals& totals, TracedPass& traced)
@@ -88,12 +88,12 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
+bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes,
   const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
 {
-  begin(task, pass, exits, traced);
+  begin(task, passes, exits, traced);
   const bool isTraced =
-    traceBands(task, pass, versions, exits, { 0, bandsOf(pass) }, traced, monitor);
+    traceBands(task, passes, versions, exits, { 0, passes.bands() }, traced, monitor);
   if (exits == Exits::OnHost)
   {
     traced.onDevice.reset();
@@ -103,19 +103,18 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
 
 template <class Real>
 void CudaTracer<Real>::begin(
-  const RayTask<Real>& task, const Pass& pass, Exits exits, TracedPass& traced) const
+  const RayTask<Real>& task, const Passes& passes, Exits exits, TracedPass& traced) const
 {
   checkCuda(cudaSetDevice(memory_->device), "Choosing a device"); // of this thread
-  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
-  std::unique_ptr<CudaPass> there = std::move(traced.onDevice); // its memory serves again
-  if (!there || there->size() != rays)
+  std::unique_ptr<CudaPass> there = std::move(traced.onDevice);   // its memory serves again
+  if (!there || there->size() != passes.rays())
   {
     there.reset();
-    there = std::make_unique<CudaPass>(rays);
+    there = std::make_unique<CudaPass>(passes.rays());
   }
   if (exits == Exits::OnHost)
   {
-    traced.resize(pass, task.gradients.count);
+    traced.resize(passes, task.gradients.count);
     traced.crossed = 0;
     traced.worstDrift = 0;
   }
@@ -127,26 +126,26 @@ void CudaTracer<Real>::begin(
 }
 
 template <class Real>
-bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
+bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Passes& passes,
   const TaskVersions& versions, Exits exits, const Tiles& bands, TracedPass& traced,
   const Monitor& monitor)
 {
-  static_assert(bandRows == blockRows);
   const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
   const RayTask<Real> onDevice = memory_->upload(task, versions);
-  const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
+  const CudaBuffer<PlacedPass> passesThere(
+    passes.all().data(), passes.all().size(), "Copying the passes");
   const CudaPass* there = traced.onDevice.get();
-  const std::size_t sums = rays * static_cast<std::size_t>(fields);
+  const std::size_t sums = passes.rays() * static_cast<std::size_t>(fields);
   const std::unique_ptr<CudaBuffer<float>> gathered =
     fields > 0 ? std::make_unique<CudaBuffer<float>>(sums) : nullptr;
   memory_->clearTotals();
   memory_->findPace(task, fields);
 
-  /// Some rows, traced in a lane.
+  /// Some bands, traced in a lane.
   struct Launch
   {
     typename DeviceMemory::Lane* lane;
-    std::int64_t firstRow, rows;
+    std::size_t firstRay, endRay;
   };
   std::int64_t nextBand = bands.first;
   /// Launches the next bands, if there are any.
@@ -156,31 +155,29 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
     {
       return {};
     }
-    const std::int64_t firstRow = nextBand * bandRows;
-    nextBand = std::min(bands.end, nextBand + blockRowsOf(pass, *memory_->pace));
-    const std::int64_t rows = std::min(pass.rows, nextBand * bandRows) - firstRow;
+    const std::int64_t firstBand = nextBand;
+    nextBand = std::min(bands.end, nextBand + bandsAtOnce(passes, *memory_->pace));
     auto& lane = memory_->lanes[static_cast<std::size_t>(number % 2)];
     lane.begin.record(lane.stream);
     visitScheme(task.kernel.interpolation,
       [&](auto scheme)
       {
         launchMarch<decltype(scheme)>(onDevice, fields > 0,
-          { pass, firstRow, there->exits(), gathered ? gathered->data() : nullptr,
-            lane.totals.data() },
-          blocksOf(pass, rows), lane.stream.get());
+          { passesThere.data(), static_cast<int>(passes.all().size()), firstBand, there->exits(),
+            gathered ? gathered->data() : nullptr, lane.totals.data() },
+          blocksOf(passes, nextBand - firstBand), lane.stream.get());
       });
     checkCuda(cudaGetLastError(), "Starting the ray kernel");
     lane.end.record(lane.stream);
-    return { { &lane, firstRow, rows } };
+    return { { &lane, passes.raysBefore(firstBand), passes.raysBefore(nextBand) } };
   };
   /// Waits for the launch.
   const auto fetch = [&](const Launch& launched)
   {
     auto& lane = *launched.lane;
-    const auto count = static_cast<std::size_t>(launched.rows * pass.columns);
+    const std::size_t first = launched.firstRay, count = launched.endRay - first;
     if (exits == Exits::OnHost)
     {
-      const auto first = static_cast<std::size_t>(launched.firstRow * pass.columns);
       copyRays(traced.exits.data() + first, there->exits() + first, count, lane.stream);
       if (fields > 0)
       {
@@ -203,9 +200,8 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Pass& pass,
     fetch(*current);
     if (monitor.progress)
     {
-      const std::int64_t toCome =
-        std::min(pass.rows, bands.end * bandRows) - current->firstRow - current->rows;
-      monitor.progress(1 - static_cast<double>(toCome) / static_cast<double>(pass.rows));
+      const std::size_t toCome = passes.raysBefore(bands.end) - current->endRay;
+      monitor.progress(1 - static_cast<double>(toCome) / static_cast<double>(passes.rays()));
     }
     if (monitor.aborted && monitor.aborted())
     {

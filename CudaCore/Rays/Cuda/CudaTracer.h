@@ -16,10 +16,6 @@
 namespace schlieren
 {
 
-/// Rows of a pass that are always traced by the same device: a band.
-constexpr std::int64_t bandRows = 8;
-inline std::int64_t bandsOf(const Pass& pass) { return (pass.rows + bandRows - 1) / bandRows; }
-
 /// What rays need of a medium, on the host.
 template <class Real>
 struct MediumArrays
@@ -62,15 +58,16 @@ public:
     OnDevice ///< for CudaFilm; what they gather is lost
   };
 
-  /// Traces a pass, as traceOnCpu does. Returns false if aborted.
-  bool trace(const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions, Exits exits,
-    TracedPass& traced, const Monitor& monitor);
+  /// Traces passes, as traceOnCpu does. Returns false if aborted.
+  bool trace(const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions,
+    Exits exits, TracedPass& traced, const Monitor& monitor);
 
-  /// Makes room for the rays of a pass: in traced.onDevice, and on the host where they are wanted there.
-  void begin(const RayTask<Real>& task, const Pass& pass, Exits exits, TracedPass& traced) const;
+  /// Makes room for the rays of passes: in traced.onDevice, and on the host where they are wanted there.
+  void begin(
+    const RayTask<Real>& task, const Passes& passes, Exits exits, TracedPass& traced) const;
   /// After begin(), in the same thread: traces consecutive bands until the monitor stops it, and adds to what `traced` counts.
   /// Returns false if aborted.
-  bool traceBands(const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions,
+  bool traceBands(const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions,
     Exits exits, const Tiles& bands, TracedPass& traced, const Monitor& monitor);
 
 private:

@@ -27,12 +27,12 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-void CudaTracer<Real>::begin(const RayTask<Real>&, const Pass&, Exits, TracedPass&) const
+void CudaTracer<Real>::begin(const RayTask<Real>&, const Passes&, Exits, TracedPass&) const
 {
 }
 
 template <class Real>
-bool CudaTracer<Real>::traceBands(const RayTask<Real>&, const Pass&, const TaskVersions&, Exits,
+bool CudaTracer<Real>::traceBands(const RayTask<Real>&, const Passes&, const TaskVersions&, Exits,
   const Tiles&, TracedPass&, const Monitor&)
 {
   return false;
@@ -40,7 +40,7 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>&, const Pass&, const TaskV
 
 template <class Real>
 bool CudaTracer<Real>::trace(
-  const RayTask<Real>&, const Pass&, const TaskVersions&, Exits, TracedPass&, const Monitor&)
+  const RayTask<Real>&, const Passes&, const TaskVersions&, Exits, TracedPass&, const Monitor&)
 {
   return false;
 }

@@ -49,15 +49,15 @@ RaysHead headOf(const std::vector<char>& answer, std::size_t rays, TracedPass& t
   return head;
 }
 
-/// Puts the rays of a rank's tiles where they belong in the pass.
+/// Puts the rays of a rank's tiles where they belong.
 void putTiles(
-  const std::vector<char>& answer, const Pass& pass, const Tiles& tiles, TracedPass& traced)
+  const std::vector<char>& answer, const Passes& passes, const Tiles& tiles, TracedPass& traced)
 {
-  const std::size_t rays = raysOf(pass, tiles);
+  const std::size_t rays = passes.raysOf(tiles);
   const RaysHead head = headOf(answer, rays, traced);
   const char* exits = answer.data() + sizeof(head);
   const char* gathered = exits + rays * sizeof(RayExit);
-  forRowsOf(pass, tiles,
+  forRowsOf(passes, tiles,
     [&](std::size_t first, std::size_t count)
     {
       std::memcpy(traced.exits.data() + first, exits, count * sizeof(RayExit));
@@ -72,18 +72,17 @@ void putTiles(
 }
 
 /// The same of bands, whose rays are consecutive.
-void putBands(const std::vector<char>& answer, const Pass& pass, const Tiles& bands,
+void putBands(const std::vector<char>& answer, const Passes& passes, const Tiles& bands,
   bool isWantedOnHost, TracedPass& traced)
 {
-  const Pass ofBands = passOfBands(pass, bands);
-  const std::size_t rays = raysOf(ofBands);
+  const std::size_t first = passes.raysBefore(bands.first);
+  const std::size_t rays = passes.raysBefore(bands.end) - first;
   if (rays == 0)
   {
     return;
   }
   const RaysHead head = headOf(answer, rays, traced);
   const char* exits = answer.data() + sizeof(head);
-  const auto first = static_cast<std::size_t>(bands.first * bandRows * pass.columns);
   if (!isWantedOnHost)
   {
     traced.onDevice->put(first, exits, rays);
@@ -175,14 +174,14 @@ struct ProcessTracer<Real>::State
 
   /// What processes are to do, but for the tiles.
   TraceMessage<Real> requestFor(const Medium<Real>& medium, const RayTask<Real>& task,
-    const Pass& pass, const TaskVersions& now, Device device)
+    const Passes& passes, const TaskVersions& now, Device device)
   {
     locate(medium);
     update(task, now);
     TraceMessage<Real> message;
     message.device = device;
     message.simd = bestSimd();
-    message.pass = pass;
+    message.passes = passes.all().size();
     message.task = task;
     forArrays(message.task,
       [&](std::size_t n, auto*& pointer)
@@ -225,13 +224,13 @@ template <class Real>
 ProcessTracer<Real>::~ProcessTracer() = default;
 
 template <class Real>
-bool ProcessTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
+bool ProcessTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes,
   const TaskVersions& versions, Processes& others, TracedPass& traced, int threads,
   const Monitor& monitor)
 {
-  TraceMessage<Real> request = state_->requestFor(medium_, task, pass, versions, Device::Cpu);
+  TraceMessage<Real> request = state_->requestFor(medium_, task, passes, versions, Device::Cpu);
   state_->sendArrays(others, request);
-  const std::int64_t all = tilesOf(pass), processes = others.others() + 1;
+  const std::int64_t all = passes.tiles(), processes = others.others() + 1;
   const std::int64_t least = 4 * threadCount(threads) * processes;
   double& secondsPerTile = others.ofRays().secondsPerTile;
   traced.begin();
@@ -244,11 +243,11 @@ bool ProcessTracer<Real>::trace(const RayTask<Real>& task, const Pass& pass,
     request.end = std::min(all, request.first + std::max(least, static_cast<std::int64_t>(wanted)));
     const auto tilesOf = [&](std::int64_t process)
     { return tilesOfProcess(request.first, request.end, process, processes); };
-    const auto answers = others.request(messageOf(request),
-      [&] { traceTiles(task, pass, tilesOf(0), traced, threads, {}, request.simd); });
+    const auto answers = others.request(messageOf(request, passes.all()),
+      [&] { traceTiles(task, passes, tilesOf(0), traced, threads, {}, request.simd); });
     for (std::size_t n = 0; n < answers.size(); ++n)
     {
-      putTiles(answers[n], pass, tilesOf(static_cast<std::int64_t>(n) + 1), traced);
+      putTiles(answers[n], passes, tilesOf(static_cast<std::int64_t>(n) + 1), traced);
     }
     traced.tilesDone = request.end;
     secondsPerTile = secondsSince(start) / static_cast<double>(request.end - request.first);
@@ -285,29 +284,29 @@ bool ProcessTracer<Real>::haveCuda(Processes& processes)
 
 template <class Real>
 bool ProcessTracer<Real>::traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
-  const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions, Processes& others,
+  const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions, Processes& others,
   TracedPass& traced, const Monitor& monitor)
 {
   constexpr std::int64_t raysAtOnce = std::int64_t{ 1 } << 21; // of each process
   constexpr auto onHost = CudaTracer<Real>::Exits::OnHost;
-  TraceMessage<Real> request = state_->requestFor(medium_, task, pass, versions, Device::Cuda);
+  TraceMessage<Real> request = state_->requestFor(medium_, task, passes, versions, Device::Cuda);
   state_->sendArrays(others, request);
-  own.begin(task, pass, exits, traced);
-  const std::int64_t all = bandsOf(pass), processes = others.others() + 1;
+  own.begin(task, passes, exits, traced);
+  const std::int64_t all = passes.bands(), processes = others.others() + 1;
   const std::int64_t atOnce =
-    std::max<std::int64_t>(1, raysAtOnce * processes / (bandRows * pass.columns));
+    std::max<std::int64_t>(1, raysAtOnce * processes / (bandRows * passes.columns()));
   bool isTraced = true;
   for (request.first = 0; request.first < all && isTraced; request.first = request.end)
   {
     request.end = std::min(all, request.first + atOnce);
     const auto bandsOf = [&](std::int64_t process)
     { return bandsOfProcess(request.first, request.end, process, processes); };
-    const auto answers = others.request(messageOf(request),
-      [&] { own.traceBands(task, pass, versions, exits, bandsOf(0), traced, {}); });
+    const auto answers = others.request(messageOf(request, passes.all()),
+      [&] { own.traceBands(task, passes, versions, exits, bandsOf(0), traced, {}); });
     for (std::size_t n = 0; n < answers.size(); ++n)
     {
       putBands(
-        answers[n], pass, bandsOf(static_cast<std::int64_t>(n) + 1), exits == onHost, traced);
+        answers[n], passes, bandsOf(static_cast<std::int64_t>(n) + 1), exits == onHost, traced);
     }
     if (monitor.progress)
     {

@@ -24,16 +24,16 @@ public:
   explicit ProcessTracer(const Medium<Real>& medium);
   ~ProcessTracer();
 
-  /// Traces a pass, or resumes it, as traceOnCpu() does.
-  bool trace(const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions,
+  /// Traces passes, or resumes them, as traceOnCpu() does.
+  bool trace(const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions,
     Processes& processes, TracedPass& traced, int threads, const Monitor& monitor);
 
   /// Whether all ranks have CUDA devices, of the same compute capability. Asks them once.
   static bool haveCuda(Processes& processes);
-  /// Traces a pass on these, where all have them. `own` is this rank's, with the medium.
+  /// Traces passes on these, where all have them. `own` is this rank's, with the medium.
   bool traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
-    const RayTask<Real>& task, const Pass& pass, const TaskVersions& versions, Processes& processes,
-    TracedPass& traced, const Monitor& monitor);
+    const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions,
+    Processes& processes, TracedPass& traced, const Monitor& monitor);
 
 private:
   struct State;

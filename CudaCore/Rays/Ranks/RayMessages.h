@@ -79,16 +79,17 @@ struct TraceHead
   std::uint32_t bytesOfReal = 0;
 };
 
-/// What a worker needs to trace tiles, besides the arrays. On a CUDA device it traces bands in place of tiles.
+/// What a worker needs to trace tiles, besides the arrays. On a CUDA device it traces bands in place of tiles. The passes
+/// follow.
 template <class Real>
 struct TraceMessage
 {
   TraceHead head{ RayWorker::Trace, sizeof(Real) };
   std::int64_t first = 0, end = 0; ///< tiles of all ranks
   Device device = Device::Cpu;
-  Simd simd = Simd::None; ///< of the CPU
-  Pass pass{};
-  RayTask<Real> task{}; ///< its pointers mean nothing
+  Simd simd = Simd::None;   ///< of the CPU
+  std::uint64_t passes = 0; ///< how many
+  RayTask<Real> task{};     ///< its pointers mean nothing
   /// Versions of the arrays, and from their beginnings to where the task's pointers point, in values.
   std::array<std::uint64_t, arraysOfTask> versions{};
   std::array<std::int64_t, arraysOfTask> offsets{};
@@ -108,6 +109,8 @@ struct RaysHead
 static_assert(std::is_trivially_copyable_v<TraceMessage<float>>);
 static_assert(std::is_trivially_copyable_v<TraceMessage<double>>);
 static_assert(std::is_trivially_copyable_v<RayExit>);
+
+static_assert(std::is_trivially_copyable_v<Pass>);
 
 template <class Head>
 std::vector<char> messageOf(const Head& head, std::size_t bytesBehind = 0)
@@ -129,28 +132,35 @@ bool read(const std::vector<char>& message, Head& head)
   return true;
 }
 
-/// A tile as a pass of its own, with the same rays.
-inline Pass passOfTile(const Pass& pass, std::int64_t tile)
+template <class Real>
+std::vector<char> messageOf(
+  const TraceMessage<Real>& request, const std::vector<PlacedPass>& passes)
 {
-  const std::int64_t left = tile % tilesAlong(pass) * tileEdge;
-  const std::int64_t low = tile / tilesAlong(pass) * tileEdge;
-  Pass ofTile = pass;
-  ofTile.firstColumn += left;
-  ofTile.firstRow += low;
-  ofTile.columns = std::min(tileEdge, pass.columns - left);
-  ofTile.rows = std::min(tileEdge, pass.rows - low);
-  return ofTile;
+  std::vector<char> message = messageOf(request, passes.size() * sizeof(Pass));
+  char* to = message.data() + sizeof(request);
+  for (const PlacedPass& placed : passes)
+  {
+    std::memcpy(to, &placed.pass, sizeof(Pass));
+    to += sizeof(Pass);
+  }
+  return message;
 }
 
-/// Consecutive bands as a pass of their own, with the same rays.
-inline Pass passOfBands(const Pass& pass, const Tiles& bands)
+/// The passes of a request that has been read. False where the message is too short for them.
+template <class Real>
+bool readPasses(
+  const std::vector<char>& message, const TraceMessage<Real>& request, std::vector<Pass>& passes)
 {
-  Pass ofBands = pass;
-  ofBands.firstRow += bands.first * bandRows;
-  ofBands.rows =
-    std::max<std::int64_t>(0, std::min(pass.rows, bands.end * bandRows) - bands.first * bandRows);
-  return ofBands;
+  const std::size_t bytes = message.size() - sizeof(request);
+  if (request.passes == 0 || bytes / sizeof(Pass) != request.passes)
+  {
+    return false;
+  }
+  passes.resize(static_cast<std::size_t>(request.passes));
+  std::memcpy(passes.data(), message.data() + sizeof(request), bytes);
+  return true;
 }
+
 /// Which of the bands first ... end - 1 one rank traces: a device is busiest with consecutive ones.
 inline Tiles bandsOfProcess(
   std::int64_t first, std::int64_t end, std::int64_t process, std::int64_t processes)
@@ -159,33 +169,17 @@ inline Tiles bandsOfProcess(
   return { first + count * process / processes, first + count * (process + 1) / processes };
 }
 
-inline std::size_t raysOf(const Pass& pass)
-{
-  return static_cast<std::size_t>(pass.columns * pass.rows);
-}
-
-inline std::size_t raysOf(const Pass& pass, const Tiles& tiles)
-{
-  std::size_t rays = 0;
-  for (std::int64_t tile = tiles.first; tile < tiles.end; tile += tiles.step)
-  {
-    rays += raysOf(passOfTile(pass, tile));
-  }
-  return rays;
-}
-
-/// Calls visit(first ray of the pass, how many) for the rows of tiles.
+/// Calls visit(first ray of all, how many) for the rows of tiles.
 template <class Visit>
-void forRowsOf(const Pass& pass, const Tiles& tiles, const Visit& visit)
+void forRowsOf(const Passes& passes, const Tiles& tiles, const Visit& visit)
 {
-  for (std::int64_t tile = tiles.first; tile < tiles.end; tile += tiles.step)
+  for (std::int64_t number = tiles.first; number < tiles.end; number += tiles.step)
   {
-    const Pass ofTile = passOfTile(pass, tile);
-    for (std::int64_t row = 0; row < ofTile.rows; ++row)
+    const TileOfPass tile = passes.tile(number);
+    for (std::int64_t row = tile.low; row < tile.low + tile.rows; ++row)
     {
-      visit(static_cast<std::size_t>((ofTile.firstRow - pass.firstRow + row) * pass.columns +
-              ofTile.firstColumn - pass.firstColumn),
-        static_cast<std::size_t>(ofTile.columns));
+      visit(static_cast<std::size_t>(tile.of.firstRay + row * tile.of.pass.columns + tile.left),
+        static_cast<std::size_t>(tile.columns));
     }
   }
 }

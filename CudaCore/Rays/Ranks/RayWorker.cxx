@@ -100,7 +100,8 @@ struct RayWorker::Arrays
   }
 
   template <class Real>
-  std::vector<char> traceOnDevice(const TraceMessage<Real>& request, const Tiles& bands)
+  std::vector<char> traceOnDevice(
+    const TraceMessage<Real>& request, const Passes& passes, const Tiles& bands)
   {
     OnCuda<Real>& here = onCuda<Real>();
     std::array<std::uint64_t, arraysOfTask> versions{};
@@ -120,11 +121,10 @@ struct RayWorker::Arrays
       here.tracer = std::make_unique<CudaTracer<Real>>(ofTask.ofMedium(request));
       here.versions = versions;
     }
-    const Pass pass = passOfBands(request.pass, bands);
     traced = {};
-    if (pass.rows > 0)
+    if (const Passes own = passes.ofBands(bands); own.rays() > 0)
     {
-      here.tracer->trace(request.task, pass,
+      here.tracer->trace(request.task, own,
         { request.versions[7], static_cast<double>(request.versions[6]) },
         CudaTracer<Real>::Exits::OnHost, traced, {});
     }
@@ -133,24 +133,24 @@ struct RayWorker::Arrays
 
   /// The rays of its tiles, tile after tile.
   template <class Real>
-  std::vector<char> traceTiles(const TraceMessage<Real>& request, const Tiles& tiles, int threads)
+  std::vector<char> traceTiles(
+    const TraceMessage<Real>& request, const Passes& passes, const Tiles& tiles, int threads)
   {
     if (!hasSimd(request.simd))
     {
       throw Error("The processors of the processes differ, so that rays would, too.");
     }
-    const Pass& pass = request.pass;
     const auto fields = static_cast<std::size_t>(request.task.gradients.count);
-    traced.resize(pass, static_cast<int>(fields));
+    traced.resize(passes, static_cast<int>(fields));
     traced.crossed = 0;
     traced.worstDrift = 0;
-    schlieren::traceTiles(request.task, pass, tiles, traced, threads, {}, request.simd);
-    const std::size_t rays = raysOf(pass, tiles);
+    schlieren::traceTiles(request.task, passes, tiles, traced, threads, {}, request.simd);
+    const std::size_t rays = passes.raysOf(tiles);
     std::vector<char> answer = messageOf(RaysHead{ fields, traced.crossed, traced.worstDrift },
       rays * (sizeof(RayExit) + fields * sizeof(float)));
     char* exits = answer.data() + sizeof(RaysHead);
     char* gathered = exits + rays * sizeof(RayExit);
-    forRowsOf(pass, tiles,
+    forRowsOf(passes, tiles,
       [&](std::size_t first, std::size_t count)
       {
         std::memcpy(exits, traced.exits.data() + first, count * sizeof(RayExit));
@@ -169,14 +169,16 @@ struct RayWorker::Arrays
   std::vector<char> trace(const std::vector<char>& message, int process, int processes, int threads)
   {
     TraceMessage<Real> request;
-    if (!read(message, request) || !ofTask.bind(request))
+    std::vector<Pass> passes;
+    if (!read(message, request) || !readPasses(message, request, passes) || !ofTask.bind(request))
     {
       throw Error("A process has not all of the medium. Update the filter again.");
     }
     return request.device == Device::Cuda
-      ? traceOnDevice(request, bandsOfProcess(request.first, request.end, process, processes))
+      ? traceOnDevice(
+          request, passes, bandsOfProcess(request.first, request.end, process, processes))
       : traceTiles(
-          request, tilesOfProcess(request.first, request.end, process, processes), threads);
+          request, passes, tilesOfProcess(request.first, request.end, process, processes), threads);
   }
 };
 

@@ -257,6 +257,57 @@ TEST(Processes, EachTileIsOfOneProcess)
   }
 }
 
+// Tiles and bands of several passes have all of their rays once, and bands in their order.
+TEST(Processes, DividePasses)
+{
+  const Pass first{ -3, 2, 40, 17, { 0.1, 0.2 } }, second{ 5, 5, 1, 1, { 0, 0 } },
+    third{ 0, 0, 16, 33, { -0.3, 0 } };
+  const Passes passes(std::vector<Pass>{ first, second, third });
+  EXPECT_EQ(passes.rays(), 40u * 17 + 1 + 16 * 33);
+  EXPECT_EQ(passes.tiles(), 3 * 2 + 1 + 3);
+  EXPECT_EQ(passes.bands(), 3 + 1 + 5);
+  EXPECT_EQ(passes.columns(), 40);
+  std::vector<int> count(passes.rays(), 0);
+  for (std::int64_t process = 0; process < 3; ++process)
+  {
+    const Tiles tiles = tilesOfProcess(0, passes.tiles(), process, 3);
+    std::size_t rays = 0;
+    forRowsOf(passes, tiles,
+      [&](std::size_t from, std::size_t some)
+      {
+        rays += some;
+        for (std::size_t ray = from; ray < from + some; ++ray)
+        {
+          ++count[ray];
+        }
+      });
+    EXPECT_EQ(rays, passes.raysOf(tiles));
+  }
+  EXPECT_EQ(count, std::vector<int>(passes.rays(), 1));
+  const auto startsOf = [](const Passes& of)
+  {
+    std::vector<double> starts;
+    for (const PlacedPass& placed : of.all())
+    {
+      for (std::int64_t ray = 0; ray < placed.pass.columns * placed.pass.rows; ++ray)
+      {
+        starts.insert(starts.end(), { placed.pass.columnOf(ray), placed.pass.rowOf(ray) });
+      }
+    }
+    return starts;
+  };
+  const std::vector<double> all = startsOf(passes);
+  for (std::int64_t begin = 0; begin <= passes.bands(); ++begin)
+  {
+    for (std::int64_t end = begin; end <= passes.bands(); ++end)
+    {
+      const auto at = [&](std::int64_t band)
+      { return all.begin() + 2 * static_cast<std::ptrdiff_t>(passes.raysBefore(band)); };
+      EXPECT_EQ(startsOf(passes.ofBands({ begin, end })), std::vector<double>(at(begin), at(end)));
+    }
+  }
+}
+
 } // namespace
 
 } // namespace schlieren

@@ -414,6 +414,51 @@ TEST_F(HostAndDeviceRays, AreTheSameWhetherTheyComeBackOrNot)
   expectSameBits(back.exits, there.onDevice->toHost());
 }
 
+/// Patches of an image, of all sizes.
+TEST_F(HostAndDeviceRays, AreTheSameInOnePassOrMany)
+{
+  const Bundle<float> bundle(
+    { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic });
+  const RayTask<float> task = bundle.task(2);
+  std::vector<Pass> passes;
+  for (std::int64_t n = 0; n < 7; ++n)
+  {
+    passes.push_back({ 3 * n - 2, 20 - 4 * n, 1 + 5 * n % 37, 1 + 11 * n % 23, pixelOffset(n, 1) });
+  }
+  CudaTracer<float> tracer(*bundle.medium);
+  constexpr auto onHost = CudaTracer<float>::Exits::OnHost;
+  TracedPass onDevice, onCpu;
+  EXPECT_TRUE(tracer.trace(task, passes, { 1, 1 }, onHost, onDevice, {}));
+  onCpu.resize(passes, 2);
+  EXPECT_TRUE(traceOnCpu(task, passes, onCpu, 2, {}));
+  TracedPass oneByOne[2];
+  for (const Pass& one : passes)
+  {
+    TracedPass alone[2];
+    tracer.trace(task, one, { 1, 1 }, onHost, alone[0], {});
+    alone[1].resize(one, 2);
+    traceOnCpu(task, one, alone[1], 1, {});
+    for (std::size_t n = 0; n < 2; ++n)
+    {
+      TracedPass& all = oneByOne[n];
+      all.crossed += alone[n].crossed;
+      all.worstDrift = std::max(all.worstDrift, alone[n].worstDrift);
+      all.exits.insert(all.exits.end(), alone[n].exits.begin(), alone[n].exits.end());
+      all.gathered.insert(all.gathered.end(), alone[n].gathered.begin(), alone[n].gathered.end());
+    }
+  }
+  for (const auto& [together, apart] :
+    { std::pair<const TracedPass&, const TracedPass&>{ onDevice, oneByOne[0] },
+      { onCpu, oneByOne[1] } })
+  {
+    expectSameBits(together.exits, apart.exits);
+    EXPECT_EQ(together.gathered, apart.gathered);
+    EXPECT_EQ(together.crossed, apart.crossed);
+    EXPECT_EQ(together.worstDrift, apart.worstDrift);
+    EXPECT_GT(together.crossed, 0);
+  }
+}
+
 TEST_F(HostAndDeviceRays, FindNewMapsAndGradientsOnTheDevice)
 {
   const KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };

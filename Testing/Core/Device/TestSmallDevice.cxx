@@ -105,6 +105,28 @@ TEST_F(SmallDevice, LeavesToTheCpuWhatIsTooMuch)
   EXPECT_EQ(render(bench).device, Device::Cuda);
 }
 
+// What looks at a view before its image is on the same device.
+TEST_F(SmallDevice, LeavesTargetErrorsToTheCpu)
+{
+  scene_.targetError = 1. / 256;
+  scene_.view.width = 40;
+  scene_.view.height = 30;
+  const Image onDevice = rendered();
+  EXPECT_EQ(onDevice.device, Device::Cuda);
+  EXPECT_EQ(onDevice.deviceNote, "");
+  emulated::setCapacity(megabyte / 4);
+  Bench bench;
+  EXPECT_THROW(render(bench), Error);
+  scene_.device = Device::Auto;
+  const Image found = render(bench);
+  EXPECT_EQ(found.device, Device::Cpu);
+  EXPECT_NE(found.deviceNote.find("of memory free"), std::string::npos) << found.deviceNote;
+  EXPECT_EQ(found.samplesPerPixel, onDevice.samplesPerPixel);
+  EXPECT_EQ(found.stepSize, onDevice.stepSize);
+  emulated::setCapacity(emulated::defaultCapacity);
+  EXPECT_EQ(render(bench).device, Device::Cuda);
+}
+
 // All of a medium is there, or none of it.
 TEST_F(SmallDevice, LeavesTreesToTheCpuThatAreTooLarge)
 {
