@@ -105,26 +105,37 @@ TEST_F(SmallDevice, LeavesToTheCpuWhatIsTooMuch)
   EXPECT_EQ(render(bench).device, Device::Cuda);
 }
 
-// What looks at a view before its image is on the same device.
-TEST_F(SmallDevice, LeavesTargetErrorsToTheCpu)
+// What looks at a view before its image is traced on the same device.
+TEST_F(SmallDevice, LooksAtAViewWithWhatThereIs)
 {
-  scene_.targetError = 1. / 256;
-  scene_.view.width = 40;
-  scene_.view.height = 30;
-  const Image onDevice = rendered();
-  EXPECT_EQ(onDevice.device, Device::Cuda);
-  EXPECT_EQ(onDevice.deviceNote, "");
-  emulated::setCapacity(megabyte / 4);
+  scene_.interpolation = Interpolation::Cubic; // as a target error has it
   Bench bench;
-  EXPECT_THROW(render(bench), Error);
-  scene_.device = Device::Auto;
+  render(bench);
+  scene_.targetError = 1. / 64;
+  scene_.estimatesErrors = true; // of all pixels, which are looked at
+  scene_.view.viewDirection = { 0.1, 0.2, -1 };
+  const Image expected = rendered();
+  EXPECT_EQ(expected.device, Device::Cuda);
+
+  // Full of the rays of another image.
+  emulated::setCapacity(3 * pixels * sizeof(RayExit) + megabyte);
   const Image found = render(bench);
-  EXPECT_EQ(found.device, Device::Cpu);
-  EXPECT_NE(found.deviceNote.find("of memory free"), std::string::npos) << found.deviceNote;
-  EXPECT_EQ(found.samplesPerPixel, onDevice.samplesPerPixel);
-  EXPECT_EQ(found.stepSize, onDevice.stepSize);
+  EXPECT_EQ(found.device, Device::Cuda);
+  EXPECT_EQ(found.deviceNote, "");
+  EXPECT_EQ(found.intensity, expected.intensity);
+  EXPECT_EQ(found.accuracy.reached, expected.accuracy.reached);
+
+  emulated::setCapacity(1000); // less than the medium
+  Bench another;
+  EXPECT_THROW(render(another), Error);
+  scene_.device = Device::Auto;
+  const Image onCpu = render(another);
+  EXPECT_EQ(onCpu.device, Device::Cpu);
+  EXPECT_NE(onCpu.deviceNote.find("of memory free"), std::string::npos) << onCpu.deviceNote;
+  EXPECT_EQ(onCpu.samplesPerPixel, expected.samplesPerPixel);
+  EXPECT_EQ(onCpu.stepSize, expected.stepSize);
   emulated::setCapacity(emulated::defaultCapacity);
-  EXPECT_EQ(render(bench).device, Device::Cuda);
+  EXPECT_EQ(render(another).device, Device::Cuda);
 }
 
 // All of a medium is there, or none of it.
