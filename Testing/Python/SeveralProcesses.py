@@ -155,6 +155,13 @@ def images():
     seen.UpdatePropertyInformation()
     assert not is_rank0() or seen.GetProperty("Finished").GetData() == 1
     found["time-sliced: Deflection"] = image_array(seen, "Deflection")
+    # The settings that a target error chooses.
+    seen = Schlieren(Input=ball("hexahedra"), Density=["POINTS", "rho"], ImageSize=[60, 60], Cutoff="Shadowgraph",
+                     ViewDirection=[0.2, -0.6, -0.8], TargetError=-1)
+    found["automatic: Intensity"] = image_array(seen, "Intensity")
+    facts = seen.GetClientSideObject().GetOutputDataObject(0).GetFieldData()
+    found["automatic: settings"] = np.array([facts.GetArray(name).GetValue(0) for name in
+                                             ("StepSize", "SamplesPerPixel", "ErrorReached")] if is_rank0() else [0.0])
     # Exposures, of pieces, too.
     for kind, output, limits in (("image", "vtkImageData", [10000000]), ("tetrahedra", "vtkUnstructuredGrid", [10000000, 0])):
         for limit in limits:
