@@ -51,58 +51,85 @@ Pass Pilot<Real>::passOf(const Patch& patch, std::int64_t number) const
 }
 
 template <class Real>
-const typename Pilot<Real>::Traced* Pilot<Real>::trace(
-  Group& group, const PassNumber& pass, const Monitor& monitor)
+bool Pilot<Real>::trace(Group& group, const PassNumber& first, const Monitor& monitor)
 {
-  Traced& traced = group.traced[keyOf(pass)];
-  const PatchList& places = *group.patches;
   if (isPaused_)
   {
-    return nullptr;
+    return false;
   }
-  if (traced.rays.size() == places.size())
-  {
-    return &traced;
-  }
+  const PatchList& places = *group.patches;
+  constexpr std::size_t raysAtOnce = std::size_t{ 1 } << 20;
+  std::vector<PassNumber> missing;
+  std::vector<PassKey> keys;
   std::vector<Pass> passes;
+  std::size_t rays = 0; // of a pass of all patches
+  for (const Patch& patch : places)
+  {
+    rays += Passes(passOf(patch, 0)).rays();
+  }
+  const std::size_t most =
+    layout_.isWhole ? 1 : std::max<std::size_t>(1, raysAtOnce / std::max<std::size_t>(1, rays));
+  for (PassNumber pass = first; pass.number < first.set->samples && missing.size() < most;
+       ++pass.number)
+  {
+    if (group.traced.count(keyOf(pass)) == 0)
+    {
+      missing.push_back(pass);
+      keys.push_back(keyOf(pass));
+    }
+    else if (pass.number == first.number)
+    {
+      return true;
+    }
+  }
+  // Those of a patch one after the other: they read the same samples of the medium.
   for (std::size_t n = 0; n < places.size(); ++n)
   {
-    passes.push_back(passOf(places[n], pass.in(n)));
-    passes.back().firstColumn += places[n].fromColumn;
-    passes.back().firstRow += places[n].fromRow;
+    for (const PassNumber& pass : missing)
+    {
+      passes.push_back(passOf(places[n], pass.in(n)));
+      passes.back().firstColumn += places[n].fromColumn;
+      passes.back().firstRow += places[n].fromRow;
+    }
   }
-  TracedPass& together = traced.together;
-  if (together.tilesDone == 0)
+  TracedPass& together = group.underWay;
+  if (together.tilesDone == 0 || group.keysUnderWay != keys)
   {
     together.resize(passes, 0);
+    group.keysUnderWay = keys;
   }
   const bool isTraced = setup_.tracer.trace(
-    taskFor(pass.set->step), passes, together, { {}, monitor.aborted, monitor.paused });
+    taskFor(first.set->step), passes, together, { {}, monitor.aborted, monitor.paused });
   isPaused_ = monitor.paused && monitor.paused();
   if (!isTraced)
   {
-    return nullptr;
+    return false;
   }
-  traced.rays.resize(places.size());
-  const RayExit* first = together.exits.data();
+  const RayExit* ray = together.exits.data();
+  auto pass = passes.begin();
   for (std::size_t n = 0; n < places.size(); ++n)
   {
     const Patch& patch = places[n];
-    RayExits& exits = traced.rays[n].exits;
-    exits.assign(first, first + passes[n].columns * passes[n].rows);
-    first += exits.size();
     const double shift[2] = { static_cast<double>(patch.fromColumn - patch.column),
       static_cast<double>(patch.fromRow - patch.row) };
-    for (RayExit& exit : exits)
+    for (const PassKey& key : keys)
     {
-      for (std::size_t axis = 0; axis < 2; ++axis)
+      RayExits& exits = group.traced[key].emplace_back().exits;
+      exits.assign(ray, ray + pass->columns * pass->rows);
+      ray += exits.size();
+      ++pass;
+      for (RayExit& exit : exits)
       {
-        exit.displacement[axis] += static_cast<float>(shift[axis] / setup_.projection.perDataUnit);
+        for (std::size_t axis = 0; axis < 2; ++axis)
+        {
+          exit.displacement[axis] +=
+            static_cast<float>(shift[axis] / setup_.projection.perDataUnit);
+        }
       }
     }
   }
   together = {};
-  return &traced;
+  return true;
 }
 
 template <class Real>
@@ -127,22 +154,22 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
         }
       });
   };
-  const auto isTooMuch = [&](const Traced& traced)
+  const auto isTooMuch = [&](const std::vector<TracedPass>& rays)
   {
     return layout_.isWhole &&
-      static_cast<std::size_t>(set.samples) * traced.rays.front().bytes() > scene_.memoryBudget;
+      static_cast<std::size_t>(set.samples) * rays.front().bytes() > scene_.memoryBudget;
   };
   while (!exposed.films.empty() && exposed.films.front().passes() < set.samples)
   {
     const PassNumber number{ &set, exposed.films.front().passes() };
-    const Traced* traced = trace(group, number, monitor);
-    if (!traced)
+    if (!trace(group, number, monitor))
     {
       return nullptr;
     }
-    withEach([&](std::size_t n, PatchFilm& film)
-      { film.add(traced->rays[n], passOf(places[n], number.in(n))); });
-    if (isTooMuch(*traced) && number.number + 1 < set.samples)
+    const std::vector<TracedPass>& rays = group.traced[keyOf(number)];
+    withEach(
+      [&](std::size_t n, PatchFilm& film) { film.add(rays[n], passOf(places[n], number.in(n))); });
+    if (isTooMuch(rays) && number.number + 1 < set.samples)
     {
       group.traced.erase(keyOf(number));
     }

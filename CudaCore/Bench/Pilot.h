@@ -96,11 +96,6 @@ public:
   bool isPaused() const { return isPaused_; }
 
 private:
-  struct Traced
-  {
-    TracedPass together;          ///< until all are traced
-    std::vector<TracedPass> rays; ///< of each patch, then
-  };
   struct Exposed
   {
     std::deque<PatchFilm> films; ///< of each patch, until they have all rays
@@ -145,14 +140,17 @@ private:
   struct Group
   {
     const PatchList* patches;
-    std::map<PassKey, Traced> traced;
+    std::map<PassKey, std::vector<TracedPass>> traced; ///< of each patch
+    TracedPass underWay;                               ///< some that a pause has interrupted
+    std::vector<PassKey> keysUnderWay;
     std::map<RaySet, Exposed> exposed;
   };
 
   RayTask<Real> taskFor(double step) const;
   Pass passOf(const Patch& patch, std::int64_t number) const;
-  /// The rays of all patches of a group; null if aborted or paused.
-  const Traced* trace(Group& group, const PassNumber& pass, const Monitor& monitor);
+  /// Traces a pass of all patches of a group where that has not been done, and some of those that come next. False if aborted
+  /// or paused.
+  bool trace(Group& group, const PassNumber& first, const Monitor& monitor);
   /// The images of all patches of a group; null if aborted or paused.
   const std::vector<PatchPixels>* expose(Group& group, const RaySet& rays, const Monitor& monitor);
 
