@@ -36,7 +36,7 @@ template <class Real>
 std::int64_t traceTiles(const RayTask<Real>& task, const Passes& passes, const Tiles& tiles,
   TracedPass& traced, int threads, const Monitor& monitor, Simd simd = bestSimd());
 
-/// How many tiles this process has been asked to trace so far, for whatever purpose.
+/// Counts the tiles that this process has traced so far, or was to trace, for whatever purpose.
 std::int64_t tilesTracedOnCpu();
 
 } // namespace schlieren
