@@ -81,9 +81,12 @@ public:
   /// In pixels with so many rays.
   double ofStep(double step, int samples)
   {
-    if (step <= shortestStep) // not traced any finer
+    if (step <=
+      shortestStep) // not traced any finer; where light goes astray, shorter steps gain little
     {
-      return 0.5 * ofStep(2 * step, samples);
+      const double before = ofStep(2 * step, samples), twoBefore = ofStep(4 * step, samples);
+      const double gained = twoBefore > 0 ? before / twoBefore : 0;
+      return std::clamp(gained, 0.5, 1.) * before;
     }
     const auto errorIn = [&](const Differences& differences)
     { return steps_.errorOf(differences, samples, mayExceedAsChosen); };

@@ -54,6 +54,7 @@ public:
   const ViewSetup<Real>& setup() const { return setup_; }
   const Scene& scene() const { return scene_; }
   const PilotView& view() const { return scouts_.view(); }
+  bool isWhole() const { return layout_.isWhole; } ///< the image is the only patch
 
   /// Exposes patches by another cutoff of a scene with the same rays from now on. `k`: see Scene::kScale.
   void begin(const Tracer<Real>& tracer, const Scene& scene, double k)

@@ -39,50 +39,129 @@ ErrorSource limitOf(double ofSteps, double ofRays, const KnownErrors& known)
   return most->first > 0 ? most->second : ErrorSource::None;
 }
 
-/// The fewest rays, and then the longest steps, whose errors keep the target together.
+/// The fewest rays, and then the longest steps, whose errors keep the target together. Where none do, the cheapest ones that
+/// come as close to it.
 template <class Real>
-AccurateSettings cheapest(double target, Ladder<Real>& ladder, const KnownErrors& known)
+class Choice
 {
-  const double fixed = sumOf(known.voxels, known.rounding);
-  // Where nothing can keep the target, the rest shall not add to that.
-  const double allowed = std::sqrt(std::max(target * target / (margin * margin) - fixed * fixed,
-    0.25 * target * target / (margin * margin)));
-  constexpr double shareOfRays = 0.9; // steps need something, too
-  AccurateSettings settings{ ladder.longest(), raysPerPixel.front(), {} };
-  double ofRays = 0, ofSteps = 0;
-  const auto chooseRays = [&](double most)
+public:
+  /// `aim`: no more than the target, for what other patches may show.
+  Choice(double aim, double target, Ladder<Real>& ladder, const KnownErrors& known)
+    : aim_(aim)
+    , target_(target)
+    , ladder_(ladder)
+    , known_(known)
+    , settings_{ ladder.longest(), raysPerPixel.front(), {} }
+  {
+  }
+
+  AccurateSettings cheapest()
+  {
+    const double fixed = sumOf(known_.voxels, known_.rounding);
+    // Where nothing can keep the target, the rest shall not add to that.
+    const double least = std::max(0.5 * aim_ / margin, negligible * fixed);
+    const double allowed =
+      std::sqrt(std::max(aim_ * aim_ / (margin * margin) - fixed * fixed, least * least));
+    constexpr double shareOfRays = 0.9; // steps need something, too
+    const double ofSteps = (1 - shareOfRays * shareOfRays) * allowed * allowed; // squared
+    double most = shareOfRays * allowed;
+    // Steps that are to be looked at in any case: where none are short enough, many rays would gain nothing.
+    settings_.samples = raysPerPixel.back();
+    chooseStep(allowed * allowed);
+    if (ofSteps_ > allowed)
+    {
+      const double more = moreOf(margin * ofSteps_);
+      most = std::max(most, std::sqrt(more * more - 1) * ofSteps_);
+    }
+    chooseRays(most);
+    // By something larger that nothing can mend.
+    const double beside = ofRays_ > allowed ? negligible * ofRays_ : 0;
+    chooseStep(std::max({ allowed * allowed - ofRays_ * ofRays_, ofSteps, beside * beside }));
+    if (errorNow() > target_)
+    {
+      spare();
+    }
+    settings_.accuracy = { aim_, errorNow(), 0, limitOf(ofSteps_, ofRays_, known_) };
+    return settings_;
+  }
+
+private:
+  static constexpr double negligible = 0.3; ///< by something larger
+
+  double errorNow() const
+  {
+    return margin * sumOf(ofRays_, ofSteps_, known_.voxels, known_.rounding);
+  }
+
+  void chooseRays(double most)
   {
     for (const int samples : raysPerPixel)
     {
-      settings.samples = samples;
-      ofRays = ladder.ofRays(samples, most);
-      if (ofRays <= most)
+      settings_.samples = samples;
+      ofRays_ = ladder_.ofRays(samples, most);
+      if (ofRays_ <= most)
       {
         break;
       }
     }
-  };
-  chooseRays(shareOfRays * allowed);
-  constexpr double negligible = 0.3; // by something larger that nothing can mend
-  const double rest = std::max({ allowed * allowed - ofRays * ofRays, 0.19 * allowed * allowed,
-    ofRays > allowed ? negligible * negligible * ofRays * ofRays : 0 });
-  for (double step = ladder.longest(); step >= shortestStep; step *= 0.5)
+  }
+
+  void chooseStep(double mostSquared)
   {
-    settings.step = step;
-    ofSteps = ladder.ofStep(step, settings.samples);
-    if (ofSteps * ofSteps <= rest)
+    for (double step = ladder_.longest(); step >= shortestStep; step *= 0.5)
     {
-      break;
+      settings_.step = step;
+      ofSteps_ = ladder_.ofStep(step, settings_.samples);
+      if (ofSteps_ * ofSteps_ <= mostSquared)
+      {
+        break;
+      }
     }
   }
-  if (ofSteps > allowed)
+
+  /// By how much an error that exceeds the target may grow so that it is about the same.
+  double moreOf(double error) const
   {
-    chooseRays(negligible * ofSteps);
+    constexpr double least = 1.1, most = 2;
+    return std::clamp(error / (2 * target_), least, most);
   }
-  settings.accuracy = { target, margin * sumOf(ofRays, ofSteps, known.voxels, known.rounding), 0,
-    limitOf(ofSteps, ofRays, known) };
-  return settings;
-}
+
+  /// Takes fewer rays and longer steps, of those that have been looked at, where the target cannot be kept and the error is
+  /// about the same.
+  void spare()
+  {
+    const double most = moreOf(errorNow()) * errorNow();
+    const Choice finest = *this;
+    double leastCost = static_cast<double>(finest.settings_.samples) / finest.settings_.step;
+    for (const int samples : raysPerPixel)
+    {
+      for (double step = ladder_.longest();
+           samples <= finest.settings_.samples && step >= finest.settings_.step; step *= 0.5)
+      {
+        Choice other = finest;
+        other.settings_.samples = samples;
+        other.settings_.step = step;
+        other.ofRays_ = samples < finest.settings_.samples ? ladder_.ofRays(samples, finest.ofRays_)
+                                                           : finest.ofRays_;
+        other.ofSteps_ = ladder_.ofStep(step, samples);
+        const double cost = samples / step;
+        if (cost < leastCost && other.errorNow() <= most)
+        {
+          leastCost = cost;
+          settings_ = other.settings_;
+          ofRays_ = other.ofRays_;
+          ofSteps_ = other.ofSteps_;
+        }
+      }
+    }
+  }
+
+  double aim_, target_;
+  Ladder<Real>& ladder_;
+  const KnownErrors& known_;
+  AccurateSettings settings_;
+  double ofRays_ = 0, ofSteps_ = 0;
+};
 
 } // namespace
 
@@ -188,7 +267,15 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
         Patches::ToVerify, { steps.longest, fewer, fewer }, { steps.longest, more, more }, monitor);
     };
     const int samples = settings.samples;
-    ofRays = compare(samples, samples <= 4 ? 4 * samples : 2 * samples);
+    constexpr int few = 4;
+    // Where the image is the patch, that would take longer than the image, and these rays are traced.
+    const bool isTraced = samples > few && pilot.isWhole() && !scene.estimatesErrors;
+    ofRays = isTraced ? compare(samples / few, samples)
+                      : compare(samples, samples <= few ? few * samples : 2 * samples);
+    for (Difference& one : ofRays)
+    {
+      one.value /= isTraced ? leastGain : 1;
+    }
   }
   const auto sum = [&](double errorOfSteps, double errorOfRays)
   { return sumOf(bySteps * errorOfSteps, errorOfRays, known.voxels, known.rounding); };
@@ -264,10 +351,11 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
   for (int tries = 0; tries < 3 && !isAborted(); ++tries)
   {
     const AccurateSettings last = settings;
-    settings = cheapest(aim, ladder, known);
+    settings = Choice<Real>(aim, target, ladder, known).cheapest();
+    const bool canBeKept = settings.accuracy.reached <= target;
     const bool isSame = tries > 0 && settings.step == last.step && settings.samples == last.samples;
     verify(settings, pilot, steps, known, monitor);
-    if (isSame || settings.accuracy.isKept() || !isResolved)
+    if (isSame || !canBeKept || settings.accuracy.isKept() || !isResolved)
     {
       break;
     }
