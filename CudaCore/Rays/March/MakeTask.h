@@ -18,6 +18,11 @@ constexpr int trappedFactor = 8;
 constexpr int adaptiveFactor = 64;
 constexpr double usualTolerance = 1e-5;
 
+/// Where steps are shorter than voxels because rays bend within one, as in voxels that are much longer than wide, a ray takes
+/// this many more at the most, of those for a StepSize of 1. Where nu'' is what steps are chosen for, that is a hundred swings
+/// of light that is guided from one end to the other, and steps are wrong by up to a tenth of a swing after them.
+constexpr double mostStepsOfBends = 8192;
+
 /// What of a scene matters to rays.
 struct RaySettings
 {

@@ -299,10 +299,10 @@ struct March
     }
   }
 
-  /// Shortens the usual step, which in leaves of one layer may lead far beyond the domain.
+  /// Shortens the usual step, which in leaves of one layer, or of flat voxels, may lead far beyond the domain.
   SCHLIEREN_HD Real stepWithinDomain() const
   {
-    if (task.medium.planeStride != 0)
+    if (task.medium.planeStride != 0 && !task.mayCrossLeaves)
     {
       return cruise;
     }

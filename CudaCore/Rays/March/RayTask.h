@@ -35,6 +35,8 @@ struct RayTask
   Vec3<Number> indexScale; ///< of the light
   Number step;             ///< in units of the light's unit of length
   Number stepAtEdge;       ///< of leaves where gas may end
+  bool
+    mayCrossLeaves; ///< bent rays may cross a leaf with one step, where its voxels are much longer than wide
   std::int32_t stepLimit;
   double metresPerUnit; ///< of optical path: n_ref * length scale * unit of length
   Number largestQ;      ///< no ray has more of q

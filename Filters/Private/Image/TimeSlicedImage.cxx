@@ -170,7 +170,9 @@ std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& im
       : "",
     image.raysLost > 0
       ? std::to_string(image.raysLost) + " of " + std::to_string(image.raysTraced) +
-        " rays did not come out towards the film: the medium traps them or turns them back" +
+        " rays did not come out towards the film: the medium traps them, guides them to and fro "
+        "for too "
+        "many steps, or turns them back" +
         (image.exitRefractivity < image.ambient
             ? ", or they are totally reflected where they would leave the data (ExitInto)."
             : ".") +
