@@ -74,6 +74,7 @@ public:
   }
 
   double longest() const { return steps_.longest; }
+  bool isOfWholeImage() const { return pilot_.isWhole(); }
 
   /// Looks at all patches from now on.
   void lookAtAll() { looksAtAll_ = true; }

@@ -70,8 +70,16 @@ public:
     chooseStep(allowed * allowed);
     if (ofSteps_ > allowed)
     {
-      const double more = moreOf(margin * ofSteps_);
-      most = std::max(most, std::sqrt(more * more - 1) * ofSteps_);
+      most = std::max(most, std::sqrt(more_ * more_ - 1) * ofSteps_);
+      if (more_ >= moreAstray &&
+        ladder_.isOfWholeImage()) // each pass takes as long as one of the image
+      {
+        settings_.samples = raysPerPixel.front();
+        ofSteps_ = ladder_.ofStep(settings_.step, settings_.samples);
+        spare();
+        settings_.accuracy = { aim_, errorNow(), 0, ErrorSource::Steps };
+        return settings_;
+      }
     }
     chooseRays(most);
     // By something larger that nothing can mend.
@@ -87,6 +95,9 @@ public:
 
 private:
   static constexpr double negligible = 0.3; ///< by something larger
+  /// By how much an error that exceeds the target may grow so that it is about the same; and where light goes astray, so that
+  /// steps of half the length are hardly better.
+  static constexpr double moreUsually = 1.25, moreAstray = 2;
 
   double errorNow() const
   {
@@ -106,31 +117,36 @@ private:
     }
   }
 
+  /// Looks at shorter steps until they suffice, or until none will.
   void chooseStep(double mostSquared)
   {
+    constexpr double mostGain = 4, trust = 1.25, hardly = 1.75;
+    const double most = std::sqrt(mostSquared);
+    double before = std::numeric_limits<double>::infinity();
     for (double step = ladder_.longest(); step >= shortestStep; step *= 0.5)
     {
       settings_.step = step;
       ofSteps_ = ladder_.ofStep(step, settings_.samples);
-      if (ofSteps_ * ofSteps_ <= mostSquared)
+      const double gain = trust * std::clamp(before / ofSteps_, 1., mostGain);
+      const double halvings = std::log2(step / shortestStep);
+      if (ofSteps_ <= most)
       {
         break;
       }
+      if (ofSteps_ > std::pow(gain, halvings) * most)
+      {
+        more_ = gain > hardly ? moreUsually : moreAstray;
+        break;
+      }
+      before = ofSteps_;
     }
-  }
-
-  /// By how much an error that exceeds the target may grow so that it is about the same.
-  double moreOf(double error) const
-  {
-    constexpr double least = 1.1, most = 2;
-    return std::clamp(error / (2 * target_), least, most);
   }
 
   /// Takes fewer rays and longer steps, of those that have been looked at, where the target cannot be kept and the error is
   /// about the same.
   void spare()
   {
-    const double most = moreOf(errorNow()) * errorNow();
+    const double most = more_ * errorNow();
     const Choice finest = *this;
     double leastCost = static_cast<double>(finest.settings_.samples) / finest.settings_.step;
     for (const int samples : raysPerPixel)
@@ -161,6 +177,7 @@ private:
   const KnownErrors& known_;
   AccurateSettings settings_;
   double ofRays_ = 0, ofSteps_ = 0;
+  double more_ = moreUsually;
 };
 
 } // namespace
@@ -246,10 +263,11 @@ bool needsOneRay(const Pilot<Real>& pilot)
   return isOfCamera(pilot.scene().cutoff) && !(pilot.setup().projection.pupilTilt > 0);
 }
 
-/// Finds what other patches say of settings, and writes it into them. Nothing if aborted.
+/// Finds what other patches say of settings, and writes it into them. Nothing if aborted. `looksAtRays`: also at what more rays
+/// would change.
 template <class Real>
 void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& steps,
-  const KnownErrors& known, const Monitor& monitor)
+  const KnownErrors& known, bool looksAtRays, const Monitor& monitor)
 {
   using Patches = typename Pilot<Real>::Patches;
   const Scene& scene = pilot.scene();
@@ -259,7 +277,7 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   const Differences ofSteps =
     pilot.compare(Patches::ToVerify, steps.with(step), steps.with(0.5 * step), monitor);
   Differences ofRays;
-  if (!needsOneRay(pilot))
+  if (!needsOneRay(pilot) && looksAtRays)
   {
     const auto compare = [&](int fewer, int more)
     {
@@ -333,7 +351,7 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
     settings = *before;
     settings.accuracy = {}; // of that image
     settings.step = std::min(settings.step, steps.longest);
-    verify(settings, pilot, steps, known, monitor);
+    verify(settings, pilot, steps, known, true, monitor);
     const bool isCheapest =
       settings.samples == raysPerPixel.front() && settings.step >= steps.longest;
     if (isAborted() ||
@@ -354,7 +372,9 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
     settings = Choice<Real>(aim, target, ladder, known).cheapest();
     const bool canBeKept = settings.accuracy.reached <= target;
     const bool isSame = tries > 0 && settings.step == last.step && settings.samples == last.samples;
-    verify(settings, pilot, steps, known, monitor);
+    const bool isHopeless = !canBeKept && settings.accuracy.limit == ErrorSource::Steps;
+    verify(settings, pilot, steps, known, !(isHopeless && pilot.isWhole()) || scene.estimatesErrors,
+      monitor);
     if (isSame || !canBeKept || settings.accuracy.isKept() || !isResolved)
     {
       break;
