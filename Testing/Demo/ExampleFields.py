@@ -10,7 +10,7 @@ from demo_testing import SOURCE, image_array
 from paraview.simple import GetSources, LoadState, ResetSession, SaveState
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-runpy.run_path(os.path.join(SOURCE, "Examples", "fields.py"))
+names = runpy.run_path(os.path.join(SOURCE, "Examples", "fields.py"))
 made = image_array("fields.png")
 kept = image_array(os.path.join(SOURCE, "Testing", "Baseline", "DiskFields.png"))
 assert made.shape == kept.shape == (200, 240, 3), (made.shape, kept.shape)
@@ -25,20 +25,35 @@ lit = (made.max(axis=2) > 60) & (made.max(axis=2) > 60)[:, ::-1]
 assert np.ptp(tint[lit], axis=1).max() > 0.3, "The image is grey"
 assert np.abs(tint - tint[:, ::-1])[lit].mean() < 0.03, "The colours are not symmetric"
 
+
+
+def settings(schlieren):
+    """All that is set, and the curves."""
+    curves = [list(curve.Points) for curve in schlieren.TransferFunctions]
+    return curves, {name: str(schlieren.GetPropertyValue(name)) for name in schlieren.ListProperties()
+                    if name not in ("Input", "TransferFunctions", "GradedFilter")
+                    and not schlieren.GetProperty(name).SMProperty.GetInformationOnly()}
+
+
+def tints(schlieren):
+    schlieren.UpdatePipeline()
+    color = schlieren.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Color")
+    return vtk_to_numpy(color).astype(int)
+
+
+names["schlieren"].ImageSize = [60, 50]  # enough for what follows
+kept = settings(names["schlieren"])
 SaveState("fields.pvsm")
+del names
 ResetSession()
 LoadState(os.path.abspath("fields.pvsm"))
 schlieren = [proxy for proxy in GetSources().values() if proxy.GetXMLName() == "Schlieren"][0]
+assert settings(schlieren) == kept
 assert list(schlieren.Fields) == ["Temp", "AsH3", "CH4", "GaMe3", "H2"]
-assert list(schlieren.TransferFunctions[1].Points) == [0, 0, 0.5, 0, 1, 0.2, 0.5, 0]
-schlieren.UpdatePipeline()
-color = schlieren.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Color")
-again = vtk_to_numpy(color).reshape(200, 240, 3)[::-1]
-# Resampling rounds points between cells differently with the threads' order.
-assert np.abs(again - made).max() <= 2, "The state file makes another image"
+assert kept[0][1] == [0, 0, 0.5, 0, 1, 0.2, 0.5, 0], kept[0]
 
-# Moving a node changes the image; the colours alone need no re-tracing.
+# Moving a node changes the image.
+made = tints(schlieren)
+assert np.ptp(made, axis=1).max() > 60, "The image is grey"
 schlieren.TransferFunctions[4].Points = [0, 0, 0.5, 0, 1, 1, 0.5, 0]
-schlieren.UpdatePipeline()
-color = schlieren.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetArray("Color")
-assert np.abs(vtk_to_numpy(color).reshape(200, 240, 3)[::-1] - made).max() > 10
+assert np.abs(tints(schlieren) - made).max() > 10

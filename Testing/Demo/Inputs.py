@@ -6,7 +6,7 @@ import os
 import shutil
 
 import numpy as np
-from demo_testing import DATA, image_array, run_demo
+from demo_testing import DATA, image_array, run_here
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLMultiBlockDataWriter
@@ -32,7 +32,7 @@ def write(writer, data, name):
 
 
 def check(name, *arguments, saying=()):
-    code, out, err = run_demo(name, "--size", "64x64", "--output", "made.png", *arguments)
+    code, out, err = run_here(name, "--size", "64x64", "--output", "made.png", *arguments)
     assert code == 0 and "Traceback" not in err, (name, err)
     for words in saying:
         assert words in out, (name, words, out)

@@ -5,15 +5,15 @@
 import os
 import subprocess
 
-from demo_testing import DATA, SOURCE, run_demo
+from demo_testing import DATA, SOURCE, run_demo, run_here
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 JET = os.path.join(DATA, "ladenburg_jet_3d.vti")
 
 
-def fails(*arguments, saying):
-    returned, out, err = run_demo(*arguments, "--output", "never.png")
+def fails(*arguments, saying, run=run_here):
+    returned, _, err = run(*arguments, "--output", "never.png")
     assert returned == 1, f"{arguments}: exit code {returned}"
     lines = [line for line in err.splitlines() if "error: " in line]
     assert len(lines) == 1 and all(word in lines[0] for word in saying), f"{arguments}: {err}"
@@ -43,7 +43,7 @@ fails("broken.vti", saying=("ParaView", "broken.vti"))
 fails(os.path.join(DATA, "bluntfin_plot3d", "bluntfinq.bin"), saying=("no reader for",))
 fails(JET, "--set", "KnifeAngle=3", saying=("no property 'KnifeAngle'", "KnifeEdgeAngle"))
 fails(JET, "--model", "Refractive Index", "--array", "rho", "--plugin", "nothing.so",
-      saying=("nothing.so", "does not load"))
+      saying=("nothing.so", "does not load"), run=run_demo)
 
 # The command itself finds such mistakes before it installs or builds anything, and so it helps.
 command = os.path.join(SOURCE, "Utilities", "demo")

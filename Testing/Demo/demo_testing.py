@@ -3,10 +3,13 @@
 """Runs the demo's Python part as a user does and takes its image apart."""
 
 import os
+import runpy
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
+from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
@@ -25,6 +28,28 @@ def run_demo(*arguments):
                           timeout=170)
     print(done.stdout, done.stderr, flush=True)
     return done.returncode, done.stdout, done.stderr
+
+
+def run_here(*arguments):
+    """As run_demo(), in this process, which has ParaView already."""
+    kept = sys.argv, sys.stdout, sys.stderr, sys.__stdout__, sys.__stderr__
+    sys.argv = [SCRIPT, *arguments]
+    with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
+        sys.__stdout__, sys.__stderr__ = out, err  # which the demo prints to
+        try:
+            runpy.run_path(SCRIPT, run_name="__main__")
+            code = 0
+        except SystemExit as end:
+            code = end.code
+            if isinstance(code, str):
+                print(code, file=err)
+                code = 1
+        finally:
+            sys.argv, sys.stdout, sys.stderr, sys.__stdout__, sys.__stderr__ = kept
+        simple.ResetSession()
+        said = [stream.seek(0) or stream.read() for stream in (out, err)]
+    print(*said, flush=True)
+    return code, *said
 
 
 def image_array(path):
