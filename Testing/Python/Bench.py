@@ -9,7 +9,7 @@ import zlib
 
 import numpy as np
 from paraview import simple, smstate
-from plugin_testing import Schlieren, gaussian_column, output, image_array
+from plugin_testing import Schlieren, comes_back, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray
@@ -117,9 +117,4 @@ assert rays.sum() == expected.sum() and np.abs(rays - expected).sum() <= 8, np.a
 simple.SaveState("bench.pvsm")
 script = smstate.get_state()
 del plain, made
-simple.ResetSession()
-simple.LoadState(os.path.abspath("bench.pvsm"))
-check()
-simple.ResetSession()
-exec(script, {})  # pylint: disable=exec-used
-check()
+comes_back("bench.pvsm", script, check)

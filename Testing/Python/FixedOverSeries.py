@@ -8,7 +8,7 @@ import os
 
 import numpy as np
 from paraview import simple, smstate
-from plugin_testing import Schlieren, image_array
+from plugin_testing import Schlieren, comes_back, image_array
 from series_testing import write_series
 
 TIMES = np.linspace(0, 2, 9).tolist()
@@ -126,9 +126,4 @@ def check_kept():
         simple.Delete(loaded)
 
 
-simple.ResetSession()
-simple.LoadState(os.path.abspath("pulse.pvsm"))
-check_kept()
-simple.ResetSession()
-exec(script, {})  # pylint: disable=exec-used
-check_kept()
+comes_back("pulse.pvsm", script, check_kept)

@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 from paraview import simple, smstate, smtrace
-from plugin_testing import Schlieren, gaussian_column, output, image_array
+from plugin_testing import Schlieren, comes_back, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
 
 PRESETS = ("Interactive", "Fine", "Publication", "Reference", "Automatic")
@@ -141,12 +141,7 @@ def check_kept(found=simple.FindSource):
         assert str(proxy.Quality) == repr((PRESETS + ("Custom",))[made.GetQuality()])
 
 
-simple.ResetSession()
-simple.LoadState(os.path.abspath("quality.pvsm"))
-check_kept()
-simple.ResetSession()
-exec(script, {})  # pylint: disable=exec-used
-check_kept()
+comes_back("quality.pvsm", script, check_kept)
 simple.ResetSession()
 simple.XMLImageDataReader(FileName=[os.path.abspath("column16.vti")], registrationName=re.search(
     r"FindSource\('(XMLImageDataReader\d*)'\)", trace).group(1)).UpdatePipeline()

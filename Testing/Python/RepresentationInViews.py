@@ -8,6 +8,7 @@ import os
 
 import numpy as np
 from paraview import simple, smstate
+from plugin_testing import comes_back
 from representation_testing import GREY_LEVEL, filter_like, pixels_of, show
 from series_testing import write_series
 
@@ -150,12 +151,7 @@ def check_kept():
     delete(*made.values())
 
 
-simple.ResetSession()
-simple.LoadState(os.path.abspath("views.pvsm"))
-check_kept()
-simple.ResetSession()
-exec(script, {})  # pylint: disable=exec-used
-check_kept()
+comes_back("views.pvsm", script, check_kept)
 simple.ResetSession()
 
 

@@ -7,6 +7,7 @@ import os
 
 import numpy as np
 from paraview import simple, smstate
+from plugin_testing import comes_back
 from representation_testing import GREY_LEVEL, filter_like, pixels_of, show
 from series_testing import write_series
 from vtkmodules.vtkCommonCore import vtkFileOutputWindow, vtkOutputWindow
@@ -59,12 +60,7 @@ def check_kept():
     simple.Delete(found)
 
 
-simple.ResetSession()
-simple.LoadState(os.path.abspath("locked.pvsm"))
-check_kept()
-simple.ResetSession()
-exec(script, {})  # pylint: disable=exec-used
-check_kept()
+comes_back("locked.pvsm", script, check_kept)
 simple.ResetSession()
 
 # A body is black where light meets it, as in the filter's image, and as large as it is, give or take half a voxel.

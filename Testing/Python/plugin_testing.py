@@ -97,3 +97,11 @@ def column_errors(bench):
     return (max(np.abs(seen[..., 0] - deflection).max(), np.abs(seen[..., 1]).max())
             / np.abs(deflection).max(),
             np.abs(image_array(bench, "OpticalPathDifference") - path).max() / path.max())
+
+
+def comes_back(state, script, check):
+    """What check() looks at is there where a state file is loaded, and where a state's script is executed."""
+    for bring in (lambda: simple.LoadState(os.path.abspath(state)), lambda: exec(script, {})):
+        simple.ResetSession()
+        bring()
+        check()
