@@ -45,12 +45,12 @@ bench = Schlieren(Input=FindSource("flow"), registrationName="bench", **{SETTING
 {more}
 SetActiveSource(bench)
 smtrace.start_trace()
+open({trace_of(part)!r}, "w").close()
 def write(*_):
     with open({trace_of(part)!r}, "a") as file:
         file.write(smtrace.get_current_trace_output() + "\\n# next\\n")
 bench.SMProxy.AddObserver("UpdateEvent", write)
 """)
-    open(trace_of(part), "w", encoding="utf-8").close()
 
 
 def keep(name, array="Intensity"):

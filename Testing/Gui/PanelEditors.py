@@ -109,6 +109,12 @@ user.save_state("removed.pvsm")
 user.menu("menu_Edit", "actionEditUndo")
 user.check(FIELDS + "/Table", "rowCount", 2)
 user.save_state("undone.pvsm")
+user.python(f"""
+from paraview import smtrace
+with open({TRACE!r}, "w") as file:
+    file.write(smtrace.get_current_trace_output())
+smtrace.stop_trace()
+""")
 user.click(FIELDS + "/Add")
 user.delete()
 
@@ -134,14 +140,8 @@ flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench")
 bench.Density = ["POINTS", "rho"]
 bench.ImageSize = [32, 32]
-
-# What is traced, as it stands when the filter is deleted.
-from paraview import servermanager, smtrace
+from paraview import smtrace
 smtrace.start_trace()
-def write(*_):
-    with open({TRACE!r}, "w") as file:
-        file.write(smtrace.get_current_trace_output())
-servermanager.ProxyManager().SMProxyManager.AddObserver("UnRegisterEvent", write)
 """)
 
 

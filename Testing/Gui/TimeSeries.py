@@ -55,13 +55,12 @@ shown.SMProxy.AddObserver("EndEvent", note)
 """
 
 
-def begin(name):
+def begin(name, mode="a"):
     """The script that begins a part of the log."""
-    return f"with open({LOG!r}, 'a') as file: file.write('= {name}\\n')\n"
+    return f"with open({LOG!r}, {mode!r}) as file: file.write('= {name}\\n')\n"
 
 
 write_series(SERIES, TIMES, 25, blob)
-open(LOG, "w", encoding="utf-8").close()
 user = ViewsSession(BENCH)
 
 
@@ -71,7 +70,7 @@ def vcr(name):
 
 
 user.press("OneImage")
-user.python(SETTLE + NOTE + begin("played") + f"""
+user.python(SETTLE + NOTE + begin("played", "w") + f"""
 # The air around the blob is clear, though not a value is above its density.
 volume = GetRepresentation(FindSource("flow"), FindView("RenderView1"))
 assert volume.Representation == "Volume"

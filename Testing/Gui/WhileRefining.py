@@ -45,20 +45,8 @@ for step, ratio in ((1, 2), (2, 3), (0, 1)):
     until(lambda: refines() and abs(path() / first - ratio) < 0.02)
 until(refines)
 """)
-CONFIRM = """
-def confirm():
-    question = QApplication.activeModalWidget()
-    if question:
-        question.button(QtWidgets.QMessageBox.StandardButton.Yes).click()
-    else:
-        QTimer.singleShot(200, confirm)
-QTimer.singleShot(500, confirm)
-"""
 GONE = "until(lambda: not GetSources() and not displays())\n"
-user.python(CONFIRM + """
-(action,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
-QTimer.singleShot(0, action.trigger)
-""")
+user.python("reset_session()\n")
 user.idle()
 user.python(GONE + MESH.replace("[-8, 8]", "[-24, 24]"))
 user.press("OneImage")
@@ -67,7 +55,7 @@ until(lambda: information(bench, "PictureCount") > 0 and path() > 0)
 """)
 
 # While the refractive index is computed, its key does nothing; afterwards it does.
-user.python(HELPERS + CONFIRM.replace("QTimer.singleShot(500, confirm)", "") + """
+user.python(HELPERS + """
 settle_views()
 algorithm, pressed = bench.GetClientSideObject(), []
 def press():

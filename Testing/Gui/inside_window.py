@@ -14,7 +14,8 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Python"))
 
 import quick_sessions  # noqa: E402, F401
-from paraview import servermanager, simple  # noqa: E402
+import shown_testing  # noqa: E402
+from paraview import servermanager, simple, smtrace  # noqa: E402
 from shown_testing import (check_display, check_linked, drawn, filters, frame_view, shown, values,  # noqa: E402, F401
                            views)
 from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
@@ -50,7 +51,7 @@ def until(condition, seconds=300):
     while not condition():
         assert time.monotonic() < end, f"Still not so after {seconds} s"
         if process_events() < 1e-3:
-            time.sleep(1e-2)  # asking again and again would take the time of what is waited for
+            time.sleep(5e-2)  # asking again and again would take the time of what is waited for
 
 
 def pause(seconds):
@@ -165,26 +166,51 @@ def save_state(name):
         os.close(output)
 
 
-def add_steps(count):
+def add_steps(name, folder, count):
     """Buttons out of sight that run the scripts of Session.python; the window becomes as small as its panels allow, for
     half of a session's time goes into drawing its views."""
     widget().resize(940, 640)
     steps = QWidget(widget())
-    steps.setObjectName("Steps")
+    steps.setObjectName(name)
     for number in range(1, count + 1):
         button = QtWidgets.QPushButton(steps)
         button.setObjectName(f"step{number}")
-        button.clicked.connect(lambda _, number=number: _run_step(number))
+        button.clicked.connect(lambda _, number=number: _run_step(name, os.path.join(folder, f"{name}{number}.py"), number))
 
 
-def _run_step(number):
-    name = os.path.join(FOLDER, f"step{number}.py")
+def _run_step(name, path, number):
     try:
-        with open(name, encoding="utf-8") as file:
-            exec(compile(file.read(), name, "exec"), {"__name__": "__main__"})
-        print(f"Step {number} is done.", flush=True)
+        with open(path, encoding="utf-8") as file:
+            exec(compile(file.read(), path, "exec"), {"__name__": "__main__"})
+        print(f"Step {number} of {name} is done.", flush=True)
     except Exception:  # PyQt would end the window
         traceback.print_exc()
+
+
+def confirm():
+    """Answers the next question with Yes."""
+    question = QApplication.activeModalWidget()
+    if question:
+        question.button(QtWidgets.QMessageBox.StandardButton.Yes).click()
+    else:
+        QTimer.singleShot(100, confirm)
+
+
+def reset_session():
+    """Edit > Reset Session, without waiting for it."""
+    (action,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
+    QTimer.singleShot(0, action.trigger)
+    QTimer.singleShot(100, confirm)
+
+
+def end_reset(folder):
+    """When the new session has begun: the panel and the files are as in a new window."""
+    global FOLDER  # pylint: disable=global-statement
+    until(lambda: not simple.GetSources() and simple.GetRenderViews())
+    if servermanager.vtkSMTrace.GetActiveTracer():
+        smtrace.stop_trace()
+    FOLDER = shown_testing.FOLDER = folder
+    widget("propertiesPanel", "AdvancedButton").setChecked(False)
 
 
 def click(button):
@@ -224,6 +250,7 @@ def press_key(key, modifiers=Qt.KeyboardModifier.NoModifier, release=True):
     since = time.monotonic()
     while time.monotonic() < since + 1:
         process_events()
+        time.sleep(1e-2)
         if QApplication.activePopupWidget() or not QApplication.activeWindow():
             QApplication.setActiveWindow(widget())
             since = time.monotonic()

@@ -55,8 +55,8 @@ class Session:
     """What the user does, step by step; play() does it, and checks what it should have led to. Widgets are named below
     `properties`."""
 
-    def __init__(self, properties=PROPERTIES):
-        self.properties = properties
+    def __init__(self, properties=PROPERTIES, name=os.path.basename(FOLDER), folder=FOLDER):
+        self.properties, self.name, self.folder = properties, name, folder
         self.lines = []
         self.scripts = 0
 
@@ -138,9 +138,9 @@ until(lambda: plane.property("side") == {side})
         """Runs a Python script within the window; see inside_window.py. As a macro, it would leave a step to
         undo since ParaView 5.13."""
         self.scripts += 1
-        with open(os.path.join(FOLDER, f"step{self.scripts}.py"), "w", encoding="utf-8") as file:
+        with open(os.path.join(self.folder, f"{self.name}{self.scripts}.py"), "w", encoding="utf-8") as file:
             file.write("from paraview.simple import *\nfrom inside_window import *\n" + script)
-        self.event(f"pqClientMainWindow/Steps/step{self.scripts}", "activate")
+        self.event(f"pqClientMainWindow/{self.name}/step{self.scripts}", "activate")
 
     def idle(self):
         """Steps that do nothing, after one that loads a state or plays an animation. ParaView lets the window run
@@ -163,35 +163,61 @@ until(lambda: plane.property("side") == {side})
     def play(self, script, seconds=500, expected=None):
         """Plays it after the Python script `script`, and fails where a step does or VTK complains, but for lines with
         the text `expected`, which must be there."""
-        events, before = os.path.join(FOLDER, "events.xml"), os.path.join(FOLDER, "before.py")
-        with open(events, "w", encoding="utf-8") as file:
-            file.write("\n".join(["<pqevents>"] + self.lines + ["</pqevents>", ""]))
-        with open(before, "w", encoding="utf-8") as file:
-            file.write(f"import sys\nsys.path.insert(0, {HERE!r})\n"
-                       f"from inside_window import add_steps\nadd_steps({self.scripts})\n{script}")
-        environment = dict(os.environ, XDG_CONFIG_HOME=os.path.join(FOLDER, "window"),
-                           PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
-        try:
-            done = subprocess.run(
-                [os.environ["SCHLIEREN_PARAVIEW"], "--dr", f"--script={before}",
-                 f"--test-script={events}", f"--test-directory={FOLDER}", "--exit"],
-                env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                timeout=seconds, check=False)
-        except subprocess.TimeoutExpired as late:
-            print((late.stdout or b"").decode(errors="replace"))
-            raise
-        print(done.stdout)
-        assert done.returncode == 0, f"paraview ended with {done.returncode}"
-        for number in range(1, self.scripts + 1):
-            assert f"Step {number} is done." in done.stdout, f"Step {number} did not come to its end"
-        # Of a server without a display, which since VTK 9.6 draws even so.
-        said = re.sub(r"Generic Warning: In vtkXOpenGLRenderWindow.*\nbad X server connection", "", done.stdout)
-        if expected:
-            assert expected in said, expected
-            said = "\n".join(line for line in said.splitlines() if expected not in line)
-        assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", said)
-        # What ParaView warns of where an image is shown by an array that it does not have.
-        assert not re.search("Could not determine array range|Failed to locate selected", done.stdout)
+        check_said(self, expected, *play_together([(self, script)], self.folder, seconds))
+
+
+def play_together(sessions, folder, seconds):
+    """Plays sessions, each after a Python script, in one window, with Edit > Reset Session between them; returns what
+    the window has said, of each."""
+    begins = "Begin of session: "
+    between = Session(name="between", folder=folder)
+    lines, before = [], f"import sys\nsys.path.insert(0, {HERE!r})\nfrom inside_window import add_steps\n"
+    for user, script in sessions:
+        begin, between.lines = f"print({begins + user.name!r}, flush=True)\n", []
+        if lines:
+            between.python("reset_session()\n")
+            between.idle()
+            begin += f"end_reset({user.folder!r})\n" + script
+        between.python(begin)
+        lines += between.lines + user.lines
+    for user, _ in sessions + [(between, "")]:
+        before += f"add_steps({user.name!r}, {user.folder!r}, {user.scripts})\n"
+    paths = [os.path.join(folder, name) for name in ("events.xml", "before.py")]
+    for path, text in zip(paths, ("\n".join(["<pqevents>"] + lines + ["</pqevents>", ""]), before + sessions[0][1])):
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+    environment = dict(os.environ, XDG_CONFIG_HOME=os.path.join(folder, "window"), SCHLIEREN_TEST_OUTPUT=sessions[0][0].folder,
+                       PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
+    try:
+        done = subprocess.run(
+            [os.environ["SCHLIEREN_PARAVIEW"], "--dr", f"--script={paths[1]}",
+             f"--test-script={paths[0]}", f"--test-directory={folder}", "--exit"],
+            env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            timeout=seconds, check=False)
+    except subprocess.TimeoutExpired as late:
+        print((late.stdout or b"").decode(errors="replace"))
+        raise
+    before, *said = re.split(f"^{begins}.*\n", done.stdout, flags=re.MULTILINE)
+    said = said or [""]
+    said[0] = before + said[0]
+    said[-1] += f"\nparaview ended with {done.returncode}\n"
+    return said + (len(sessions) - len(said)) * ["It did not begin."]
+
+
+def check_said(user, expected, said):
+    """What the window has said while it played a session."""
+    print(said)
+    assert not re.search("^paraview ended with (?!0$)", said, re.MULTILINE)
+    for number in range(1, user.scripts + 1):
+        assert f"Step {number} of {user.name} is done." in said, f"Step {number} did not come to its end"
+    # Of a server without a display, which since VTK 9.6 draws even so.
+    said = re.sub(r"Generic Warning: In vtkXOpenGLRenderWindow.*\nbad X server connection", "", said)
+    if expected:
+        assert expected in said, expected
+        said = "\n".join(line for line in said.splitlines() if expected not in line)
+    assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", said)
+    # What ParaView warns of where an image is shown by an array that it does not have.
+    assert not re.search("Could not determine array range|Failed to locate selected", said)
 
 
 class ViewsSession(Session):
