@@ -92,6 +92,10 @@ for source, settings in ((jet, {"LengthScale": 0.001}), (fin, {"Density": ["POIN
     assert 0.5 * largest < estimate.max() <= 1.001 * largest, (largest, estimate.max())
     bench.ErrorEstimate = 0
     assert not output(bench).GetPointData().HasArray("ErrorEstimate")
+    bench.ViewDirection, bench.ImageSize = [-0.3, 0.1, -1], [24, 18]  # nor that of the view before
+    assert not output(bench).GetPointData().HasArray("ErrorEstimate")
+    bench.ErrorEstimate = 1
+    assert output(bench).GetPointData().GetArray("ErrorEstimate").GetNumberOfTuples() == 24 * 18
     simple.Delete(bench)
 
 # What cannot be kept is said.
