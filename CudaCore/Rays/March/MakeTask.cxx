@@ -56,7 +56,10 @@ Vec3<double> scaleOfSteps(const Medium<Real>& medium, const Light& light, PathMo
   const double rounding =
     8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * medium.largestNu;
   const auto leastFor = [&](double slope, double ofAxis)
-  { return ofAxis / voxelsAcross(std::max(0., slope / finest - rounding)); };
+  {
+    const double byVoxel = slope / finest;
+    return byVoxel > rounding ? ofAxis / voxelsAcross(byVoxel) : 0;
+  };
   const double least = std::max({ leastFor(medium.slope.x, scale.x),
     leastFor(medium.slope.y, scale.y), leastFor(medium.slope.z, scale.z) });
   return { std::max(scale.x, least), std::max(scale.y, least), std::max(scale.z, least) };
