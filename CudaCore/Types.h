@@ -179,9 +179,8 @@ struct MediumStatistics
   std::int64_t bytes = 0;
   double smallestVoxel = 0;     ///< data units, along the axis where it is smallest
   double largestDeflection = 0; ///< of straight rays of the last view
-  /// Error of the deflection of a ray of the last view, of the largest one, or of what it gathers of fields, of the full
-  /// colour: the largest sum of what the leaves along a ray lack, as far as finer voxels would mend it. Voxels of the size
-  /// of cells, or as fine as the view needs, lack nothing.
+  /// Error that 99 % of the deflections of the last view keep, of the largest one; or of what rays gather of fields, of the
+  /// full colour, the largest that finer voxels would mend. Voxels of the size of cells lack nothing.
   double estimatedError = 0;
   double deflectionError = 0; ///< the same of deflections alone, not divided by the largest one
   bool isMemoryShort = false; ///< for what the tolerance needs

@@ -206,19 +206,18 @@ template <class Real>
 KnownErrors knownErrors(const Pilot<Real>& pilot, double k)
 {
   constexpr double roundingOfPath = 1.7e-7; // of itself, in single precision
-  constexpr double typicalByLargest = 0.5;  // of a ray's error and the largest sum of its leaves'
+  constexpr double typicalByTolerance = 0.5;
   const Scene& scene = pilot.scene();
   const PilotView& view = pilot.view();
   const Projection& projection = pilot.setup().projection;
-  const double deflectionError = pilot.setup().errors.medium;
+  const double eps = pilot.setup().errors.medium;
   const Technique& technique = techniqueOf(scene.cutoff);
-  const double eps = typicalByLargest * deflectionError;
   KnownErrors known;
   if (technique.hasFringes)
   {
     const double fringes = view.path / scene.wavelength;
     known.rounding = scene.precision == Precision::Single ? roundingOfPath * fringes : 0;
-    known.voxels = deflectionError > 0 ? typicalByLargest * scene.mediumTolerance * fringes : 0;
+    known.voxels = eps > 0 ? typicalByTolerance * scene.mediumTolerance * fringes : 0;
   }
   else if (technique.plane == RecordedPlane::Background)
   {
@@ -231,8 +230,7 @@ KnownErrors knownErrors(const Pilot<Real>& pilot, double k)
   }
   else
   {
-    known.voxels =
-      view.largestDeflection > 0 ? typicalByLargest * deflectionError / view.largestDeflection : 0;
+    known.voxels = view.largestDeflection > 0 ? eps / view.largestDeflection : 0;
   }
   return known;
 }

@@ -12,7 +12,8 @@ namespace schlieren
 struct DeflectionErrors
 {
   double rounding = 0; ///< of samples, see noiseFloor
-  double medium = 0;   ///< of a ray, by the size of voxels: MediumStatistics::deflectionError
+  double medium =
+    0; ///< of 99 % of the rays, by the size of voxels: MediumStatistics::deflectionError
 };
 
 /// How far light is bent where it is bent strongly: the 99th percentile of |eps| over the pixels of the

@@ -8,6 +8,7 @@
 #include "Medium/Samples/Leaves.h"
 #include "Medium/Samples/MediumSource.h"
 #include "Medium/Tree/FieldBrick.h"
+#include "Medium/Tree/LineErrors.h"
 #include "Types.h"
 
 #include <array>
@@ -42,17 +43,19 @@ inline std::int32_t partOf(const NodePlace& place, BrickShape shape)
 /// Says by how much a node is too coarse. All of nu or of a deflection, which have the same size.
 struct BrickFacts
 {
-  /// Error of a ray's deflection over the node, because samples are as far apart as they are; 0 along an axis on
-  /// which the cells are no finer than the samples.
-  std::array<double, 3> error{ 0, 0, 0 };
+  /// Errors of rays through the node because samples are as far apart as they are; 0 along an axis on which the cells are
+  /// no finer than the samples.
+  LineErrors errors;
   /// Whether the cells are finer than the samples along an axis, so that the error can be less.
   std::array<bool, 3> canImprove{ false, false, false };
+  std::array<bool, 3> canImproveAtEdges{ false, false, false }; ///< the same, where gas ends
   /// The same, because of what lies between samples that are further apart than cells along this axis.
   std::array<double, 3> hidden{ 0, 0, 0 };
-  double range = 0;          ///< of its samples, as the deflection that it may make
-  double difference = 0;     ///< largest one of nu in it
-  double besideWindow = 0;   ///< the same, because a window's edge is not where it should be
-  double neglected = 0;      ///< the larger of both, where nothing was made of them
+  double range = 0;        ///< of its samples, as the deflection that it may make
+  double difference = 0;   ///< largest one of nu in it
+  double besideWindow = 0; ///< the same, where a window's edge is not known
+  double ofWindow = 0;  ///< error of a deflection because a window's edge is not where it should be
+  double neglected = 0; ///< the larger of both, where nothing was made of them
   bool hasWallEdge = false;  ///< gas, or a window, ends at a wall in it
   bool isTooLarge = false;   ///< for samples, of which it needs some
   double edgeError = 0;      ///< how far an edge is from where it should be; data units
@@ -153,7 +156,7 @@ private:
     BrickSamples& samples, double negligible, Brick<Real>& brick) const;
   void storeGasDistances(const BrickSamples& samples, Brick<Real>& brick) const;
   void findErrors(const NodePlace& place, const MediumSource::Content& content,
-    const BrickSamples& samples, BrickFacts& facts) const;
+    const BrickSamples& samples, bool hasEdge, BrickFacts& facts) const;
   void storeCoefficients(const BrickSamples& samples, Brick<Real>& brick) const;
   void findBounds(const NodePlace& place, Brick<Real>& brick) const;
   double nuOf(double refractivity) const

@@ -20,6 +20,9 @@ namespace schlieren
 /// An error that falls with the square of the voxels is a third of what halving them has changed.
 inline constexpr double errorByChange = 1. / 3;
 
+/// One beside an edge, beyond which values continue as lines, falls with the voxels.
+inline constexpr double errorByChangeAtEdges = 1;
+
 /// Third differences of samples know little of what cells have between them (of a blunt fin's mesh they were a fifth
 /// of the error). This is to suffice where there is nothing coarser to compare with.
 inline constexpr double errorByCells = 2;
@@ -64,19 +67,58 @@ std::vector<Real> coefficientsOfChild(const Real* of, std::int32_t child, BrickS
 }
 
 /**
- * How much the deflection of a ray over a child of a node has changed, by axis, when the child got samples of its own, at
- * most. Where there are walls, by the gradients that gas contributes to.
- * `parent`: the coefficients of the node, relative to `offset`.
+ * What the gradients of a child of a node along an axis have changed by, times a factor, when the child got samples of its
+ * own; nu by voxel. `difference`: of the coefficients.
  */
 template <class Real>
-std::array<double, 3> changesOf(const Brick<Real>& made, std::int32_t child, const Real* parent,
-  Real offset, BrickShape shape, const std::array<double, 3>& voxel)
+std::vector<float> gradientChanges(const Brick<Real>& made, const std::vector<Real>& difference,
+  BrickShape shape, std::size_t axis, GradientsOf which, double factor)
 {
-  constexpr int n = BrickMaker<Real>::edge + 2;
-  std::array<double, 3> changes{ 0, 0, 0 };
+  constexpr int edge = BrickMaker<Real>::edge, n = edge + 2;
+  const std::array<std::ptrdiff_t, 3> strides{ 1, n, n * n };
+  const std::ptrdiff_t s = strides[axis];
+  const bool isLayer = shape == BrickShape::Layer;
+  const int layers = isLayer ? 1 : edge;
+  std::vector<float> changes(static_cast<std::size_t>(edge * edge * layers));
+  float* to = changes.data();
+  for (int k = 0; k < layers; ++k)
+  {
+    for (int j = 0; j < edge; ++j, to += edge)
+    {
+      const std::ptrdiff_t row = 1 + (j + 1) * strides[1] + (isLayer ? 0 : k + 1) * strides[2];
+      const Real* from = difference.data() + row;
+      for (int i = 0; i < edge; ++i)
+      {
+        to[i] = static_cast<float>(factor * static_cast<double>(from[i + s] - from[i]));
+      }
+      if (made.gasDistances.empty())
+      {
+        continue;
+      }
+      const std::int16_t* gas = made.gasDistances.data() + row;
+      for (int i = 0; i < edge; ++i)
+      {
+        const bool isLast = std::array{ i, j, k }[axis] + 1 == edge;
+        const bool isGas = gas[i] > 0 && gas[i + s] > 0;
+        const bool isAround = gas[i - s] > 0 && gas[i + (isLast ? 1 : 2) * s] > 0;
+        to[i] = isGas && isAround == (which == GradientsOf::Gas) ? to[i] : 0.f;
+      }
+    }
+  }
+  return changes;
+}
+
+/**
+ * Adds the errors that are left in a child of a node by what its own samples have changed, along axes that can improve.
+ * `parent`: the coefficients of the node, relative to `offset`; `voxel`: of the child.
+ */
+template <class Real>
+void addErrorsByChange(Brick<Real>& made, std::int32_t child, const Real* parent, Real offset,
+  BrickShape shape, const std::array<double, 3>& voxel)
+{
   if (made.samples.empty())
   {
-    return changes;
+    return;
   }
   std::vector<Real> difference = coefficientsOfChild(parent, child, shape);
   const Real shift = offset - made.offset;
@@ -84,36 +126,23 @@ std::array<double, 3> changesOf(const Brick<Real>& made, std::int32_t child, con
   {
     difference[i] = made.samples[i] - (difference[i] + shift);
   }
-  const std::array<int, 3> strides{ 1, n, n * n };
-  const std::size_t axes = shape == BrickShape::Layer ? 2 : 3;
-  for (std::size_t axis = 0; axis < axes; ++axis)
+  BrickFacts& facts = made.facts;
+  for (std::size_t axis = 0; axis < (shape == BrickShape::Layer ? 2u : 3u); ++axis)
   {
-    const auto stride = static_cast<std::size_t>(strides[axis]);
-    std::array<int, 3> to{ n, n, axes == 2 ? 1 : n };
-    to[axis] -= 1;
-    Real largest = 0;
-    for (int k = 0; k < to[2]; ++k)
+    const auto add = [&](GradientsOf which, double factor)
     {
-      for (int j = 0; j < to[1]; ++j)
-      {
-        for (int i = 0; i < to[0]; ++i)
-        {
-          const auto at = static_cast<std::size_t>(i + j * strides[1] + k * strides[2]);
-          const bool isGas = made.gasDistances.empty() || made.gasDistances[at] > 0 ||
-            made.gasDistances[at + stride] > 0;
-          const Real change = std::abs(difference[at + stride] - difference[at]);
-          largest = isGas && change > largest ? change : largest;
-        }
-      }
-    }
-    double longest = 0;
-    for (std::size_t other = 0; other < axes; ++other)
+      addLines(gradientChanges(made, difference, shape, axis, which, factor), axis, shape, voxel,
+        which, facts.errors);
+    };
+    if (facts.canImprove[axis])
     {
-      longest = other == axis ? longest : std::max(longest, voxel[other]);
+      add(GradientsOf::Gas, errorByChange);
     }
-    changes[axis] = static_cast<double>(largest) * BrickMaker<Real>::edge * longest / voxel[axis];
+    if (facts.canImproveAtEdges[axis] && !made.gasDistances.empty())
+    {
+      add(GradientsOf::Edges, errorByChangeAtEdges);
+    }
   }
-  return changes;
 }
 
 } // namespace schlieren

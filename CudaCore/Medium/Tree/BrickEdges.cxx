@@ -28,8 +28,8 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   BrickSamples& samples, double negligible, Brick<Real>& brick) const
 {
   bool hasGas = false, hasWall = false, hasWindow = false, hasEdge = false;
-  double besideEdge = 0;
-  float bend = 0; // of distances, in the middle of a voxel
+  double besideEdge = 0, steepest = 0; // of nu; of its differences, a voxel
+  float bend = 0;                      // of distances, in the middle of a voxel
   constexpr float infinity = std::numeric_limits<float>::infinity();
   std::array<std::array<float, 2>, 3> normals;
   normals.fill({ infinity, -infinity });
@@ -65,6 +65,7 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
         if (isGas && (isNear || (isLast && samples.isBesideWindow(i, j, k))))
         {
           besideEdge = std::max(besideEdge, std::abs(samples.nu[at]));
+          steepest = std::max(steepest, samples.slopeAt(i, j, k));
         }
       }
     }
@@ -80,6 +81,10 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   facts.areWallsFlat = content.areWallsFlat;
   facts.besideWindow = hasWindow || !hasWall ? deflectionByRange * besideEdge : 0;
   const std::array<double, 3> voxel = voxelOf(place.level);
+  // Light that crosses the edge at another place misses so much of what bends it, or has it twice.
+  constexpr double shiftByBend = 2, leastShift = 0.05; // voxels
+  const double shift = std::min(1., shiftByBend * static_cast<double>(bend) + leastShift);
+  facts.ofWindow = facts.besideWindow > 0 ? shift * steepest : 0;
   facts.normals = bend > 0 ? normals : facts.normals;
   facts.edgeError =
     static_cast<double>(bend) * *std::max_element(voxel.begin(), voxel.begin() + axes());

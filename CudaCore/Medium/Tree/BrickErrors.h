@@ -24,6 +24,9 @@ inline constexpr double deflectionByRange = 8;
 /// rays along both: rms error 1.3e-2 with half a cell, 3.4e-3 with one, 5.9e-3 with 1.4; oblique 3e-3 with all).
 inline constexpr double voxelByCell = 1.4;
 
+/// The same where gas ends: with finer voxels, edges show nothing new.
+inline constexpr double edgeVoxelByCell = 0.5;
+
 /// Voxels this much coarser than cells may miss what cells have.
 inline constexpr double coarseByCell = 2;
 

@@ -19,7 +19,6 @@ namespace schlieren
 template <class Real>
 bool BrickMaker<Real>::areEdgesFine(int level, const MediumSource::Content& content) const
 {
-  constexpr double edgeVoxelByCell = 0.5;
   const std::array<double, 3> voxel = voxelOf(level);
   bool areFine = true;
   for (std::size_t axis = 0; axis < axes(); ++axis)

@@ -21,7 +21,7 @@ namespace
 
 constexpr int latticeEdge = 48;
 
-/// Errors of leaves may add up along a ray to so much of what is allowed: as a rule they do not have one sign.
+/// The largest errors of leaves may add up along a ray, by their squares, to so much of what is allowed.
 constexpr double maxOfSums = 2;
 
 constexpr int brickEdge = BrickMaker<float>::edge;
@@ -170,8 +170,8 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
       std::minmax_element(spacing.begin(), spacing.begin() + medium.layout.axes());
     const auto squared = [](double x) { return x * x; };
     const double edges = pathLength / edgeOf(*longest);
-    const double error = edges * static_cast<double>(medium.errors[found]);
-    bend.error += squared(error);
+    const double error = std::min(1., edges) * static_cast<double>(medium.errors[found]);
+    bend.error += squared(std::min(1., edges) * static_cast<double>(medium.typical[found]));
     if (error > 0)
     {
       bend.wrong.push_back({ found, static_cast<float>(error) });
@@ -244,6 +244,42 @@ void addLargest(std::vector<Error> errors, double allowed, std::vector<std::int3
     leaves.push_back(one.leaf);
     sum -= static_cast<double>(one.*part);
   }
+}
+
+/// The same of errors of any sign, which add up by their squares.
+void addWrong(std::vector<Wrong> errors, double allowed, std::vector<std::int32_t>& leaves)
+{
+  for (Wrong& one : errors)
+  {
+    one.deflection *= one.deflection;
+  }
+  addLargest<&Wrong::deflection>(std::move(errors), allowed * allowed, leaves);
+}
+
+/// What 99 % of all rays keep whose errors have a normal distribution, each with a standard deviation of its own.
+double keptByMost(const std::vector<double>& deviations)
+{
+  constexpr double others = 0.01;
+  if (deviations.empty())
+  {
+    return 0;
+  }
+  const auto exceeding = [&](double error)
+  {
+    double sum = 0;
+    for (const double deviation : deviations)
+    {
+      sum += deviation > 0 ? std::erfc(error / (std::sqrt(2.) * deviation)) : 0;
+    }
+    return sum / static_cast<double>(deviations.size());
+  };
+  double low = 0, high = 4 * *std::max_element(deviations.begin(), deviations.end());
+  for (int n = 0; n < 40; ++n)
+  {
+    const double middle = 0.5 * (low + high);
+    (exceeding(middle) > others ? low : high) = middle;
+  }
+  return high;
 }
 
 void makeUnique(std::vector<std::int32_t>& numbers)
@@ -338,7 +374,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   RayFindings findings;
   findings.deflection = least.deflection;
   findings.opticalPath = least.opticalPath;
-  std::vector<double> gathered;
+  std::vector<double> gathered, deviations;
   for (std::size_t n = 0; n < bends.size(); ++n)
   {
     const Bend& bend = bends[n];
@@ -349,12 +385,13 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
       if (n < ofLattice)
       {
         gathered.push_back(bend.gathered);
+        deviations.push_back(std::sqrt(bend.error));
       }
-      findings.error = std::max(findings.error, std::sqrt(bend.error));
       findings.errorOfGathered =
         std::max(findings.errorOfGathered, std::sqrt(bend.errorOfGathered));
     }
   }
+  findings.error = keptByMost(deviations);
   findings.gathered = std::max(least.gathered, fullColorOf(std::move(gathered)));
   for (const Bend& bend : bends)
   {
@@ -366,7 +403,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
         bend.neglected, tolerance * findings.opticalPath, findings.coarse);
       addLargest<&Neglected::gathered>(
         bend.neglected, tolerance * findings.gathered, findings.coarseInFields);
-      addLargest<&Wrong::deflection>(bend.wrong, maxOfSums * allowed, findings.wrong);
+      addWrong(bend.wrong, maxOfSums * allowed, findings.wrong);
     }
   }
   makeUnique(findings.coarse);

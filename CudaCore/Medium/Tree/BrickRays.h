@@ -71,8 +71,8 @@ struct LeavesView
   const Leaf<Real>* leaves;
   const float*
     differences; ///< of each leaf: by how much nu differs there, where one value stands for all; else 0
-  const float*
-    errors; ///< of each leaf: of a ray's deflection over its longest edge, from its samples
+  const float* errors;  ///< of each leaf: of a ray's deflection over its longest edge, the largest
+  const float* typical; ///< the same of most rays
   const Real* samples;
   const std::int16_t* gasDistances;
   FieldGradientsView gradients;
@@ -91,9 +91,10 @@ struct RayFindings
   /// Gathered of all fields by the lattice's rays: what 99 % do not exceed; or, where less have gathered anything, the
   /// most.
   double gathered = 0;
-  /// The largest errors of a deflection and of what is gathered: along a ray, those of the leaves and what leaves with one
-  /// value neglect, each with any sign, add up by their squares.
-  double error = 0, errorOfGathered = 0;
+  /// The error that 99 % of all deflections keep: along a ray, what is typical of leaves and what leaves with one value
+  /// neglect, each with any sign, add up by their squares to the standard deviation of its error.
+  double error = 0;
+  double errorOfGathered = 0; ///< the largest of all rays, likewise
   /// Leaves with one value for all that need samples: what such leaves neglect adds up along a ray to more than
   /// `tolerance` of the largest deflection or optical path. Those that contribute most, so that half of it is gone.
   std::vector<std::int32_t> coarse;

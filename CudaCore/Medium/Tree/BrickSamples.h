@@ -69,6 +69,17 @@ struct BrickSamples
     return begin == std::array<int, 3>{ 0, 0, 0 } && end == std::array<int, 3>{ n, n, layers };
   }
   bool hasGas() const { return lowest <= highest; }
+  /// The steepest slope of nu at a point along an axis, a voxel; with what continues the gas.
+  double slopeAt(int i, int j, int k) const
+  {
+    const double* at = &nu[index(i, j, k)];
+    double steepest = 0;
+    for (const std::ptrdiff_t stride : { 1, n, layers > 1 ? n * n : 0 })
+    {
+      steepest = std::max(steepest, 0.5 * std::abs(at[stride] - at[-stride]));
+    }
+    return steepest;
+  }
   /// What linear interpolation of distances misses half a voxel away from a point: an eighth of second differences.
   float bendAt(int i, int j, int k) const
   {

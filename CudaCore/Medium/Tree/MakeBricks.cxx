@@ -73,26 +73,16 @@ void MediumTree<Real>::makeBrick(std::size_t request)
   {
     return;
   }
-  std::array<double, 3> changes{};
-  const bool isPart = work_.boxes[request] >= 0;
-  if (isPart)
+  if (work_.boxes[request] >= 0)
   {
     const Node& box = nodes_[static_cast<std::size_t>(work_.boxes[request])];
     const Real* samples = samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
-    changes = changesOf(
+    addErrorsByChange(
       brick, partOf(place, shape()), samples, box.offset, shape(), maker_.voxelOf(place.level));
   }
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  else if (place.level == 0)
   {
-    double& error = brick.facts.error[axis];
-    if (isPart && brick.facts.canImprove[axis])
-    {
-      error = std::max(error, errorByChange * changes[axis]);
-    }
-    else if (!isPart && place.level == 0)
-    {
-      error *= errorByCells;
-    }
+    brick.facts.errors.scale(errorByCells);
   }
 }
 

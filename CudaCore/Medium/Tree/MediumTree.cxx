@@ -277,8 +277,8 @@ void MediumTree<Real>::summarize(const View& view)
   slope_ = { 0, 0, 0 };
   steepest_ = {};
   statistics_.smallestVoxel = std::numeric_limits<double>::infinity();
-  // Rays may miss the worst leaf.
-  double error = work_.error, errorOfFields = work_.errorOfGathered;
+  const double error = work_.error;
+  double errorOfFields = work_.errorOfGathered;
   for (const std::int32_t at : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(at)];
@@ -300,7 +300,6 @@ void MediumTree<Real>::summarize(const View& view)
     statistics_.constantLeaves += node.kind == Leaf<Real>::Constant && fields.brick == 0 ? 1 : 0;
     if (view.sees(node.place) && !view.isDark(node.place))
     {
-      error = std::max(error, view.errorOf(node.place, node.facts));
       errorOfFields = std::max(errorOfFields, view.errorOf(node.place, fields.facts));
     }
   }

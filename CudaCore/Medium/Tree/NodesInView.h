@@ -24,6 +24,9 @@ class MediumTree<Real>::View
   /// Of the largest voxels that show walls that are not flat.
   static constexpr double pixelsOfVoxel = 4;
 
+  /// Voxels that waves of a few pixels need, and those that they need where an image is to be as right as it can be.
+  static constexpr double pixelsOfWaves = 0.5, pixelsOfExactWaves = 0.25;
+
   /// Estimates how many levels a medium has, for the progress that is reported.
   static constexpr int usualLevels = 10;
 
@@ -83,26 +86,38 @@ public:
   {
     return lengthIn(place.level) * errorOverEdge(place, facts);
   }
+
   /// The same of rays that are in it for as long as its edge.
-  template <class Facts>
-  double errorOverEdge(const NodePlace& place, const Facts& facts) const
+  double errorOverEdge(const NodePlace& place, const BrickFacts& facts) const
   {
     const double pixel = pixelAt(place);
     const double u[3] = { column_.u.x, column_.u.y, column_.u.z };
     const double v[3] = { column_.v.x, column_.v.y, column_.v.z };
-    const std::array<double, 3> voxel = tree_.maker_.voxelOf(place.level);
-    double error = 0;
+    std::array<double, 3> weights{ 0, 0, 0 };
     for (std::size_t axis = 0; axis < tree_.maker_.axes(); ++axis)
     {
-      // Between samples there may be a layer, of which few pixels are to be seen. Light that crosses it is bent no more
-      // than by a layer as thick as a voxel.
-      const bool isBent = std::is_same_v<Facts, BrickFacts>;
-      const double across = isBent ? std::max(std::hypot(u[axis], v[axis]), 1. / brickEdge) : 1;
-      const bool isSeen = voxel[axis] > pixelsOfLayer * pixel;
-      error = isSeen ? std::max(error, across * facts.hidden[axis]) : error;
-      error = allows(place.level, axis, pixel) ? std::max(error, facts.error[axis]) : error;
+      // Light that crosses a layer is bent no more than by one as thick as a voxel.
+      weights[axis] = std::max(std::hypot(u[axis], v[axis]), 1. / brickEdge);
+    }
+    return std::max({ alongLight(place, facts, isAllowed(place, pixelsOfDetail())).largest,
+      alongLight(place, facts, isAllowed(place, 1)).largestAtEdges,
+      hiddenIn(place, pixel, facts.hidden, weights) });
+  }
+  double errorOverEdge(const NodePlace& place, const FieldFacts& facts) const
+  {
+    const std::array<bool, 3> counts = isAllowed(place, 1);
+    double error = hiddenIn(place, pixelAt(place), facts.hidden, { 1, 1, 1 });
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      error = counts[axis] ? std::max(error, facts.error[axis]) : error;
     }
     return error;
+  }
+
+  /// What is typical of rays that are in it for as long as its edge, whatever the next level may mend.
+  double typicalOverEdge(const NodePlace& place, const BrickFacts& facts) const
+  {
+    return alongLight(place, facts, { true, true, true }).typical;
   }
 
   /// Whether nothing of a leaf can be seen, however fine it is: light is stopped before it or behind it.
@@ -121,7 +136,9 @@ public:
       return std::numeric_limits<double>::infinity();
     }
     const double error = errorOf(node.place, node.facts);
-    const bool hasWindow = node.facts.besideWindow > negligible(node.place.level).deflection;
+    constexpr double ofGrazing = 8; // light that grazes an edge is wrong over a longer path
+    const double ofWindow = (isEdgeOn(node) ? ofGrazing : 1) * node.facts.ofWindow;
+    const bool hasWindow = ofWindow > negligible(node.place.level).deflection;
     const bool hasWall = node.facts.hasWallEdge && !showsWalls(node, 0.1);
     // Silhouettes are where walls are, however large cells are. Faces have many small bends, of which few are seen.
     const bool isSeen = node.facts.hasWallEdge &&
@@ -130,7 +147,17 @@ public:
     // A sharp edge is rounded off by a quarter of a voxel.
     const bool isSharp = isSeen && allows(node.place, 0.25);
     const bool hasEdge = ((hasWindow || hasWall) && !isFine) || isSharp;
-    double urgency = node.isWrong || error > allowed().deflection ? error : 0;
+    // Where nothing coarser has been compared with samples, these may have missed anything that is smaller.
+    const std::array<bool, 3> isAllowedAlong = isAllowed(node.place, pixelsOfDetail());
+    bool isUnproved = false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      isUnproved = isUnproved || (node.facts.canImprove[axis] && isAllowedAlong[axis]);
+    }
+    isUnproved = isUnproved && node.place.level == 0 && node.brick > 0;
+    double urgency = node.isWrong || error > allowed().deflection ? error
+      : isUnproved ? std::numeric_limits<double>::min()
+                   : 0;
     if (const double gathered = errorOf(node.place, ofFields); gathered > allowed().gathered)
     {
       const double deflection = work_.largest;
@@ -258,6 +285,44 @@ private:
     constexpr double least = 1e-2;
     const Range depths = rangeOf(cross(column_.u, column_.v), tree_.maker_.boxOf(place));
     return column_.finest * std::max(least, column_.widthAt(depths.middle + depths.half));
+  }
+
+  /// Along which axes voxels of the next level are wanted, which are no smaller than so many pixels.
+  std::array<bool, 3> isAllowed(const NodePlace& place, double pixels) const
+  {
+    const double pixel = pixels * pixelAt(place);
+    return { allows(place.level, 0, pixel), allows(place.level, 1, pixel),
+      allows(place.level, 2, pixel) };
+  }
+
+  double pixelsOfDetail() const
+  {
+    return tree_.settings_.interpolation == Interpolation::Cubic ? pixelsOfExactWaves
+                                                                 : pixelsOfWaves;
+  }
+
+  /// Errors of rays to the viewer, because of gradients along axes that count.
+  LineErrors::Error alongLight(
+    const NodePlace& place, const BrickFacts& facts, const std::array<bool, 3>& counts) const
+  {
+    const Vec3<double> sight = lineOfSight(place);
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(place.level);
+    return facts.errors.along(
+      { sight.x / voxel[0], sight.y / voxel[1], sight.z / voxel[2] }, counts);
+  }
+
+  /// Between samples there may be a layer, of which few pixels are to be seen.
+  double hiddenIn(const NodePlace& place, double pixel, const std::array<double, 3>& hidden,
+    const std::array<double, 3>& weights) const
+  {
+    const std::array<double, 3> voxel = tree_.maker_.voxelOf(place.level);
+    double error = 0;
+    for (std::size_t axis = 0; axis < tree_.maker_.axes(); ++axis)
+    {
+      const bool isSeen = voxel[axis] > pixelsOfLayer * pixel;
+      error = isSeen ? std::max(error, weights[axis] * hidden[axis]) : error;
+    }
+    return error;
   }
 
   /// Points from the middle of a node to the viewer; has any length.

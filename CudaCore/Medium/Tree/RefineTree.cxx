@@ -114,14 +114,17 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   }
   std::vector<float> differences(leafNodes_.size(), 0.f);
   std::vector<float> ofFields(nodeFields_.empty() ? 0 : leafNodes_.size(), 0.f);
-  std::vector<float> errors(leafNodes_.size(), 0.f), fieldErrors(ofFields);
+  std::vector<float> errors(leafNodes_.size(), 0.f), typical(errors), fieldErrors(ofFields);
   for (std::size_t leaf = 0; leaf < differences.size(); ++leaf)
   {
     Node& node = nodes_[static_cast<std::size_t>(leafNodes_[leaf])];
     node.isWrong = false;
     differences[leaf] = node.brick == 0 ? static_cast<float>(node.facts.difference) : 0.f;
-    errors[leaf] =
-      node.brick == 0 ? 0.f : static_cast<float>(view.errorOverEdge(node.place, node.facts));
+    if (node.brick != 0)
+    {
+      errors[leaf] = static_cast<float>(view.errorOverEdge(node.place, node.facts));
+      typical[leaf] = static_cast<float>(view.typicalOverEdge(node.place, node.facts));
+    }
     if (const NodeFields fields = fieldsOf(leafNodes_[leaf]);
         fields.brick == 0 && !ofFields.empty())
     {
@@ -132,11 +135,12 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
       fieldErrors[leaf] = static_cast<float>(view.errorOverEdge(node.place, fields.facts));
     }
   }
-  const RayFindings findings = lookAlongRays<Real>(
-    { grid_, finder(), leaves_.data(), differences.data(), errors.data(), samples().data(),
-      gasDistances().data(), gradients(), ofFields.empty() ? nullptr : ofFields.data(),
-      ofFields.empty() ? nullptr : fieldErrors.data(), layout() },
-    work_.column, places, settings_.tolerance, least, settings_.threads);
+  const RayFindings findings =
+    lookAlongRays<Real>({ grid_, finder(), leaves_.data(), differences.data(), errors.data(),
+                          typical.data(), samples().data(), gasDistances().data(), gradients(),
+                          ofFields.empty() ? nullptr : ofFields.data(),
+                          ofFields.empty() ? nullptr : fieldErrors.data(), layout() },
+      work_.column, places, settings_.tolerance, least, settings_.threads);
   work_.largest = findings.deflection;
   work_.gathered = findings.gathered;
   work_.error = findings.error;

@@ -189,7 +189,7 @@ TEST(TreeTint, GathersALinearFieldExactlyAcrossLevels)
   {
     for (const Vector& direction : directions)
     {
-      Gathering<> gathering(source, direction, 0.01, interpolation);
+      Gathering<> gathering(source, direction, 0.001, interpolation);
       EXPECT_GE(gathering.statistics.finestLevel - gathering.statistics.coarsestLevel, 3);
       for (const KernelChoice& kernel : someKernelsOf(interpolation))
       {

@@ -59,40 +59,54 @@ TEST(BrickChanges, CoefficientsOfAPartMakeTheSameSpline)
   }
 }
 
-TEST(BrickChanges, AreWhatGradientsChangeBy)
+/// Errors of a child that could be better along all axes, and beside edges.
+LineErrors errorsOf(Brick<double> made, const std::vector<double>& box)
 {
   constexpr std::array<double, 3> voxel{ 0.1, 0.2, 0.1 };
+  made.facts.canImprove = { true, true, true };
+  made.facts.canImproveAtEdges = { true, true, true };
+  addErrorsByChange(made, 5, box.data(), 0., BrickShape::Cube, voxel);
+  return made.facts.errors;
+}
+
+TEST(BrickChanges, AreWhatGradientsChangeBy)
+{
+  constexpr std::array<bool, 3> all{ true, true, true };
+  const Vec3<double> alongY{ 0, 1, 0 };
   const std::vector<double> box = randomSamples(BrickShape::Cube);
   Brick<double> made;
   made.samples = coefficientsOfChild(box.data(), 5, BrickShape::Cube);
-  for (const double change : changesOf(made, 5, box.data(), 0., BrickShape::Cube, voxel))
-  {
-    EXPECT_EQ(change, 0);
-  }
-  // A step of 1 along x: over the longest edge of the part, 16 voxels of 0.2, a gradient of 1 by 0.1.
+  EXPECT_EQ(errorsOf(made, box).along(alongY, all).largest, 0);
+  // A step of 1 along x: along the longest edge of the part, 16 voxels of 0.2, a gradient of 1 by 0.1.
   made.offset = 3;
   for (std::size_t at = 0; at < made.samples.size(); ++at)
   {
-    made.samples[at] += at % stored > 7 ? 1 : 0;
+    made.samples[at] += (at % stored > 7 ? 1 : 0) - 3;
   }
-  auto changes = changesOf(made, 5, box.data(), 0., BrickShape::Cube, voxel);
-  EXPECT_NEAR(changes[0], 16 * 2, 1e-12);
-  EXPECT_NEAR(changes[1], 0, 1e-12);
-  EXPECT_NEAR(changes[2], 0, 1e-12);
-  // Behind a wall nothing counts, at the wall it does.
+  const LineErrors errors = errorsOf(made, box);
+  EXPECT_NEAR(errors.along(alongY, all).largest, 32. / 3, 1e-4);
+  EXPECT_NEAR(errors.along(alongY, { false, true, true }).largest, 0, 1e-4);
+  EXPECT_NEAR(errors.along(alongY, all).typical, 32. / 3 / 4, 1e-4); // one of 16 columns
+  EXPECT_NEAR(errors.along({ 1, 0, 0 }, all).largest, 0, 1e-12);     // light across the step
+  // Behind a wall nothing counts, at the wall it does; there an error is three times as large, by the same change.
   made.gasDistances.assign(made.samples.size(), 2);
-  for (std::size_t at = 0; at < made.samples.size(); ++at)
+  const auto wallFrom = [&](std::size_t first)
   {
-    made.gasDistances[at] = at % stored > 6 ? -2 : 2;
-  }
-  EXPECT_EQ(changesOf(made, 5, box.data(), -3., BrickShape::Cube, voxel)[0], 0);
-  for (std::size_t at = 0; at < made.samples.size(); ++at)
-  {
-    made.gasDistances[at] = at % stored > 7 ? -2 : 2;
-  }
-  EXPECT_NEAR(changesOf(made, 5, box.data(), -3., BrickShape::Cube, voxel)[0], 32, 1e-12);
+    for (std::size_t at = 0; at < made.samples.size(); ++at)
+    {
+      made.gasDistances[at] = at % stored >= first ? -2 : 2;
+    }
+  };
+  wallFrom(7);
+  EXPECT_EQ(errorsOf(made, box).along(alongY, all).largest, 0);
+  EXPECT_EQ(errorsOf(made, box).along(alongY, all).largestAtEdges, 0);
+  wallFrom(9);
+  EXPECT_NEAR(errorsOf(made, box).along(alongY, all).largest, 0, 1e-12);
+  EXPECT_NEAR(errorsOf(made, box).along(alongY, all).largestAtEdges, 32, 1e-3);
+  wallFrom(11);
+  EXPECT_NEAR(errorsOf(made, box).along(alongY, all).largest, 32. / 3, 1e-4);
   made.samples.clear();
-  EXPECT_EQ(changesOf(made, 5, box.data(), 0., BrickShape::Cube, voxel)[0], 0);
+  EXPECT_EQ(errorsOf(made, box).along(alongY, all).largest, 0);
 }
 
 /// A front whose values alternate from cell to cell, the same along z: linear in between.

@@ -44,10 +44,11 @@ TEST(MediumTree, MemoryIsBounded)
     Tree tree(source, 0, settings);
     tree.refine(everything());
     EXPECT_LE(static_cast<double>(tree.statistics().bytes), part * needed);
-    EXPECT_GE(static_cast<double>(tree.statistics().bytes), 0.9 * part * needed);
+    const auto ofDivision = static_cast<double>(8 * tree.samplesPerBrick()) * sizeof(float);
+    EXPECT_GE(static_cast<double>(tree.statistics().bytes), 0.93 * part * needed - ofDivision);
     EXPECT_GT(tree.statistics().estimatedError, 0.99 * enough.statistics().estimatedError);
-    const double error = worstError(tree, *source, Interpolation::Quadratic, x, y, 0.9);
-    EXPECT_LT(error, 2 * tree.statistics().estimatedError);
+    const double error = errorOfMost(tree, *source, Interpolation::Quadratic, x, y, 1);
+    EXPECT_LT(error, 3 * tree.statistics().estimatedError);
     EXPECT_LT(tree.statistics().estimatedError, 1.01 * before);
     EXPECT_TRUE(
       part > 0.2 || tree.statistics().estimatedError > 3 * enough.statistics().estimatedError);
@@ -67,7 +68,7 @@ TEST(MediumTree, MemoryGoesToTheLastView)
   tree.refine(around(0.42, -0.31, 0.3));
   tree.refine(around(-0.1, 0.05, 0.3));
   EXPECT_LE(tree.statistics().bytes, static_cast<std::int64_t>(settings.memory));
-  EXPECT_LE(tree.statistics().estimatedError, 3e-4);
+  EXPECT_LE(tree.statistics().estimatedError, 1.1 * alone.statistics().estimatedError);
   const Vec3<double> first{ -0.1, 0.05, 0.02 };
   EXPECT_LT(worstError(tree, *source, Interpolation::Quadratic, x, y, 0.3, first),
     1.1 * worstError(alone, *source, Interpolation::Quadratic, x, y, 0.3, first));

@@ -119,7 +119,7 @@ TEST_P(RaysInATree, AreBentAsTheFormulaSays)
     { { -0.1, 0.05, 0.02 }, 0.25, 1e-7 }, { { 0.32, -0.31, 0.2 }, 0.12, 0.5e-7 } });
   for (const Vector& direction : someDirections)
   {
-    for (const double tolerance : { 1e-2, 2e-3 })
+    for (const double tolerance : { 2e-3, 7e-4 })
     {
       for (const Precision precision : { Precision::Single, Precision::Double })
       {

@@ -110,7 +110,7 @@ TEST(Amr, DeepLevelsAreShownAsFineAsTheyAre)
     // Of leaves that hardly bend light, one value stands for all: the tolerance is one of deflection.
     EXPECT_LT(errors.opticalPath, std::max(2 * tolerance, 5e-3));
     EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0);
-    EXPECT_LT(fieldValue(filter, "SmallestVoxel"), 2. / 32 / 8);
+    EXPECT_LT(fieldValue(filter, "SmallestVoxel"), 2. / 32 / (tolerance < 5e-3 ? 8 : 4));
   }
 }
 
