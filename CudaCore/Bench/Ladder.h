@@ -82,8 +82,8 @@ public:
   /// In pixels with so many rays.
   double ofStep(double step, int samples)
   {
-    if (step <=
-      shortestStep) // not traced any finer; where light goes astray, shorter steps gain little
+    // Not traced any finer. Where light goes astray, shorter steps gain little.
+    if (step <= shortestStep)
     {
       const double before = ofStep(2 * step, samples), twoBefore = ofStep(4 * step, samples);
       const double gained = twoBefore > 0 ? before / twoBefore : 0;

@@ -34,11 +34,11 @@ struct Neglected
   float deflection, opticalPath, gathered;
 };
 
-/// The error of a leaf with samples, of a ray's deflection.
+/// The error of a leaf with samples, of a ray's deflection: errors of any sign add up by their squares.
 struct Wrong
 {
   std::int32_t leaf;
-  float deflection;
+  double square; ///< of the faintest media less than the least float
 };
 
 struct Bend
@@ -170,11 +170,12 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
       std::minmax_element(spacing.begin(), spacing.begin() + medium.layout.axes());
     const auto squared = [](double x) { return x * x; };
     const double edges = pathLength / edgeOf(*longest);
-    const double error = std::min(1., edges) * static_cast<double>(medium.errors[found]);
-    bend.error += squared(std::min(1., edges) * static_cast<double>(medium.typical[found]));
+    const double ofLines = std::min(1., edges);
+    const double error = ofLines * static_cast<double>(medium.errors[found]);
+    bend.error += squared(ofLines * static_cast<double>(medium.typical[found]));
     if (error > 0)
     {
-      bend.wrong.push_back({ found, static_cast<float>(error) });
+      bend.wrong.push_back({ found, squared(error) });
     }
     if (medium.fieldErrors != nullptr)
     {
@@ -244,16 +245,6 @@ void addLargest(std::vector<Error> errors, double allowed, std::vector<std::int3
     leaves.push_back(one.leaf);
     sum -= static_cast<double>(one.*part);
   }
-}
-
-/// The same of errors of any sign, which add up by their squares.
-void addWrong(std::vector<Wrong> errors, double allowed, std::vector<std::int32_t>& leaves)
-{
-  for (Wrong& one : errors)
-  {
-    one.deflection *= one.deflection;
-  }
-  addLargest<&Wrong::deflection>(std::move(errors), allowed * allowed, leaves);
 }
 
 /// What 99 % of all rays keep whose errors have a normal distribution, each with a standard deviation of its own.
@@ -403,7 +394,8 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
         bend.neglected, tolerance * findings.opticalPath, findings.coarse);
       addLargest<&Neglected::gathered>(
         bend.neglected, tolerance * findings.gathered, findings.coarseInFields);
-      addWrong(bend.wrong, maxOfSums * allowed, findings.wrong);
+      const double allowedOfSums = maxOfSums * allowed;
+      addLargest<&Wrong::square>(bend.wrong, allowedOfSums * allowedOfSums, findings.wrong);
     }
   }
   makeUnique(findings.coarse);

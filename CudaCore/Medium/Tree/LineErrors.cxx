@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace schlieren
 {
@@ -27,6 +26,14 @@ struct Found
   double meanSquare = 0;
 };
 
+/// In double precision: squares of what the faintest media have are less than the least float.
+double sumOfSquares(const float* first, const float* last)
+{
+  return std::accumulate(first, last, 0.,
+    [](double sum, float value)
+    { return sum + static_cast<double>(value) * static_cast<double>(value); });
+}
+
 /// Sums from where a line enters the brick; the mean square is that of whole lines.
 Found sumsAlong(const std::array<int, 3>& step, const std::vector<float>& errors, int layers)
 {
@@ -44,37 +51,17 @@ Found sumsAlong(const std::array<int, 3>& step, const std::vector<float>& errors
       const auto row = static_cast<std::size_t>(j + 1);
       const float* from = before[static_cast<std::size_t>(j + 1 - step[1])].data() + (1 - step[0]);
       float* to = now[row].data() + 1;
-      if (step[1] != 0 || step[2] != 0)
+      for (std::size_t i = 0; i < edge; ++i)
       {
-        std::array<float, edge> sum;
-        for (std::size_t i = 0; i < edge; ++i)
-        {
-          sum[i] = next[i] + from[i];
-          most[i] = std::max(most[i], std::abs(sum[i]));
-        }
-        std::copy(sum.begin(), sum.end(), to);
-      }
-      else
-      {
-        for (std::size_t i = 0; i < edge; ++i)
-        {
-          to[i] = next[i] + from[i];
-          most[i] = std::max(most[i], std::abs(to[i]));
-        }
+        to[i] = next[i] + from[i];
+        most[i] = std::max(most[i], std::abs(to[i]));
       }
       const bool isLast =
         (step[2] != 0 && k + 1 == layers) || (step[1] != 0 && j == (step[1] > 0 ? edge - 1 : 0));
-      if (isLast)
-      {
-        squares = std::inner_product(to, to + edge, to, squares);
-        lines += edge;
-      }
-      else if (step[0] != 0)
-      {
-        const double end = static_cast<double>(to[step[0] > 0 ? edge - 1 : 0]);
-        squares += end * end;
-        ++lines;
-      }
+      const int ends = isLast ? edge : step[0] != 0 ? 1 : 0;
+      const int firstEnd = !isLast && step[0] > 0 ? edge - 1 : 0;
+      squares += sumOfSquares(to + firstEnd, to + firstEnd + ends);
+      lines += ends;
     }
   }
   return { *std::max_element(most.begin(), most.end()), squares / lines };
@@ -159,8 +146,8 @@ void addLines(const std::vector<float>& errors, std::size_t axis, BrickShape sha
       for (const float error : errors)
       {
         found.largest = std::max(found.largest, std::abs(error));
-        found.meanSquare += static_cast<double>(error * error) / (edge * edge);
       }
+      found.meanSquare = sumOfSquares(errors.data(), errors.data() + errors.size()) / (edge * edge);
       factor = edge * std::max(voxel[0], voxel[1]) / voxel[axis];
     }
     else
