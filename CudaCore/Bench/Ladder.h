@@ -58,6 +58,15 @@ StepRange stepsFor(const Medium<Real>& medium, bool hasWalls, bool hasFilm)
   return steps;
 }
 
+/// So many rays per pixel that the error of fewer is seen beside theirs. On a screen each of 4 rays lights all of a pixel, as
+/// one does: see sideOnFilm().
+inline int manyMoreThan(int samples, Cutoff cutoff)
+{
+  constexpr int fewestOnScreen = 16;
+  const bool isOnScreen = techniqueOf(cutoff).plane == RecordedPlane::Screen;
+  return std::max(4 * samples, isOnScreen ? fewestOnScreen : 1);
+}
+
 /// Finds errors of steps and rays per pixel when they are requested.
 template <class Real>
 class Ladder
@@ -119,8 +128,8 @@ public:
     }
     const auto errorIn = [&](const Differences& differences)
     { return exceededBy(mayExceedAsChosen, differences); };
-    return differenceOf(
-      { longest(), samples, samples }, { longest(), 4 * samples, 4 * samples }, errorIn);
+    const int more = manyMoreThan(samples, pilot_.scene().cutoff);
+    return differenceOf({ longest(), samples, samples }, { longest(), more, more }, errorIn);
   }
 
 private:

@@ -167,8 +167,14 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
       return nullptr;
     }
     const std::vector<TracedPass>& rays = group.traced[keyOf(number)];
+    const double side = sideOnFilm(set.samples, scene_.cutoff);
     withEach(
-      [&](std::size_t n, PatchFilm& film) { film.add(rays[n], passOf(places[n], number.in(n))); });
+      [&](std::size_t n, PatchFilm& film)
+      {
+        Pass pass = passOf(places[n], number.in(n));
+        pass.side = side;
+        film.add(rays[n], pass);
+      });
     if (isTooMuch(rays) && number.number + 1 < set.samples)
     {
       group.traced.erase(keyOf(number));

@@ -267,9 +267,17 @@ FilmSettings filmSettingsOf(const Scene& scene)
     scene.smoothingRadius, isOfCamera(scene.cutoff), scene.threads };
 }
 
+double sideOnFilm(int raysPerPixel, Cutoff cutoff)
+{
+  constexpr double overlap = 2; // so that no gaps are where light is spread
+  const double share = sideOf(raysPerPixel);
+  return techniqueOf(cutoff).plane == RecordedPlane::Screen ? std::min(1., overlap * share) : share;
+}
+
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)
 {
   pass.offset = pixelOffset(number, scene.seed);
+  pass.side = sideOnFilm(scene.samplesPerPixel, scene.cutoff);
   if (light.pupilTilt > 0)
   {
     const std::array<double, 2> place = pupilPoint(number, scene.samplesPerPixel);

@@ -71,7 +71,11 @@ PixelPlaces pixelPlacesOf(const Frame& frame, const View& view, const Light& lig
 
 FilmSettings filmSettingsOf(const Scene& scene);
 
-/// Where a pass's rays start in their pixels and at their source.
+/// Of the squares that an image's rays light, see sideOf(). A screen shows how far rays part from their neighbours: there
+/// squares overlap.
+double sideOnFilm(int raysPerPixel, Cutoff cutoff);
+
+/// Where a pass's rays start in their pixels and at their source, and how much of a pixel they light.
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light);
 
 /// `pathPerDataUnit`: see Projection.

@@ -286,8 +286,9 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
     constexpr int few = 4;
     // Where the image is the patch, that would take longer than the image, and these rays are traced.
     const bool isTraced = samples > few && pilot.isWhole() && !scene.estimatesErrors;
-    ofRays = isTraced ? compare(samples / few, samples)
-                      : compare(samples, samples <= few ? few * samples : 2 * samples);
+    ofRays = isTraced
+      ? compare(samples / few, samples)
+      : compare(samples, samples <= few ? manyMoreThan(samples, scene.cutoff) : 2 * samples);
     for (Difference& one : ofRays)
     {
       one.value /= isTraced ? leastGain : 1;

@@ -258,6 +258,23 @@ __global__ void depositKernel(const ShadedRays<planes> from, const Sums sums)
   addSums(deposit);
 }
 
+/// Deposits the light of single rays on the film. All threads of a block come to its end.
+template <int planes, bool isOfPhase>
+__global__ void boxKernel(const ShadedRays<planes> from, const Sums sums)
+{
+  const RaysOnDevice& rays = from.rays;
+  std::int64_t i, j;
+  rays.place(rays.firstRow, i, j);
+  DeviceDeposit<planes> deposit{ sums };
+  if (i < rays.columns && j < rays.endRow)
+  {
+    RayBox<planes, DeviceDeposit<planes>, 1, isOfPhase>(sums.film, deposit)
+      .add(from.at(i, j), from.at(i - 1, j), from.at(i + 1, j), from.at(i, j - 1),
+        from.at(i, j + 1), rays.pass.side);
+  }
+  addSums(deposit);
+}
+
 /// The light of other cells, a thread for each part of them. All threads of a block come to its end.
 template <int planes, bool isOfPhase>
 __global__ void bentKernel(const ShadedRays<planes> from, const Sums sums)
@@ -301,6 +318,11 @@ template <bool isOfPhase, int planes>
 void deposit(const ShadedRays<planes>& shaded, const Sums& sums)
 {
   const unsigned blocks = shaded.rays.blocks(shaded.rays.endRow - shaded.rays.firstRow);
+  if (shaded.rays.pass.side < 1)
+  {
+    launchKernel(boxKernel<planes, isOfPhase>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
+    return;
+  }
   launchKernel(depositKernel<planes, isOfPhase>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
   launchKernel(bentKernel<planes, isOfPhase>, std::min(blocks, maxBlocksOfBent), threadsPerBlock, 0,
     nullptr, shaded, sums);

@@ -76,6 +76,7 @@ void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays
   std::array<Row, 4> rows{ none, none, none, none };
   std::array<RowRange, 4> lands;
   std::vector<SheetRay<planes>> lower(columns), upper(columns);
+  RayBox<planes, Bands<planes>, coverageTileSize, isOfPhase> box(film, bands);
   RayCounts ofOthers;
   for (const TracedRays& pass : passes)
   {
@@ -103,6 +104,23 @@ void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays
     };
     load(begin - 1);
     load(begin);
+    if (pass.pass.side < 1)
+    {
+      for (std::int64_t row = begin; row < end; ++row)
+      {
+        load(row + 1);
+        const RowRange& here = lands[slotOf(row)];
+        // Boxes are no higher than a pixel unless rays part by more.
+        bands.cover({ here.lowest - 0.5, here.highest + 0.5 }, 0);
+        const Ray* at = rows[slotOf(row)].data() + 1;
+        for (std::size_t i = 0; i < columns; ++i, ++at)
+        {
+          box.add(*at, at[-1], at[1], rows[slotOf(row - 1)][i + 1], rows[slotOf(row + 1)][i + 1],
+            pass.pass.side);
+        }
+      }
+      continue;
+    }
     load(begin + 1);
     smooth(begin, lower);
     for (std::int64_t row = begin; row < std::min(end, shader.rows - 1); ++row)

@@ -30,6 +30,9 @@ void ProgressiveImage::begin(const Exposure& exposure, std::optional<Tint> tint)
 bool ProgressiveImage::add(
   const TracedPass& traced, const Pass& pass, Rays rays, const Monitor& monitor)
 {
+  const bool isLast = passes_ + 1 == settings_.samplesPerPixel;
+  // A camera's rays stay in their pixels, where their light leaves no gaps.
+  const bool isShownSoFar = monitor.paused && !isLast && pass.side < 1 && !settings_.isOfCamera;
   if (traced.onDevice)
   {
     if (!filmOnDevice_)
@@ -39,11 +42,14 @@ bool ProgressiveImage::add(
     }
     filmOnDevice_->expose(
       *traced.onDevice, pass, exposure_.cutoff, exposure_.projection, exposure_.margin);
+    if (isShownSoFar)
+    {
+      filmSoFar().add(*traced.onDevice, pass, exposure_);
+    }
     ++passes_;
     return true;
   }
   waiting_.push_back({ pass, traced.exits.data(), traced.gathered.data() });
-  const bool isLast = passes_ + 1 == settings_.samplesPerPixel;
   if (rays == Rays::Go || isLast || monitor.paused || nextRow_ > 0)
   {
     counts_.add(exposeFrom(nextRow_, waiting_, exposure_.cutoff, exposure_.projection,
@@ -53,6 +59,10 @@ bool ProgressiveImage::add(
       waiting_.pop_back();
       return false;
     }
+    if (isShownSoFar)
+    {
+      filmSoFar().add(waiting_, exposure_, settings_.threads);
+    }
     if (!isLast || monitor.paused)
     {
       centres_.add(waiting_);
@@ -61,6 +71,38 @@ bool ProgressiveImage::add(
   }
   ++passes_;
   return true;
+}
+
+ProgressiveImage::SoFar& ProgressiveImage::filmSoFar()
+{
+  if (!soFar_)
+  {
+    soFar_.emplace(
+      SoFar{ filmsOf(settings_, exposure_.cutoff, films_->tintOfRays, exposure_.maxRays) });
+  }
+  return *soFar_;
+}
+
+void ProgressiveImage::SoFar::add(
+  std::vector<TracedRays> rays, const Exposure& exposure, int threads)
+{
+  for (TracedRays& ofPass : rays)
+  {
+    ofPass.pass.side = 1;
+  }
+  expose(rays, exposure.cutoff, exposure.projection, exposure.margin, threads, films);
+  passes += static_cast<std::int64_t>(rays.size());
+}
+
+void ProgressiveImage::SoFar::add(const CudaPass& rays, Pass pass, const Exposure& exposure)
+{
+  if (!onDevice)
+  {
+    onDevice = std::make_unique<CudaFilm>(films);
+  }
+  pass.side = 1;
+  onDevice->expose(rays, pass, exposure.cutoff, exposure.projection, exposure.margin);
+  ++passes;
 }
 
 bool ProgressiveImage::completeUndisturbed(const Monitor& monitor)
@@ -119,7 +161,18 @@ void ProgressiveImage::developUndisturbed(Image& image)
 void ProgressiveImage::develop(Image& image)
 {
   developCounts(image);
-  schlieren::develop(*films_, passes_, settings_.threads, image);
+  if (soFar_ && passes_ < settings_.samplesPerPixel)
+  {
+    if (soFar_->onDevice)
+    {
+      soFar_->onDevice->develop(soFar_->films);
+    }
+    schlieren::develop(soFar_->films, soFar_->passes, settings_.threads, image);
+  }
+  else
+  {
+    schlieren::develop(*films_, passes_, settings_.threads, image);
+  }
   smooth(settings_, image);
   developCentres(image);
   developUndisturbed(image);
@@ -130,6 +183,7 @@ bool ProgressiveImage::finish(Image& image, const Monitor& monitor)
   developCounts(image);
   schlieren::develop(*films_, passes_, settings_.threads, image);
   films_.reset(); // all that follows wants memory, too
+  soFar_.reset();
   smooth(settings_, image);
   developCentres(image);
   filmOnDevice_.reset();

@@ -25,7 +25,8 @@ enum class Rays
 
 /// An image that is summed up pass by pass, as a whole or in pieces: not a bit of it depends on where it was
 /// stopped. Where `paused` of the monitor is set, passes are exposed one by one, so that there is an image
-/// to show; else those that stay are exposed together, which is faster.
+/// to show; else those that stay are exposed together, which is faster. The rays of a pass light a part of the film, see
+/// sideOf(): what is shown before all passes are there has them light all of it.
 class ProgressiveImage
 {
 public:
@@ -60,6 +61,18 @@ public:
   bool finish(Image& image, const Monitor& monitor);
 
 private:
+  /// What is shown until all passes are there.
+  struct SoFar
+  {
+    void add(std::vector<TracedRays> rays, const Exposure& exposure, int threads);
+    void add(const CudaPass& rays, Pass pass, const Exposure& exposure);
+
+    Films films;
+    std::unique_ptr<CudaFilm> onDevice{};
+    std::int64_t passes = 0;
+  };
+  SoFar& filmSoFar();
+
   void developCounts(Image& image);
   void developCentres(Image& image) const;
   void developUndisturbed(Image& image);
@@ -69,6 +82,7 @@ private:
   std::optional<Films> films_;
   bool isOnDevice_ = false;                ///< the passes lie there
   std::unique_ptr<CudaFilm> filmOnDevice_; ///< of these
+  std::optional<SoFar> soFar_;
   CentreValues centres_;
   RayCounts counts_;
   std::vector<TracedRays> waiting_; ///< not in centres_ yet

@@ -7,6 +7,7 @@
 
 #include "Film/CellLight.h"
 #include "Film/Coverage.h"
+#include "Film/RayBox.h"
 #include "Math/HostDevice.h"
 #include "Optics/Interferogram.h"
 
@@ -23,14 +24,6 @@ struct SheetRay : FilmRay<planes>
 {
   double bend = 0; ///< pixels: the largest second difference of where rays land
 };
-
-/// Whether there is light between two rays. Where one crosses the medium and the other does not, what there is
-/// of either ends at the medium's side.
-template <int planes>
-SCHLIEREN_HD bool areTogether(const FilmRay<planes>& a, const FilmRay<planes>& b)
-{
-  return a.arrives && b.arrives && a.crossed == b.crossed;
-}
 
 /// Neighbours that do not arrive, are none, or on the other side of the medium's edge count for nothing. `isOfPhase`: see Sheet.
 template <bool isOfPhase = false, int planes>
@@ -243,9 +236,11 @@ private:
     const double sum = corner + beside + over + opposite;
     if constexpr (isOfPhase)
     {
+      // The mean over a parallelogram.
       return 4 *
-        fringeLight(0.25 * sum, 0.5 * ((beside - corner) + (opposite - over)),
-          0.5 * ((over - corner) + (opposite - beside)));
+        fringeLight(0.25 * sum,
+          sincPi(0.5 * ((beside - corner) + (opposite - over))) *
+            sincPi(0.5 * ((over - corner) + (opposite - beside))));
     }
     return sum;
   }
@@ -370,26 +365,14 @@ private:
     {
       return;
     }
-    const double x = ray.x + right, y = ray.y + up;
-    const bool isNear = isOnFilm(x, y, film_.columns, film_.rows);
-    const Footprint lower = isNear ? footprintOf(x, y) : Footprint{ 0, 0, 0, 0 };
-    // What of it is beyond the first pixel.
-    const Footprint at = { lower.column, lower.row, larger(2 * lower.right - 1, 0),
-      larger(2 * lower.high - 1, 0) };
+    std::int64_t light[planes];
     for (int plane = 0; plane < planes; ++plane)
     {
-      const std::int64_t whole =
+      light[plane] =
         film_.fixed(0.25 * (isOfPhase ? fringeLight(ray.light[plane]) : ray.light[plane]));
-      deposit_.emitted(plane, whole);
-      if (isNear)
-      {
-        deposit_.block(plane, at.column, at.row, contributionsOf(at, whole));
-      }
-      else
-      {
-        deposit_.outside(plane, whole);
-      }
     }
+    RayBox<planes, Deposit, rowsAtOnce, isOfPhase>(film_, deposit_)
+      .addUpright(ray.x + right, ray.y + up, 0.5, 0.5, light);
   }
 
   /// Any other cell.

@@ -399,4 +399,9 @@ PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed)
   return (choice & 16u) != 0 ? PixelOffset{ b, a } : PixelOffset{ a, b };
 }
 
+double sideOf(std::int64_t raysPerPixel)
+{
+  return 1 / std::sqrt(static_cast<double>(raysPerPixel));
+}
+
 } // namespace schlieren

@@ -142,4 +142,9 @@ std::int64_t maxMargin(const View& view);
 /// lattice add up to an exactly even film, so undisturbed light carries no sampling noise.
 PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed);
 
+/// The side, in pixels, of the square whose light each ray has of so many per pixel. Light that changes within a pixel is
+/// blurred by that side and no more. Squares of 4, 16 or 64 rays cover each column and row of a pixel evenly, as the rays are
+/// evenly spaced.
+double sideOf(std::int64_t raysPerPixel);
+
 } // namespace schlieren

@@ -136,7 +136,7 @@ TEST(RareFlows, AreSeen)
       {
         const double flow = x < strong ? 1.8e-6 * (1 - std::cos(2 * pi * x / 16)) : 0;
         const bool isIn = std::hypot(x - middle[0], y - middle[1]) < radius;
-        return 2.7e-4 + flow + (isIn ? 3e-7 * std::sin(2 * pi * x / 4) : 0);
+        return 2.7e-4 + flow + (isIn ? 3e-7 * std::sin(2 * pi * x / 3) : 0);
       });
     Scene scene = sceneOf(pixels);
     const Image image = Bench().render(field.field, scene);

@@ -87,7 +87,7 @@ void expectSameImages(const Cutoffs& cutoff, std::int64_t raysPerBand = std::int
   for (int number = 0; number < passes; ++number)
   {
     const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
-      { 0.1 * number, -0.07 * number } };
+      { 0.1 * number, -0.07 * number }, { 0, 0 }, std::ldexp(1, -number) };
     exits.push_back(exitsOf(pass, random));
     traced.push_back({ pass, exits.back().data(), nullptr });
     onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin);

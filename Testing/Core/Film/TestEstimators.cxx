@@ -227,7 +227,7 @@ struct GaussianLens
   }
 
   /// Of passes of rays.
-  PixelArray<float> image(int passes) const
+  PixelArray<float> image(int passes, double side = 1) const
   {
     std::vector<std::vector<RayExit>> exits;
     std::vector<TracedRays> rays;
@@ -247,9 +247,9 @@ struct GaussianLens
     }
     for (int number = 0; number < passes; ++number)
     {
-      rays.push_back(
-        { { -margin, -margin, size + 2 * margin, size + 2 * margin, pixelOffset(number, 1) },
-          exits[static_cast<std::size_t>(number)].data(), nullptr });
+      rays.push_back({ { -margin, -margin, size + 2 * margin, size + 2 * margin,
+                         pixelOffset(number, 1), { 0, 0 }, side },
+        exits[static_cast<std::size_t>(number)].data(), nullptr });
     }
     Films films(1, {}, size, size, 10000000);
     expose(rays, Shadowgraph{}, { 0, 1, 1 }, margin, 2, films);
@@ -348,6 +348,79 @@ TEST(Estimators, OneRayPerPixelIsExact)
         : shape == GaussianLens::Shape::Column ? 0.01
                                                : 0.03; // focused along both axes
       EXPECT_LT(rmsError(lens.image(1), lens.truth()), most) << strength;
+    }
+  }
+}
+
+/// Squares smaller than a pixel, as rays of 16 passes have them, blur less and leave no gaps that would be seen.
+TEST(Estimators, ManyRaysPerPixelAreNearerToIt)
+{
+  constexpr int passes = 16;
+  for (const double strength : { -2., 0.1, 0.5, 0.9, 1., 1.5, 3., 5. })
+  {
+    const GaussianLens lens{ GaussianLens::Shape::Column, strength };
+    const std::vector<double> truth = lens.truth();
+    const double one = rmsError(lens.image(1), truth);
+    EXPECT_LT(rmsError(lens.image(passes, 0.25), truth), 0.3 * one) << strength;
+    EXPECT_LT(rmsError(lens.image(passes, 0.5), truth), (strength < 5 ? 0.6 : 1) * one) << strength;
+  }
+  for (const double strength : { 0.1, 0.5, 3., 5. })
+  {
+    const GaussianLens lens{ GaussianLens::Shape::Ball, strength };
+    const std::vector<double> truth = lens.truth();
+    EXPECT_LT(rmsError(lens.image(passes, 0.5), truth), strength < 1 ? 1.5e-3 : 0.015) << strength;
+  }
+}
+
+/// Waves of few pixels, oblique to them, have each pixel's mean: that of a sine over a square.
+TEST(Estimators, ManyRaysPerPixelHaveThePixelsMean)
+{
+  constexpr int size = 40, margin = 2;
+  constexpr double amplitude = 0.45;
+  const Cutoffs cutoffs[] = { KnifeEdge::at(0, 1, false), Interferogram{ 1, {} } };
+  for (const double pixelsPerWave : { 3.4, 6.9 })
+  {
+    const double along = std::cos(0.35) / pixelsPerWave, up = std::sin(0.35) / pixelsPerWave;
+    const auto sincOf = [](double turns) { return std::sin(pi * turns) / (pi * turns); };
+    const double mean = sincOf(along) * sincOf(up);
+    for (const int passes : { 4, 16, 64 })
+    {
+      std::vector<std::vector<RayExit>> exits;
+      std::vector<TracedRays> rays;
+      for (int number = 0; number < passes; ++number)
+      {
+        const Pass pass{ -margin, -margin, size + 2 * margin, size + 2 * margin,
+          pixelOffset(number, 1), { 0, 0 }, sideOf(passes) };
+        std::vector<RayExit>& ofPass = exits.emplace_back();
+        for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
+        {
+          const double turns = along * pass.columnOf(ray) + up * pass.rowOf(ray);
+          ofPass.push_back(
+            { { amplitude * std::sin(2 * pi * turns), 0 }, { 0, 0 }, turns, RayFate::Left, 1 });
+        }
+        rays.push_back({ pass, nullptr, nullptr });
+      }
+      for (std::size_t number = 0; number < rays.size(); ++number)
+      {
+        rays[number].exits = exits[number].data();
+      }
+      for (const Cutoffs& cutoff : cutoffs)
+      {
+        Films films(1, {}, size, size, 10000000);
+        expose(rays, cutoff, { 0, 1, 0 }, margin, 1, films);
+        const PixelArray<float> image = films.developIntensity(passes, 1);
+        double worst = 0;
+        for (int pixel = 0; pixel < size * size; ++pixel)
+        {
+          const double turns = along * (pixel % size) + up * (pixel / size);
+          const double right = cutoff.index() == cutoffs[0].index()
+            ? 0.5 + amplitude * mean * std::sin(2 * pi * turns)
+            : 0.5 + 0.5 * mean * std::cos(2 * pi * turns);
+          const double light = static_cast<double>(image[static_cast<std::size_t>(pixel)]);
+          worst = std::max(worst, std::abs(light - right));
+        }
+        EXPECT_LT(worst, 0.1 / passes) << pixelsPerWave << " " << cutoff.index();
+      }
     }
   }
 }
