@@ -167,7 +167,7 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
       return nullptr;
     }
     const std::vector<TracedPass>& rays = group.traced[keyOf(number)];
-    const double side = sideOnFilm(set.samples, scene_.cutoff);
+    const double side = sideOnFilm(set.samples, scene_, setup_.light);
     withEach(
       [&](std::size_t n, PatchFilm& film)
       {

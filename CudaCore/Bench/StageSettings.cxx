@@ -267,17 +267,20 @@ FilmSettings filmSettingsOf(const Scene& scene)
     scene.smoothingRadius, isOfCamera(scene.cutoff), scene.threads };
 }
 
-double sideOnFilm(int raysPerPixel, Cutoff cutoff)
+double sideOnFilm(int raysPerPixel, const Scene& scene, const Light& light)
 {
   constexpr double overlap = 2; // so that no gaps are where light is spread
-  const double share = sideOf(raysPerPixel);
-  return techniqueOf(cutoff).plane == RecordedPlane::Screen ? std::min(1., overlap * share) : share;
+  const bool isOfScreen = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen;
+  const bool isOfSource = !isOfCamera(scene.cutoff) && scene.source.shape != SourceShape::Point;
+  return isOfSource || light.pupilTilt > 0
+    ? 1
+    : std::min(1., (isOfScreen ? overlap : 1) * sideOf(raysPerPixel));
 }
 
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)
 {
   pass.offset = pixelOffset(number, scene.seed);
-  pass.side = sideOnFilm(scene.samplesPerPixel, scene.cutoff);
+  pass.side = sideOnFilm(scene.samplesPerPixel, scene, light);
   if (light.pupilTilt > 0)
   {
     const std::array<double, 2> place = pupilPoint(number, scene.samplesPerPixel);
