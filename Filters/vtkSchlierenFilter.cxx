@@ -126,7 +126,6 @@ void tellPlaces(vtkInformationVector* outputs)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkSchlierenFilter::vtkSchlierenFilter()
   : Inside(new Internals)
 {
@@ -134,36 +133,30 @@ vtkSchlierenFilter::vtkSchlierenFilter()
   this->SetNumberOfOutputPorts(2);
 }
 
-//------------------------------------------------------------------------------
 vtkSchlierenFilter::~vtkSchlierenFilter() = default;
 
-//------------------------------------------------------------------------------
 double vtkSchlierenFilter::MostGathered()
 {
   return this->GetMaker().canUsePieces() ? this->GatherLimit
                                          : std::numeric_limits<double>::infinity();
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetMTime()
 {
   return std::max(this->GetTimeOfProperties(), this->Inside->RefineTime.GetMTime());
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetTimeOfProperties()
 {
   vtkMTimeType time = this->Superclass::GetMTime();
   return this->GradedFilter ? std::max(time, this->GradedFilter->GetMTime()) : time;
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetTimeOfImage()
 {
   return std::max(this->GetTimeOfProperties(), upstreamTime(this));
 }
 
-//------------------------------------------------------------------------------
 vtkTypeBool vtkSchlierenFilter::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
@@ -182,26 +175,21 @@ vtkTypeBool vtkSchlierenFilter::ProcessRequest(
   return result;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::LackInput() { this->Inside->Ranks.lackInput(); }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::FillOutputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
   return 1;
 }
 
-//------------------------------------------------------------------------------
 vtkImageData* vtkSchlierenFilter::GetOutput() { return this->GetOutput(IMAGE_PORT); }
 
-//------------------------------------------------------------------------------
 vtkImageData* vtkSchlierenFilter::GetOutput(int port)
 {
   return vtkImageData::SafeDownCast(this->GetOutputDataObject(port));
 }
 
-//------------------------------------------------------------------------------
 MediumMaker& vtkSchlierenFilter::GetMaker()
 {
   MediumMaker& maker = this->Superclass::GetMaker();
@@ -209,17 +197,14 @@ MediumMaker& vtkSchlierenFilter::GetMaker()
   return maker;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::ReportMedium(double done)
 {
   this->Progress(mediumFraction * done);
   return !this->GetAbortExecute();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::Progress(double fraction) { this->UpdateProgress(fraction); }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -263,7 +248,6 @@ int vtkSchlierenFilter::RequestInformation(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -278,10 +262,8 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::RequestSame(vtkInformation* inInfo) { requestPiece(inInfo); }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -351,7 +333,6 @@ int vtkSchlierenFilter::RequestData(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::ShowLast(vtkInformationVector* outputs)
 {
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
@@ -362,7 +343,6 @@ void vtkSchlierenFilter::ShowLast(vtkInformationVector* outputs)
   tellPlaces(outputs);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* outputs)
 {
   Internals& inside = *this->Inside;
@@ -404,7 +384,6 @@ void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* output
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::Fail(
   const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs)
 {
@@ -418,7 +397,6 @@ void vtkSchlierenFilter::Fail(
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::ForgetImage()
 {
   Internals& inside = *this->Inside;

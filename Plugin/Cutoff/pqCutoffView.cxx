@@ -37,7 +37,6 @@ int blend(double a, double b, double fraction)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqCutoffView::pqCutoffView(QWidget* parentObject)
   : QWidget(parentObject)
 {
@@ -60,10 +59,8 @@ pqCutoffView::pqCutoffView(QWidget* parentObject)
   this->setAccessibleDescription(help);
 }
 
-//------------------------------------------------------------------------------
 pqCutoffView::~pqCutoffView() = default;
 
-//------------------------------------------------------------------------------
 QRectF pqCutoffView::square() const
 {
   const int line = this->fontMetrics().height();
@@ -72,23 +69,19 @@ QRectF pqCutoffView::square() const
   return { line + 2., 2., static_cast<double>(side), static_cast<double>(side) };
 }
 
-//------------------------------------------------------------------------------
 int pqCutoffView::heightForWidth(int width) const
 {
   return std::min(width, largestSide + this->fontMetrics().height() + 4);
 }
 
-//------------------------------------------------------------------------------
 QSize pqCutoffView::sizeHint() const
 {
   constexpr int usual = 250;
   return { usual, this->heightForWidth(usual) };
 }
 
-//------------------------------------------------------------------------------
 pqCutoffPlane pqCutoffView::plane() const { return { this->square(), this->Range }; }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::setCutoff(const pqCutoff& cutoff, const QImage& image)
 {
   this->Cutoff = cutoff;
@@ -96,14 +89,12 @@ void pqCutoffView::setCutoff(const pqCutoff& cutoff, const QImage& image)
   this->fit();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::setLight(const pqCutoffLight& light)
 {
   this->Light = light;
   this->fit();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::fit()
 {
   // Keeps the scale while a handle is dragged.
@@ -125,14 +116,12 @@ void pqCutoffView::fit()
   this->changed();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::changed()
 {
   this->Composed = QImage();
   this->update();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::zoom(int steps)
 {
   this->Range = std::max(leastRange, pqCutoffPlane::roundRange(this->Range, -steps));
@@ -140,7 +129,6 @@ void pqCutoffView::zoom(int steps)
   this->changed();
 }
 
-//------------------------------------------------------------------------------
 QImage pqCutoffView::composed() const
 {
   const double ratio = this->devicePixelRatioF();
@@ -174,7 +162,6 @@ QImage pqCutoffView::composed() const
   return image;
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
@@ -203,7 +190,6 @@ void pqCutoffView::paintEvent(QPaintEvent*)
   this->drawAxes(painter);
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::drawLines(QPainter& painter) const
 {
   const pqCutoffPlane plane = this->plane();
@@ -253,7 +239,6 @@ void pqCutoffView::drawLines(QPainter& painter) const
   painter.drawEllipse(plane.turnHandle(this->Cutoff), 5, 5);
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::drawAxes(QPainter& painter) const
 {
   const QRectF square = this->square();
@@ -289,7 +274,6 @@ void pqCutoffView::drawAxes(QPainter& painter) const
   painter.restore();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::grab(pqCutoffPlane::Handle handle)
 {
   this->Before = this->Cutoff;
@@ -297,7 +281,6 @@ void pqCutoffView::grab(pqCutoffPlane::Handle handle)
   Q_EMIT this->grabbed();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::moveTo(const pqCutoff& cutoff)
 {
   this->Cutoff = cutoff;
@@ -305,7 +288,6 @@ void pqCutoffView::moveTo(const pqCutoff& cutoff)
   Q_EMIT this->dragged();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::release(bool keep)
 {
   if (this->isGrabbed())
@@ -321,7 +303,6 @@ void pqCutoffView::release(bool keep)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::mousePressEvent(QMouseEvent* event)
 {
   if (event->button() != Qt::LeftButton || this->isGrabbed())
@@ -336,7 +317,6 @@ void pqCutoffView::mousePressEvent(QMouseEvent* event)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::mouseMoveEvent(QMouseEvent* event)
 {
   if (this->isGrabbed() && !this->ByKeys)
@@ -353,7 +333,6 @@ void pqCutoffView::mouseMoveEvent(QMouseEvent* event)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::follow(QMouseEvent* event)
 {
   this->LastPlace = mousePlace(event);
@@ -361,7 +340,6 @@ void pqCutoffView::follow(QMouseEvent* event)
     event->modifiers() & Qt::ShiftModifier));
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::mouseReleaseEvent(QMouseEvent* event)
 {
   if (event->button() == Qt::LeftButton && !this->ByKeys)
@@ -375,7 +353,6 @@ void pqCutoffView::mouseReleaseEvent(QMouseEvent* event)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::mouseDoubleClickEvent(QMouseEvent* event)
 {
   if (event->button() == Qt::LeftButton)
@@ -385,7 +362,6 @@ void pqCutoffView::mouseDoubleClickEvent(QMouseEvent* event)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::wheelEvent(QWheelEvent* event)
 {
   // Leaves the wheel to the panel, which could not be scrolled otherwise.
@@ -401,7 +377,6 @@ void pqCutoffView::wheelEvent(QWheelEvent* event)
   event->accept();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::keyPressEvent(QKeyEvent* event)
 {
   const bool isAlone = !this->isGrabbed();
@@ -470,7 +445,6 @@ void pqCutoffView::keyPressEvent(QKeyEvent* event)
   this->moveTo(cutoff);
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::keyReleaseEvent(QKeyEvent* event)
 {
   if (this->ByKeys && !event->isAutoRepeat())
@@ -479,7 +453,6 @@ void pqCutoffView::keyReleaseEvent(QKeyEvent* event)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::focusOutEvent(QFocusEvent* event)
 {
   if (this->ByKeys)
@@ -489,10 +462,8 @@ void pqCutoffView::focusOutEvent(QFocusEvent* event)
   QWidget::focusOutEvent(event);
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::resizeEvent(QResizeEvent*) { this->changed(); }
 
-//------------------------------------------------------------------------------
 bool pqCutoffView::event(QEvent* event)
 {
   // Overrides the window's shortcut Escape.

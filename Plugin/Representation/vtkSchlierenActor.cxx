@@ -84,7 +84,6 @@ private:
 
 vtkStandardNewMacro(vtkSchlierenActor);
 
-//------------------------------------------------------------------------------
 vtkSchlierenActor::vtkSchlierenActor()
 {
   vtkMath::UninitializeBounds(this->ViewBounds);
@@ -143,10 +142,8 @@ vtkSchlierenActor::vtkSchlierenActor()
   this->SetTexture(texture);
 }
 
-//------------------------------------------------------------------------------
 vtkSchlierenActor::~vtkSchlierenActor() { this->SetBench(nullptr); }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -156,7 +153,6 @@ void vtkSchlierenActor::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Reduction: " << this->Reduction << "\n";
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::SetBench(vtkSchlierenFilter* bench)
 {
   if (this->Bench == bench)
@@ -182,7 +178,6 @@ void vtkSchlierenActor::SetBench(vtkSchlierenFilter* bench)
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenActor::View::operator==(const View& other) const
 {
   return this->Direction == other.Direction && this->Up == other.Up &&
@@ -191,7 +186,6 @@ bool vtkSchlierenActor::View::operator==(const View& other) const
     this->FocusDistance == other.FocusDistance;
 }
 
-//------------------------------------------------------------------------------
 vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
 {
   View view;
@@ -227,7 +221,6 @@ vtkSchlierenActor::View vtkSchlierenActor::ViewOf(vtkRenderer* renderer)
   return view;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenActor::LookThrough(const View& view)
 {
   const bool isMoved = !this->HasSeen || !(view == this->Seen);
@@ -244,7 +237,6 @@ bool vtkSchlierenActor::LookThrough(const View& view)
   return isMoved;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::SetFillsView(vtkRenderer* renderer)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
@@ -256,7 +248,6 @@ void vtkSchlierenActor::SetFillsView(vtkRenderer* renderer)
   this->UseBoundsOn();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::AddTo(vtkRenderer* renderer)
 {
   renderer->AddActor(this);
@@ -267,7 +258,6 @@ void vtkSchlierenActor::AddTo(vtkRenderer* renderer)
   renderer->AddObserver(vtkCommand::EndEvent, this->RestoreFXAA, afterAllOthers);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::RemoveFrom(vtkRenderer* renderer)
 {
   renderer->RemoveActor(this);
@@ -276,7 +266,6 @@ void vtkSchlierenActor::RemoveFrom(vtkRenderer* renderer)
   renderer->RemoveObserver(this->RestoreFXAA);
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenActor::IsHidden(vtkRenderer* renderer)
 {
   vtkPropCollection* props = renderer->GetViewProps();
@@ -291,7 +280,6 @@ bool vtkSchlierenActor::IsHidden(vtkRenderer* renderer)
   return false;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
 {
   this->UseGreyScene();
@@ -312,7 +300,6 @@ void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
   this->NoteTimes();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::NoteTimes()
 {
   this->KnownTime = this->Bench->GetMTime();
@@ -320,25 +307,21 @@ void vtkSchlierenActor::NoteTimes()
   this->HasMore = false;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenActor::IsChanged() const
 {
   return this->Bench && this->Bench->GetMTime() != this->KnownTime;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenActor::HasFailed() const
 {
   return this->FailedTime != 0 && this->FailedTime == this->Bench->GetMTime();
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenActor::GetFinished() const
 {
   return this->Finished || !this->HasData || this->HasFailed() || this->Bench->GetStopped();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::TraceUpTo(double seconds)
 {
   this->Reduction = 1;
@@ -352,7 +335,6 @@ void vtkSchlierenActor::TraceUpTo(double seconds)
   this->Finished = this->Bench->GetFinished();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::TracePreview()
 {
   const double pixels = static_cast<double>(this->Seen.Size[0]) * this->Seen.Size[1];
@@ -378,7 +360,6 @@ void vtkSchlierenActor::TracePreview()
   this->Finished = false;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::Trace(int occasion, bool isMoved)
 {
   if (occasion == TURNED || (isMoved && this->TimeSlice > 0 && occasion != SCREENSHOT))
@@ -396,7 +377,6 @@ void vtkSchlierenActor::Trace(int occasion, bool isMoved)
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenActor::Refine()
 {
   if (this->GetFinished() || !this->HasSeen || !(this->TimeSlice > 0))
@@ -418,7 +398,6 @@ bool vtkSchlierenActor::Refine()
   return false;
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
 {
   int drawn = 0;
@@ -428,7 +407,6 @@ int vtkSchlierenActor::RenderOpaqueGeometry(vtkViewport* viewport)
   return drawn;
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenActor::DrawImage(vtkViewport* viewport)
 {
   this->Legend->SetImage(nullptr);
@@ -454,7 +432,6 @@ int vtkSchlierenActor::DrawImage(vtkViewport* viewport)
   return this->Superclass::RenderOpaqueGeometry(viewport);
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenActor::MakeImage(const View& view, int occasion)
 {
   if (!this->Bench || !this->HasData || this->HasFailed())
@@ -472,7 +449,6 @@ bool vtkSchlierenActor::MakeImage(const View& view, int occasion)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::UpdatePixels()
 {
   vtkImageData* image = this->Bench->GetOutput();
@@ -498,14 +474,12 @@ void vtkSchlierenActor::UpdatePixels()
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenActor::HasScene() const
 {
   return this->Bench && vtkSchlierenFilter::CutoffHasBackground(this->Bench->GetCutoff()) &&
     this->Bench->GetBackgroundPattern() == vtkSchlierenFilter::SCENE;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::UseGreyScene()
 {
   if (this->HasScene() && !this->HasDrawnScene && !this->HasOtherRanks)
@@ -519,7 +493,6 @@ void vtkSchlierenActor::UseGreyScene()
   }
 }
 
-//------------------------------------------------------------------------------
 double vtkSchlierenActor::DepthOfImage(vtkCamera* camera) const
 {
   const double* range = camera->GetClippingRange();
@@ -529,7 +502,6 @@ double vtkSchlierenActor::DepthOfImage(vtkCamera* camera) const
   return std::clamp(wanted, range[0] + margin, range[1] - margin);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenActor::UpdateScene(vtkRenderer* renderer, const View& view)
 {
   if (!this->HasScene() || this->HasOtherRanks || !vtkMath::AreBoundsInitialized(this->FlowBounds))
@@ -553,7 +525,6 @@ void vtkSchlierenActor::UpdateScene(vtkRenderer* renderer, const View& view)
   this->HasDrawnScene = true;
 }
 
-//------------------------------------------------------------------------------
 // Places the quad by the view's coordinates: x to the right, y upwards.
 void vtkSchlierenActor::PlaceQuad(vtkRenderer* renderer)
 {

@@ -267,7 +267,6 @@ bool areWords(const std::string& bracket)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string lowered(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -276,7 +275,6 @@ std::string lowered(std::string text)
   return text;
 }
 
-//------------------------------------------------------------------------------
 double scaleOfUnit(Quantity quantity, const std::string& text)
 {
   const std::string unit = plainUnit(text);
@@ -293,7 +291,6 @@ double scaleOfUnit(Quantity quantity, const std::string& text)
   return found == units.end() ? 0 : found->second;
 }
 
-//------------------------------------------------------------------------------
 ArrayName::ArrayName(const std::string& written)
 {
   std::string text = written;
@@ -317,17 +314,14 @@ ArrayName::ArrayName(const std::string& written)
   this->Words = wordsOf(text);
 }
 
-//------------------------------------------------------------------------------
 std::string ArrayName::Joined() const { return joined(this->Words); }
 
-//------------------------------------------------------------------------------
 bool ArrayName::Is(const std::set<std::string>& names) const
 {
   const Understood how = understood(this->Words, names);
   return how <= Understood::AsMean;
 }
 
-//------------------------------------------------------------------------------
 ArrayName::Parsed ArrayName::Of(Quantity quantity) const
 {
   Parsed parsed{ this->Words, this->Bracket };
@@ -352,28 +346,23 @@ ArrayName::Parsed ArrayName::Of(Quantity quantity) const
   return parsed;
 }
 
-//------------------------------------------------------------------------------
 Understood ArrayName::As(Quantity quantity) const
 {
   return understood(this->Of(quantity).words, namesOf(quantity));
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::HasUnit(Quantity quantity) const { return !this->Of(quantity).unit.empty(); }
 
-//------------------------------------------------------------------------------
 double ArrayName::Scale(Quantity quantity) const
 {
   return scaleOfUnit(quantity, this->Of(quantity).unit);
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::IsInDegrees() const
 {
   return degrees.count(plainUnit(this->Of(Quantity::Temperature).unit)) > 0;
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::IsGauge() const
 {
   return gauges.count(plainUnit(this->Bracket)) > 0 || gauges.count(this->Joined()) > 0 ||
@@ -381,7 +370,6 @@ bool ArrayName::IsGauge() const
       [](const std::string& word) { return gauges.count(lowered(word)) > 0; });
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::IsOfGas() const
 {
   static const Names phases = { "air", "carrier", "gas", "gasphase" };
@@ -389,14 +377,12 @@ bool ArrayName::IsOfGas() const
     [](const std::string& word) { return phases.count(lowered(word)) > 0; });
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::IsOfLiquid() const
 {
   return std::any_of(this->All.begin(), this->All.end(),
     [](const std::string& word) { return others.count(lowered(word)) > 0; });
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::IsSomethingElse() const
 {
   static const Names elsewhere = { "alpha", "angle", "area", "block", "blocks", "cfl", "charge",

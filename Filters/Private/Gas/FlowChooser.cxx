@@ -31,7 +31,6 @@ std::string gasOf(const std::string& word)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isFraction(const FlowArray& array, Fraction& fraction)
 {
   // Solvers undershoot 0 and overshoot 1 a little.
@@ -82,34 +81,28 @@ bool isFraction(const FlowArray& array, Fraction& fraction)
   return !fraction.gas.empty();
 }
 
-//------------------------------------------------------------------------------
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
-//------------------------------------------------------------------------------
 std::string rangeInWords(const FlowArray& array)
 {
   return textOf(array.range[0]) + " to " + textOf(array.range[1]);
 }
 
-//------------------------------------------------------------------------------
 bool isScalar(const FlowArray& array)
 {
   return array.components == 1 && array.range[0] <= array.range[1];
 }
 
-//------------------------------------------------------------------------------
 FlowChooser::FlowChooser(const std::vector<FlowArray>& all)
 {
   std::copy_if(all.begin(), all.end(), std::back_inserter(this->Arrays), isScalar);
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::choose()
 {
   return this->refractivity() || this->refractiveIndex() || this->density(true) || this->moistAir();
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::choose(MediumSettings::IndexModels model)
 {
   this->Result.indexModel = model;
@@ -129,14 +122,12 @@ bool FlowChooser::choose(MediumSettings::IndexModels model)
   return false;
 }
 
-//------------------------------------------------------------------------------
 void FlowChooser::chooseSpecies(FlowArray::Association association)
 {
   this->Result.association = association;
   this->species();
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::has(Quantity quantity) const
 {
   return std::any_of(this->Arrays.begin(), this->Arrays.end(),
@@ -144,7 +135,6 @@ bool FlowChooser::has(Quantity quantity) const
     { return array.components == 1 && ArrayName(array.name).As(quantity) != Understood::Not; });
 }
 
-//------------------------------------------------------------------------------
 FlowChooser::Found FlowChooser::find(Quantity quantity, FlowArray::Association association)
 {
   Understood best = Understood::Not;
@@ -191,7 +181,6 @@ FlowChooser::Found FlowChooser::find(Quantity quantity, FlowArray::Association a
   return found;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::isOfAnother(const ArrayName& name, Quantity quantity)
 {
   for (const Quantity other : { Quantity::Density, Quantity::Temperature, Quantity::Pressure })
@@ -204,7 +193,6 @@ bool FlowChooser::isOfAnother(const ArrayName& name, Quantity quantity)
   return false;
 }
 
-//------------------------------------------------------------------------------
 const FlowArray* FlowChooser::find(const std::set<std::string>& names) const
 {
   for (const FlowArray::Association association : associations)
@@ -220,7 +208,6 @@ const FlowArray* FlowChooser::find(const std::set<std::string>& names) const
   return nullptr;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::refractivity()
 {
   const FlowArray* array = this->find(refractivities);
@@ -233,7 +220,6 @@ bool FlowChooser::refractivity()
   return true;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::refractiveIndex()
 {
   const FlowArray* array = this->find(indexNames);
@@ -247,7 +233,6 @@ bool FlowChooser::refractiveIndex()
   return true;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::density(bool ofSpecies)
 {
   Found found;
@@ -289,7 +274,6 @@ bool FlowChooser::density(bool ofSpecies)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void FlowChooser::species()
 {
   std::vector<Fraction> found;
@@ -325,7 +309,6 @@ void FlowChooser::species()
   this->Result.message += " fractions: " + list;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::moistAir()
 {
   for (const FlowArray::Association association : associations)
@@ -338,7 +321,6 @@ bool FlowChooser::moistAir()
   return false;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::moistAir(FlowArray::Association association)
 {
   const Found temperature = this->find(Quantity::Temperature, association);
@@ -405,7 +387,6 @@ bool FlowChooser::moistAir(FlowArray::Association association)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void FlowChooser::humidity(FlowArray::Association association)
 {
   constexpr double most = 1.05;
@@ -421,7 +402,6 @@ void FlowChooser::humidity(FlowArray::Association association)
   }
 }
 
-//------------------------------------------------------------------------------
 void FlowChooser::take(MediumSettings::IndexModels model, FlowArray::Association association,
   std::vector<std::pair<std::string, std::string>> arrays)
 {
