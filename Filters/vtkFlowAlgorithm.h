@@ -75,34 +75,25 @@ public:
     TRANSFER_FUNCTIONS = 5
   };
 
-  ///@{
   /// How the refractivity N = n - 1 is found. Default: Auto.
   vtkSetClampMacro(IndexModel, int, AUTO, TRANSFER_FUNCTIONS);
   vtkGetMacro(IndexModel, int);
-  ///@}
 
-  ///@{
   /// The gas whose Gladstone-Dale constant at Wavelength is used, by name or, in scripts, by
   /// formula (He). Default: Custom.
   vtkSetStdStringFromCharMacro(Gas);
   vtkGetCharFromStdStringMacro(Gas);
-  ///@}
 
-  ///@{
   /// K in N = K times density, in m^3/kg (Gladstone and Dale 1863). 2.26e-4 is air in visible
   /// light; nitrogen has 2.38e-4. Default: 2.26e-4.
   vtkSetMacro(GladstoneDaleConstant, double);
   vtkGetMacro(GladstoneDaleConstant, double);
-  ///@}
 
-  ///@{
   /// Factor that turns the density array into kg/m^3; 0: that of the unit in the array's name, such
   /// as Density [g/cm3] or rho_gcc, or 1 where there is none. Default: 0.
   vtkSetMacro(DensityScale, double);
   vtkGetMacro(DensityScale, double);
-  ///@}
 
-  ///@{
   /// The names of the arrays with the fractions of the species, for points or cells like the
   /// density. Default: none.
   void AddMixtureArray(const char* text)
@@ -115,9 +106,7 @@ public:
     this->MixtureArrays.clear();
     this->Modified();
   }
-  ///@}
 
-  ///@{
   /// What the species are, in the order of Mixture Arrays: names or formulas as for Gas, or
   /// numbers: the Gladstone-Dale constant in m^3/kg and, for volume fractions, a space and the
   /// molar mass in kg/mol, such as 2.3e-4 0.044. Default: none.
@@ -131,14 +120,11 @@ public:
     this->MixtureGases.clear();
     this->Modified();
   }
-  ///@}
 
-  ///@{
   /// The gas that makes up the rest of a mixture: a name, a formula or numbers as in Mixture Gases.
   /// Default: air.
   vtkSetStdStringFromCharMacro(BackgroundGas);
   vtkGetCharFromStdStringMacro(BackgroundGas);
-  ///@}
 
   /// Values of FractionType.
   enum FractionTypes
@@ -147,57 +133,42 @@ public:
     VOLUME = 1
   };
 
-  ///@{
   /// What the arrays are fractions of: Mass, or Volume, that is moles, which also uses the gases'
   /// molar masses. Default: Mass.
   vtkSetClampMacro(FractionType, int, MASS, VOLUME);
   vtkGetMacro(FractionType, int);
-  ///@}
 
-  ///@{
   /// Factor that turns the pressure array into Pa; 0: that of the unit in the array's name, such as
   /// p_hPa, or 1 where there is none. Default: 0.
   vtkSetMacro(PressureScale, double);
   vtkGetMacro(PressureScale, double);
-  ///@}
 
-  ///@{
   /// Pressure of air that is the same everywhere, in Pa, as around a heater or a fire in a room
   /// (101325); then a temperature is enough, and no array of the pressure is read. 0: the pressure
   /// is an array. Default: 0.
   vtkSetMacro(UniformPressure, double);
   vtkGetMacro(UniformPressure, double);
-  ///@}
 
-  ///@{
   /// Temperature at rest, K, of air whose pressure changes without heat, such as a flow without
   /// strong shocks (293.15 in a room); then a pressure is enough, and no array of the temperature
   /// is read: it is this times (p / Stagnation Pressure)^(2/7). 0: the temperature is an array.
   /// Default: 0.
   vtkSetMacro(StagnationTemperature, double);
   vtkGetMacro(StagnationTemperature, double);
-  ///@}
 
-  ///@{
   /// Pressure of this air at rest, Pa; more than 0. Default: 101325.
   vtkSetMacro(StagnationPressure, double);
   vtkGetMacro(StagnationPressure, double);
-  ///@}
 
-  ///@{
   /// Relative humidity, 0 to 1, where no array of it is chosen; 0 is dry air. Default: 0.
   vtkSetMacro(RelativeHumidity, double);
   vtkGetMacro(RelativeHumidity, double);
-  ///@}
 
-  ///@{
   /// Wavelength of the light in vacuum, nanometres: for gases chosen by name, and for moist air
   /// (300 to 1700). 632.8 is a helium-neon laser. Default: 632.8.
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);
-  ///@}
 
-  ///@{
   /// The names of the arrays to map through Transfer Functions, any number, all of points or all of
   /// cells. Default: none.
   void AddField(const char* text)
@@ -210,9 +181,7 @@ public:
     this->Fields.clear();
     this->Modified();
   }
-  ///@}
 
-  ///@{
   /// Two values for each of the Fields, which are mapped to 0 and 1; values beyond are clamped.
   /// Default: none.
   void AddFieldRange(double value)
@@ -225,14 +194,11 @@ public:
     this->FieldRanges.clear();
     this->Modified();
   }
-  ///@}
 
-  ///@{
   /// The refractivity where all Transfer Functions are 1: N = scale times their mean. 3e-4 is about
   /// that of air. Default: 3e-4.
   vtkSetMacro(RefractivityScale, double);
   vtkGetMacro(RefractivityScale, double);
-  ///@}
 
   /// Values of MaskedSide.
   enum MaskedSides
@@ -242,17 +208,13 @@ public:
     MASKED_BELOW = 1
   };
 
-  ///@{
   /// Auto: the side that the name of Mask means, Above where it is not known. Default: Auto.
   vtkSetClampMacro(MaskedSide, int, MASKED_AUTO, MASKED_BELOW);
   vtkGetMacro(MaskedSide, int);
-  ///@}
 
-  ///@{
   /// A point of the axis of symmetry. Default: 0 0 0.
   vtkSetVector3Macro(SymmetryOrigin, double);
   vtkGetVector3Macro(SymmetryOrigin, double);
-  ///@}
 
   // end
 

@@ -133,19 +133,15 @@ public:
   const char* GetGrid() const;
 
   // setters: rest
-  ///@{
   /// Metres per unit of the data's coordinates; 0.001 for data in millimetres. Default: 1.
   vtkSetMacro(LengthScale, double);
   vtkGetMacro(LengthScale, double);
-  ///@}
 
-  ///@{
   /// Refractivity n - 1 of the surroundings; air at room conditions has 2.7e-4. -1: it is found, as
   /// the median over the domain's boundary, for the first image, and kept while the time changes,
   /// so that the fringes of a series are counted from the same reference. Default: -1.
   vtkSetMacro(AmbientRefractivity, double);
   vtkGetMacro(AmbientRefractivity, double);
-  ///@}
 
   /// Values of ExitInto.
   enum Exits
@@ -156,53 +152,39 @@ public:
     EXIT_CUSTOM = 3
   };
 
-  ///@{
   /// What light enters where it leaves the data through a plane across the line of sight, the
   /// window of a tank, which refracts it: Air (n - 1 = 2.718e-4), or Custom, of Exit Refractivity.
   /// Default: Auto.
   vtkSetClampMacro(ExitInto, int, EXIT_AUTO, EXIT_CUSTOM);
   vtkGetMacro(ExitInto, int);
-  ///@}
 
-  ///@{
   /// Refractivity n - 1 of what light leaves the data into: 2.7e-4 of air, 0.333 of water. Default:
   /// 2.7e-4.
   vtkSetMacro(ExitRefractivity, double);
   vtkGetMacro(ExitRefractivity, double);
-  ///@}
 
-  ///@{
   /// The direction of sight, as that of a parallel camera; light travels against it, towards the
   /// viewer. Default: 0 0 -1.
   vtkSetVector3Macro(ViewDirection, double);
   vtkGetVector3Macro(ViewDirection, double);
-  ///@}
 
-  ///@{
   /// The direction that points up in the image; not parallel to View Direction. Default: 0 1 0.
   vtkSetVector3Macro(ViewUp, double);
   vtkGetVector3Macro(ViewUp, double);
-  ///@}
 
-  ///@{
   /// Half the height of the image in the plane of the focal point, data units; 0: all of the data
   /// is visible. Default: 0.
   vtkSetMacro(ParallelScale, double);
   vtkGetMacro(ParallelScale, double);
-  ///@}
 
-  ///@{
   /// Perspective: degrees between the lower and the upper side of the image, seen from the camera;
   /// 0: parallel light, as of a wind tunnel's mirrors. Default: 0.
   vtkSetMacro(ViewAngle, double);
   vtkGetMacro(ViewAngle, double);
-  ///@}
 
-  ///@{
   /// Width and height of the image in pixels. Default: 512 512.
   vtkSetVector2Macro(ImageSize, int);
   vtkGetVector2Macro(ImageSize, int);
-  ///@}
 
   /// Values of Cutoff.
   enum Cutoffs
@@ -219,28 +201,22 @@ public:
     PHASE_CONTRAST = 9
   };
 
-  ///@{
   /// Which deflection the knife edge or the graded filter measures, degrees: 0 for a vertical edge,
   /// where deflection to the right is bright; 90 for a horizontal one, where deflection upwards is
   /// bright. Default: 0.
   vtkSetMacro(KnifeEdgeAngle, double);
   vtkGetMacro(KnifeEdgeAngle, double);
-  ///@}
 
-  ///@{
   /// Position of the knife edge or the graded filter relative to the middle of the source's image,
   /// as a fraction of its width. Default: 0.
   vtkSetMacro(CutoffOffset, double);
   vtkGetMacro(CutoffOffset, double);
-  ///@}
 
-  ///@{
   /// Put the knife edge or the graded filter on the other side: bright and dark are exchanged.
   /// Default: off.
   vtkSetMacro(InvertCutoff, bool);
   vtkGetMacro(InvertCutoff, bool);
   vtkBooleanMacro(InvertCutoff, bool);
-  ///@}
 
   /// Values of KMode.
   enum KModes
@@ -251,67 +227,49 @@ public:
     K_BENCH = 3
   };
 
-  ///@{
   /// Where the sensitivity k comes from. Default: Automatic.
   vtkSetClampMacro(KMode, int, K_AUTOMATIC, K_BENCH);
   vtkGetMacro(KMode, int);
-  ///@}
 
-  ///@{
   /// Sensitivity k of the cutoff, where K Mode is Value: the focal length over the width of the
   /// light source. Default: 1000.
   vtkSetMacro(KScale, double);
   vtkGetMacro(KScale, double);
-  ///@}
 
-  ///@{
   /// Focal length of the second mirror, metres; more than 0. Default: 1.
   vtkSetMacro(FocalLength, double);
   vtkGetMacro(FocalLength, double);
-  ///@}
 
-  ///@{
   /// Width of the source's image at the cutoff, across the knife edge, or diameter of a disc;
   /// millimetres. Default: 1.
   vtkSetMacro(SourceWidth, double);
   vtkGetMacro(SourceWidth, double);
-  ///@}
 
-  ///@{
   /// Distance of the edge from the middle of the source's image, towards covering it, millimetres.
   /// Default: 0.
   vtkSetMacro(CutoffPosition, double);
   vtkGetMacro(CutoffPosition, double);
-  ///@}
 
-  ///@{
   /// The image of the colour filter, which covers k times the deflection from -1 to 1 along both
   /// axes: the name of a PNG file that the server can read, or the file's content as text,
   /// data:image/png;base64,..., which is stored in state files. Default: none.
   vtkSetStdStringFromCharMacro(ColorFilterImage);
   vtkGetCharFromStdStringMacro(ColorFilterImage);
-  ///@}
 
-  ///@{
   /// 0: infinite fringes, undisturbed light is bright everywhere, and fringes follow the optical
   /// path. Default: 0.
   vtkSetMacro(FringeSpacing, double);
   vtkGetMacro(FringeSpacing, double);
-  ///@}
 
-  ///@{
   /// Direction from fringe to fringe, and from stripe to stripe of a background, degrees: 0 to the
   /// right, 90 upwards. Default: 0.
   vtkSetMacro(FringeAngle, double);
   vtkGetMacro(FringeAngle, double);
-  ///@}
 
-  ///@{
   /// Make the interferogram in white light, as the array Color. Default: off.
   vtkSetMacro(WhiteLight, bool);
   vtkGetMacro(WhiteLight, bool);
   vtkBooleanMacro(WhiteLight, bool);
-  ///@}
 
   /// Values of BackgroundPattern.
   enum BackgroundPatterns
@@ -322,112 +280,80 @@ public:
     SCENE = 3
   };
 
-  ///@{
   /// The pattern behind the flow: Dots, Stripes, a Picture, which is Background Image, or the
   /// Scene: what the view shows behind the flow, where it draws the flow as Schlieren. Default:
   /// Dots.
   vtkSetClampMacro(BackgroundPattern, int, DOTS, SCENE);
   vtkGetMacro(BackgroundPattern, int);
-  ///@}
 
-  ///@{
   /// Distance from where the data begin to the pattern behind them, data units; negative: one data
   /// depth, and of the Scene the distance of its middle. Default: -1.
   vtkSetMacro(BackgroundDistance, double);
   vtkGetMacro(BackgroundDistance, double);
-  ///@}
 
-  ///@{
   /// Distance between dots or stripes, data units; 0: eight pixels. Default: 0.
   vtkSetMacro(BackgroundPeriod, double);
   vtkGetMacro(BackgroundPeriod, double);
-  ///@}
 
-  ///@{
   /// The image behind the flow: the name of a PNG file that the server can read, or the file's
   /// content as text, data:image/png;base64,..., which is stored in state files. Default: none.
   vtkSetStdStringFromCharMacro(BackgroundImage);
   vtkGetCharFromStdStringMacro(BackgroundImage);
-  ///@}
 
-  ///@{
   /// Of a shadowgraph: distance from the plane where light leaves the data's box to the screen,
   /// data units; negative: one depth of that box along the light, wherever the flow is in it.
   /// Default: -1.
   vtkSetMacro(ScreenDistance, double);
   vtkGetMacro(ScreenDistance, double);
-  ///@}
 
-  ///@{
   /// The plane in focus, except of a shadowgraph: its distance from the middle of the data, with a
   /// perspective from the focal point, towards the viewer, data units. Default: 0.
   vtkSetMacro(FocusOffset, double);
   vtkGetMacro(FocusOffset, double);
-  ///@}
 
-  ///@{
   /// The lens of the camera, of Background Oriented and of images with a View Angle: focal length
   /// over aperture; 0: a pinhole, everything is in focus. Default: 0.
   vtkSetMacro(FNumber, double);
   vtkGetMacro(FNumber, double);
-  ///@}
 
-  ///@{
   /// Focal length of the camera's lens, millimetres; more than 0. Default: 50.
   vtkSetMacro(LensFocalLength, double);
   vtkGetMacro(LensFocalLength, double);
-  ///@}
 
-  ///@{
   /// Distance from the camera to the plane in focus, with a View Angle, data units; 0: Background
   /// Oriented focuses on the pattern, other images on the focal point, or as Focus Offset says.
   /// Default: 0.
   vtkSetMacro(FocusDistance, double);
   vtkGetMacro(FocusDistance, double);
-  ///@}
 
-  ///@{
   /// Width of the sensor behind the lens, millimetres: sets the View Angle. 0: off. Default: 0.
   vtkSetMacro(SensorWidth, double);
   vtkGetMacro(SensorWidth, double);
-  ///@}
 
-  ///@{
   /// The camera's sensor: electrons that a pixel can hold; 0: none. Default: 0.
   vtkSetMacro(FullWell, double);
   vtkGetMacro(FullWell, double);
-  ///@}
 
-  ///@{
   /// How much of the full well light 1 fills; more than 0. Default: 0.8.
   vtkSetMacro(Exposure, double);
   vtkGetMacro(Exposure, double);
-  ///@}
 
-  ///@{
   /// Standard deviation of the noise of reading, electrons. Default: 10.
   vtkSetMacro(ReadNoise, double);
   vtkGetMacro(ReadNoise, double);
-  ///@}
 
-  ///@{
   /// Recorded values are the light to the power of 1 over this; 1: linear. Default: 1.
   vtkSetMacro(Gamma, double);
   vtkGetMacro(Gamma, double);
-  ///@}
 
-  ///@{
   /// Bits of the recorded values; the array has 8 or 16. Default: 8.
   vtkSetClampMacro(BitDepth, int, 1, 16);
   vtkGetMacro(BitDepth, int);
-  ///@}
 
-  ///@{
   /// Light diverges from a point at this distance before the middle of the data, data units; more
   /// than half of the data's depth. 0: it is collimated. Default: 0.
   vtkSetMacro(SourceDistance, double);
   vtkGetMacro(SourceDistance, double);
-  ///@}
 
   /// Values of SourceShape.
   enum SourceShapes
@@ -437,18 +363,14 @@ public:
     DISC = 2
   };
 
-  ///@{
   /// Point, or an extended source: a Slit along the knife edge or a Disc, as wide as Source Width.
   /// Default: Point.
   vtkSetClampMacro(SourceShape, int, POINT, DISC);
   vtkGetMacro(SourceShape, int);
-  ///@}
 
-  ///@{
   /// Length of a slit's image at the cutoff, along the knife edge, millimetres. Default: 10.
   vtkSetMacro(SourceLength, double);
   vtkGetMacro(SourceLength, double);
-  ///@}
 
   /// Values of LightModel.
   enum LightModels
@@ -458,48 +380,35 @@ public:
     LIGHT_AUTO = 2
   };
 
-  ///@{
   /// How light continues behind the flow. Default: Rays.
   vtkSetClampMacro(LightModel, int, LIGHT_RAYS, LIGHT_AUTO);
   vtkGetMacro(LightModel, int);
-  ///@}
 
-  ///@{
   /// Of waves: full width of the light's spectrum around Wavelength, nanometres; 0: one wavelength.
   /// Default: 0.
   vtkSetClampMacro(Bandwidth, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(Bandwidth, double);
-  ///@}
 
-  ///@{
   /// Of Phase Contrast: diameter of the plate in the middle of the cutoff plane, millimetres, with
   /// Focal Length; 0: only undisturbed light passes it. Default: 0.
   vtkSetClampMacro(PhasePlateDiameter, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(PhasePlateDiameter, double);
-  ///@}
 
-  ///@{
   /// Of Phase Contrast: by how much the plate delays light, wavelengths. 0.25: denser gas is
   /// bright; -0.25: it is dark. Default: 0.25.
   vtkSetMacro(PhasePlateDelay, double);
   vtkGetMacro(PhasePlateDelay, double);
-  ///@}
 
-  ///@{
   /// Of Phase Contrast: the fraction of light that the plate lets pass. Default: 1.
   vtkSetClampMacro(PhasePlateTransmission, double, 0, 1);
   vtkGetMacro(PhasePlateTransmission, double);
-  ///@}
 
-  ///@{
   /// Tint the image: light takes on the colours of the Fields whose gradients it crosses. Default:
   /// off.
   vtkSetMacro(ColorByField, bool);
   vtkGetMacro(ColorByField, bool);
   vtkBooleanMacro(ColorByField, bool);
-  ///@}
 
-  ///@{
   /// Red, green and blue, 0 to 1, of each of the Fields. Default: none.
   void AddFieldColor(double value)
   {
@@ -511,7 +420,6 @@ public:
     this->FieldColors.clear();
     this->Modified();
   }
-  ///@}
 
   /// Values of PathModel.
   enum PathModels
@@ -520,30 +428,22 @@ public:
     REFRACTED = 1
   };
 
-  ///@{
   /// How light passes the medium. Default: Refracted.
   vtkSetClampMacro(PathModel, int, STRAIGHT, REFRACTED);
   vtkGetMacro(PathModel, int);
-  ///@}
 
-  ///@{
   /// Length of an integration step, voxels; with solids no longer than 1. Default: 2.
   vtkSetMacro(StepSize, double);
   vtkGetMacro(StepSize, double);
-  ///@}
 
-  ///@{
   /// Rays cross a cube of voxels in one step where the refractivity varies in it by no more than
   /// this fraction of its range in the whole flow; 0: nothing is skipped. Default: 0.001.
   vtkSetMacro(HomogeneityTolerance, double);
   vtkGetMacro(HomogeneityTolerance, double);
-  ///@}
 
-  ///@{
   /// Rays per pixel; the first is at the pixel's centre. Default: 1.
   vtkSetMacro(SamplesPerPixel, int);
   vtkGetMacro(SamplesPerPixel, int);
-  ///@}
 
   /// Values of Precision.
   enum Precisions
@@ -552,41 +452,31 @@ public:
     DOUBLE = 1
   };
 
-  ///@{
   /// Smooths the image by a Gaussian with a standard deviation of half this radius, pixels; 0: not
   /// at all. Default: 0.
   vtkSetMacro(SmoothingRadius, double);
   vtkGetMacro(SmoothingRadius, double);
-  ///@}
 
-  ///@{
   /// Of meshes: the error of the deflection that the size of voxels may cause, relative to the
   /// largest deflection; with Color By Field also that of a colour's strength; 0: voxels are as
   /// fine as the mesh. Default: 0.003.
   vtkSetMacro(MediumTolerance, double);
   vtkGetMacro(MediumTolerance, double);
-  ///@}
 
-  ///@{
   /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the
   /// settings below; negative: what cannot be seen. Default: 0.
   vtkSetMacro(TargetError, double);
   vtkGetMacro(TargetError, double);
-  ///@}
 
-  ///@{
   /// Whether an image with a target error has the array ErrorEstimate, the error of each pixel in
   /// the unit of Target Error. Default: off.
   vtkSetMacro(ErrorEstimate, bool);
   vtkGetMacro(ErrorEstimate, bool);
   vtkBooleanMacro(ErrorEstimate, bool);
-  ///@}
 
-  ///@{
   /// Of meshes: memory for voxels, MiB. Default: 1024.
   vtkSetClampMacro(MediumMemory, int, 1, VTK_INT_MAX);
   vtkGetMacro(MediumMemory, int);
-  ///@}
 
   /// Values of Device.
   enum Devices
@@ -596,25 +486,19 @@ public:
     CUDA = 2
   };
 
-  ///@{
   /// What traces the rays. Default: Auto.
   vtkSetClampMacro(Device, int, AUTO, CUDA);
   vtkGetMacro(Device, int);
-  ///@}
 
-  ///@{
   /// Threads on the CPU; 0: VTK_SMP_MAX_THREADS where that is set, else the cores that the process
   /// may use. Default: 0.
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
-  ///@}
 
-  ///@{
   /// Where ParaView runs as several processes: up to how many cells in all the pieces of a mesh
   /// that these have are put together on rank 0. Default: 1000000.
   vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(GatherLimit, int);
-  ///@}
 
   // end
 
