@@ -218,26 +218,20 @@ public:
 
   // end
 
-  /**
-   * Returns the Gladstone-Dale constant in use, m^3/kg: that of Gas at Wavelength, or
-   * GladstoneDaleConstant. NaN for an unknown gas.
-   */
+  /// Returns the Gladstone-Dale constant in use, m^3/kg: that of Gas at Wavelength, or
+  /// GladstoneDaleConstant. NaN for an unknown gas.
   double GetGladstoneDaleConstantUsed();
 
   ///@{
-  /**
-   * The functions f_i, one for each field, or none (the default): straight lines from 0 to 1, also
-   * for functions that are null or have no points. Values may be any; x is between 0 and 1. Moving
-   * a point modifies this filter.
-   */
+  /// The functions f_i, one for each field, or none (the default): straight lines from 0 to 1, also
+  /// for functions that are null or have no points. Values may be any; x is between 0 and 1. Moving
+  /// a point modifies this filter.
   virtual void AddTransferFunction(vtkPiecewiseFunction* function);
   virtual void ClearTransferFunctions();
   ///@}
 
-  /**
-   * Returns the arrays in use, with the factors of their units, and the fractions of a mixture,
-   * such as "Density: 'rho'.".
-   */
+  /// Returns the arrays in use, with the factors of their units, and the fractions of a mixture,
+  /// such as "Density: 'rho'.".
   const char* GetArraysUsed();
 
   /// Light in regions without cells.
@@ -249,28 +243,24 @@ public:
   };
 
   ///@{
-  /**
-   * Light in regions of the data's bounding box that no cell covers, one of OutsideModes:
-   * - OUTSIDE_AUTO (the default): bodies that the mesh leaves out stop it; outside of the mesh's
-   *   outer boundary it goes straight on. A body is a hole that the mesh encloses, or that reaches
-   *   the bounding box only at plane sides that the mesh reaches, too, such as a symmetry plane or
-   *   a tunnel's floor.
-   * - OUTSIDE_BLOCKS: all such regions stop it.
-   * - OUTSIDE_PASSES: all of them let it pass. Give the surfaces of bodies to make them solid.
-   *
-   * Unless OUTSIDE_PASSES, walls without thickness within a mesh, whose sides have coincident
-   * points of their own, stop light where the values at these differ.
-   */
+  /// Light in regions of the data's bounding box that no cell covers, one of OutsideModes:
+  /// - OUTSIDE_AUTO (the default): bodies that the mesh leaves out stop it; outside of the mesh's
+  ///   outer boundary it goes straight on. A body is a hole that the mesh encloses, or that reaches
+  ///   the bounding box only at plane sides that the mesh reaches, too, such as a symmetry plane or
+  ///   a tunnel's floor.
+  /// - OUTSIDE_BLOCKS: all such regions stop it.
+  /// - OUTSIDE_PASSES: all of them let it pass. Give the surfaces of bodies to make them solid.
+  ///
+  /// Unless OUTSIDE_PASSES, walls without thickness within a mesh, whose sides have coincident
+  /// points of their own, stop light where the values at these differ.
   vtkSetClampMacro(Outside, int, OUTSIDE_AUTO, OUTSIDE_PASSES);
   vtkGetMacro(Outside, int);
   ///@}
 
   ///@{
-  /**
-   * Depth of data in one plane, or one cell thick, in data units, half of it on each side of the
-   * plane. Deflection and optical path are proportional to it. 0 (the default): the thickness of
-   * the cells, or, for a plane, the length of its shorter side. Ignored with Symmetry.
-   */
+  /// Depth of data in one plane, or one cell thick, in data units, half of it on each side of the
+  /// plane. Deflection and optical path are proportional to it. 0 (the default): the thickness of
+  /// the cells, or, for a plane, the length of its shorter side. Ignored with Symmetry.
   vtkSetClampMacro(Depth, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(Depth, double);
   ///@}
@@ -291,30 +281,24 @@ public:
   };
 
   ///@{
-  /**
-   * Symmetry of data in one plane, or in a wedge of one cell between two planes through an axis.
-   * NO_SYMMETRY (the default): the flow does not depend on the third coordinate. AXISYMMETRIC: a
-   * body of revolution, of which no mesh is made; of data on both sides of the axis, the positive
-   * side is used. Other data are an error.
-   */
+  /// Symmetry of data in one plane, or in a wedge of one cell between two planes through an axis.
+  /// NO_SYMMETRY (the default): the flow does not depend on the third coordinate. AXISYMMETRIC: a
+  /// body of revolution, of which no mesh is made; of data on both sides of the axis, the positive
+  /// side is used. Other data are an error.
   vtkSetClampMacro(Symmetry, int, NO_SYMMETRY, AXISYMMETRIC);
   vtkGetMacro(Symmetry, int);
   ///@}
 
   ///@{
-  /**
-   * Direction of the symmetry axis, one of SymmetryAxes. AUTO_AXIS (the default): that of a wedge;
-   * for a plane, the one of its two coordinate axes with the data on one side, touching it, and
-   * smooth across it.
-   */
+  /// Direction of the symmetry axis, one of SymmetryAxes. AUTO_AXIS (the default): that of a wedge;
+  /// for a plane, the one of its two coordinate axes with the data on one side, touching it, and
+  /// smooth across it.
   vtkSetClampMacro(SymmetryAxis, int, AUTO_AXIS, Z_AXIS);
   vtkGetMacro(SymmetryAxis, int);
   ///@}
 
-  /**
-   * Counts the meshes prepared. Where the mesh is the same, as for other time steps and fields,
-   * only what depends on the values is computed.
-   */
+  /// Counts the meshes prepared. Where the mesh is the same, as for other time steps and fields,
+  /// only what depends on the values is computed.
   vtkTypeInt64 GetMeshBuilds();
 
   /// Returns all of these properties.

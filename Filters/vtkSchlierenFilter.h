@@ -127,9 +127,7 @@ public:
   vtkImageData* GetOutput(int port);
   ///@}
 
-  /**
-   * Returns the grid of the last image as text. Empty before the first and after a failed one.
-   */
+  /// Returns the grid of the last image as text. Empty before the first and after a failed one.
   const char* GetGrid() const;
 
   // setters: rest
@@ -502,27 +500,21 @@ public:
 
   // end
 
-  /**
-   * Wavelength of the light in vacuum, nanometres, for the medium and for interferograms. Default: 632.8.
-   */
+  /// Wavelength of the light in vacuum, nanometres, for the medium and for interferograms. Default: 632.8.
   void SetWavelength(double wavelength) override;
 
   ///@{
-  /**
-   * Whether 2-D data in a plane along z (also the section that Symmetry revolves) are viewed
-   * face-on instead of along their plane if ViewDirection is the default (0, 0, -1): then along y,
-   * or against x, with z up unless ViewUp is changed. Default: on.
-   */
+  /// Whether 2-D data in a plane along z (also the section that Symmetry revolves) are viewed
+  /// face-on instead of along their plane if ViewDirection is the default (0, 0, -1): then along y,
+  /// or against x, with z up unless ViewUp is changed. Default: on.
   vtkSetMacro(FaceFlatData, bool);
   vtkGetMacro(FaceFlatData, bool);
   vtkBooleanMacro(FaceFlatData, bool);
   ///@}
 
   ///@{
-  /**
-   * Point at the centre of the image, data units. By default, and after ClearFocalPoint(), the
-   * data's centre; GetFocalPoint() then returns an unused value.
-   */
+  /// Point at the centre of the image, data units. By default, and after ClearFocalPoint(), the
+  /// data's centre; GetFocalPoint() then returns an unused value.
   virtual void SetFocalPoint(double x, double y, double z);
   virtual void SetFocalPoint(const double point[3])
   {
@@ -534,30 +526,26 @@ public:
   ///@}
 
   ///@{
-  /**
-   * The cutoff, one of Cutoffs. With the deflection eps, its component e along KnifeEdgeAngle and
-   * the sensitivity k, the intensity, clamped to 0 ... 1, is
-   * - KNIFE_EDGE (the default): 1/2 - offset + k e;
-   * - SHADOWGRAPH: 1, so that the image shows only where light lands on a screen;
-   * - CIRCULAR: 1 - k |eps|, inverse of a dark field; CIRCULAR_COMPLEMENT: k |eps|;
-   * - GRADED_FILTER: GradedFilter at 1/2 - offset + k e;
-   * - COLOR_FILTER: the colour at k eps in ColorFilterImage, or in a colour wheel;
-   * - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
-   * - BACKGROUND_ORIENTED: a camera's image of a pattern behind the flow;
-   * - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), common for computed flows, but no stop of a bench;
-   * - PHASE_CONTRAST: 1 + 2 phi of a small phase phi, by a plate (PhasePlateDelay) that the
-   *   undisturbed light passes; of waves alone, see LightModel.
-   */
+  /// The cutoff, one of Cutoffs. With the deflection eps, its component e along KnifeEdgeAngle and
+  /// the sensitivity k, the intensity, clamped to 0 ... 1, is
+  /// - KNIFE_EDGE (the default): 1/2 - offset + k e;
+  /// - SHADOWGRAPH: 1, so that the image shows only where light lands on a screen;
+  /// - CIRCULAR: 1 - k |eps|, inverse of a dark field; CIRCULAR_COMPLEMENT: k |eps|;
+  /// - GRADED_FILTER: GradedFilter at 1/2 - offset + k e;
+  /// - COLOR_FILTER: the colour at k eps in ColorFilterImage, or in a colour wheel;
+  /// - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
+  /// - BACKGROUND_ORIENTED: a camera's image of a pattern behind the flow;
+  /// - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), common for computed flows, but no stop of a bench;
+  /// - PHASE_CONTRAST: 1 + 2 phi of a small phase phi, by a plate (PhasePlateDelay) that the
+  ///   undisturbed light passes; of waves alone, see LightModel.
   virtual void SetCutoff(int cutoff);
   vtkGetMacro(Cutoff, int);
   ///@}
 
   ///@{
-  /**
-   * Return whether a cutoff has a sensitivity k; a straight edge with an angle, an offset and an
-   * inverse; fringes; a screen behind the flow, or a pattern; and, with these settings, colours of
-   * its own. False for invalid numbers.
-   */
+  /// Return whether a cutoff has a sensitivity k; a straight edge with an angle, an offset and an
+  /// inverse; fringes; a screen behind the flow, or a pattern; and, with these settings, colours of
+  /// its own. False for invalid numbers.
   static bool CutoffHasK(int cutoff);
   static bool CutoffHasEdge(int cutoff);
   static bool CutoffHasFringes(int cutoff);
@@ -567,144 +555,109 @@ public:
   bool HasOwnColor() const;
   ///@}
 
-  /**
-   * Return the light that is shown as white: 2 for a cutoff whose undisturbed light is 1 and becomes
-   * more and less than that, as a shadowgraph's, else 1.
-   */
+  /// Return the light that is shown as white: 2 for a cutoff whose undisturbed light is 1 and becomes
+  /// more and less than that, as a shadowgraph's, else 1.
   static double CutoffWhite(int cutoff);
 
   ///@{
-  /**
-   * The automatic k kept from an earlier image, and the ambient refractivity; else 0. Setting them (as
-   * state files do) sets those of the next image, which are then kept; 0 means automatic.
-   */
+  /// The automatic k kept from an earlier image, and the ambient refractivity; else 0. Setting them (as
+  /// state files do) sets those of the next image, which are then kept; 0 means automatic.
   void SetLockedK(double k);
   double GetLockedK() const;
   void SetLockedAmbient(double ambient);
   double GetLockedAmbient() const;
   ///@}
 
-  /**
-   * Finds an automatic k again for the next image, whatever has been kept.
-   */
+  /// Finds an automatic k again for the next image, whatever has been kept.
   void FitK();
 
-  /**
-   * Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
-   * with the first and the last where there are more, and keeps the smallest of their automatic k, that of the largest
-   * deflections: no image exceeds full scale then by more than an image with its own k. Reports progress; aborted, it
-   * changes nothing. An error where the data have no time steps or k is not automatic. The output is that of the last
-   * update until the next one.
-   */
+  /// Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
+  /// with the first and the last where there are more, and keeps the smallest of their automatic k, that of the largest
+  /// deflections: no image exceeds full scale then by more than an image with its own k. Reports progress; aborted, it
+  /// changes nothing. An error where the data have no time steps or k is not automatic. The output is that of the last
+  /// update until the next one.
   void FitKOverSeries();
   static constexpr int MOST_STEPS = 100; ///< of FitKOverSeries()
 
   ///@{
-  /**
-   * Returns the k of the last image; 0 before the first, after errors, and without a cutoff.
-   */
+  /// Returns the k of the last image; 0 before the first, after errors, and without a cutoff.
   vtkGetMacro(KScaleUsed, double);
   ///@}
 
-  /**
-   * Returns a text about the last image's sensitivity: k, the full-scale deflection and equivalent
-   * optics; of an interferogram, its wavelength. Empty where there is none.
-   */
+  /// Returns a text about the last image's sensitivity: k, the full-scale deflection and equivalent
+  /// optics; of an interferogram, its wavelength. Empty where there is none.
   const char* GetSensitivity() const { return this->Sensitivity.c_str(); }
 
   ///@{
-  /**
-   * Transmission, 0 to 1, of the GRADED_FILTER across its width, 0 to 1; undisturbed light passes
-   * the middle. Null (the default) or without points: a line from 0 to 1. Sampled at 1025 points.
-   */
+  /// Transmission, 0 to 1, of the GRADED_FILTER across its width, 0 to 1; undisturbed light passes
+  /// the middle. Null (the default) or without points: a line from 0 to 1. Sampled at 1025 points.
   virtual void SetGradedFilter(vtkPiecewiseFunction* function);
   vtkPiecewiseFunction* GetGradedFilter() const;
   ///@}
 
-  /**
-   * Sets the image that the camera sees behind the flow, for BACKGROUND_ORIENTED with SCENE: RGB
-   * bytes as on a screen, stretched over the image. `distance` is used if BackgroundDistance is
-   * negative; negative: one data depth. Null (the default): images with this pattern fail.
-   */
+  /// Sets the image that the camera sees behind the flow, for BACKGROUND_ORIENTED with SCENE: RGB
+  /// bytes as on a screen, stretched over the image. `distance` is used if BackgroundDistance is
+  /// negative; negative: one data depth. Null (the default): images with this pattern fail.
   void SetBackgroundScene(vtkImageData* image, double distance);
 
-  /**
-   * Sets the pupil of a view's camera instead of FNumber and FocusDistance: its diameter and the
-   * distance of what is in focus, data units. `diameter` 0 (the default): there is none.
-   */
+  /// Sets the pupil of a view's camera instead of FNumber and FocusDistance: its diameter and the
+  /// distance of what is in focus, data units. `diameter` 0 (the default): there is none.
   void SetPupil(double diameter, double focusDistance);
 
-  /// Returns the colours of the fields; see AddFieldColor().
-  VTK_WRAPEXCLUDE const std::vector<double>& GetFieldColors() const { return this->FieldColors; }
-
   ///@{
-  /**
-   * Preset of accuracy and speed, one of Qualities. Setting it sets the properties that
-   * GetQualitySetting() lists; CUSTOM sets none. Getting it returns the preset whose values the
-   * properties have, or CUSTOM. Default: INTERACTIVE, whose values are the properties' defaults.
-   */
+  /// Preset of accuracy and speed, one of Qualities. Setting it sets the properties that
+  /// GetQualitySetting() lists; CUSTOM sets none. Getting it returns the preset whose values the
+  /// properties have, or CUSTOM. Default: INTERACTIVE, whose values are the properties' defaults.
   virtual void SetQuality(int quality);
   virtual int GetQuality();
   ///@}
 
   ///@{
-  /**
-   * Return the names of the properties that Quality sets, from number 0 on, null after the last;
-   * and their values in a preset, 0 for invalid numbers.
-   */
+  /// Return the names of the properties that Quality sets, from number 0 on, null after the last;
+  /// and their values in a preset, 0 for invalid numbers.
   static const char* GetQualitySetting(int number);
   static double GetQualityValue(int quality, int number);
   ///@}
 
   ///@{
-  /**
-   * Return what has been measured of a preset on four flows (quality.md): the error that 99 % of the
-   * pixels keep with a cutoff, in the unit of TargetError, and the time for another view, relative to
-   * INTERACTIVE. 0: not known, of REFERENCE, AUTOMATIC and CUSTOM.
-   */
+  /// Return what has been measured of a preset on four flows (quality.md): the error that 99 % of the
+  /// pixels keep with a cutoff, in the unit of TargetError, and the time for another view, relative to
+  /// INTERACTIVE. 0: not known, of REFERENCE, AUTOMATIC and CUSTOM.
   static double GetQualityError(int quality, int cutoff);
   static double GetQualityTime(int quality);
   ///@}
 
   ///@{
-  /**
-   * Floating-point precision of tracing, one of Precisions. With DOUBLE and no target error, the
-   * steps of refracted rays are adaptive.
-   */
+  /// Floating-point precision of tracing, one of Precisions. With DOUBLE and no target error, the
+  /// steps of refracted rays are adaptive.
   virtual void SetPrecision(int precision);
   vtkGetMacro(Precision, int);
   ///@}
 
   ///@{
-  /**
-   * Count what this filter has done since it was made: media built and rays traced. Updates that use earlier results add nothing.
-   */
+  /// Count what this filter has done since it was made: media built and rays traced. Updates that use earlier results add nothing.
   vtkTypeInt64 GetMediumBuilds();
   vtkTypeInt64 GetTotalRaysTraced();
   ///@}
 
   ///@{
-  /**
-   * Pixels of the full image, along each axis, for each pixel of a preview: 2 gives the same view
-   * with half as many columns and rows. Previews have one ray per pixel, whatever SamplesPerPixel
-   * is, and steps no shorter than those of INTERACTIVE. For interaction with a view. Default: 1.
-   */
+  /// Pixels of the full image, along each axis, for each pixel of a preview: 2 gives the same view
+  /// with half as many columns and rows. Previews have one ray per pixel, whatever SamplesPerPixel
+  /// is, and steps no shorter than those of INTERACTIVE. For interaction with a view. Default: 1.
   vtkSetClampMacro(PreviewReduction, int, 1, 64);
   vtkGetMacro(PreviewReduction, int);
   ///@}
 
   ///@{
-  /**
-   * Time that an update may spend on rays and light, seconds, approximately; 0 (the default): no
-   * limit. After that, the output is the image of the completed samples or, if some pixel has
-   * none, the previous image, stretched to the new size (of a new filter: a preview). Refine()
-   * works for as long again and, if it has completed samples, lets the next update show them; it
-   * also begins an image if only properties of this filter have changed. Without a limit it lets
-   * the next update finish the image. GetFinished() returns whether nothing remains to be done.
-   * Each call makes some progress, and the finished image equals the one without a limit to the
-   * last bit. Changing the limit keeps the image. Making the medium is not limited, and progress
-   * is not reported.
-   */
+  /// Time that an update may spend on rays and light, seconds, approximately; 0 (the default): no
+  /// limit. After that, the output is the image of the completed samples or, if some pixel has
+  /// none, the previous image, stretched to the new size (of a new filter: a preview). Refine()
+  /// works for as long again and, if it has completed samples, lets the next update show them; it
+  /// also begins an image if only properties of this filter have changed. Without a limit it lets
+  /// the next update finish the image. GetFinished() returns whether nothing remains to be done.
+  /// Each call makes some progress, and the finished image equals the one without a limit to the
+  /// last bit. Changing the limit keeps the image. Making the medium is not limited, and progress
+  /// is not reported.
   void SetTimeLimit(double seconds) { this->TimeLimit = seconds; }
   vtkGetMacro(TimeLimit, double);
   void Refine();
@@ -712,43 +665,31 @@ public:
   ///@}
 
   ///@{
-  /**
-   * Stops an unfinished image, which counts as finished until Refine() resumes it or something
-   * changes the image. Aborting an update with a TimeLimit while it computes the refractivity, or
-   * any that has called Stop() by then, also stops it, with an empty output: else the next update
-   * makes the image anew. GetStopped() returns whether that is so.
-   */
+  /// Stops an unfinished image, which counts as finished until Refine() resumes it or something
+  /// changes the image. Aborting an update with a TimeLimit while it computes the refractivity, or
+  /// any that has called Stop() by then, also stops it, with an empty output: else the next update
+  /// makes the image anew. GetStopped() returns whether that is so.
   void Stop();
   bool GetStopped();
   ///@}
 
-  /**
-   * Returns whether the last update has made an image, which rank 0 has: the same on all ranks.
-   */
+  /// Returns whether the last update has made an image, which rank 0 has: the same on all ranks.
   bool GetHasImage();
 
-  /**
-   * Returns the completed fraction of the image, per cent; 100 only for a finished one.
-   */
+  /// Returns the completed fraction of the image, per cent; 100 only for a finished one.
   int GetPercentDone();
 
-  /**
-   * Counts the different images of this filter, including one that Refine() has made for the next
-   * update. Unchanged where a step had nothing new to show.
-   */
+  /// Counts the different images of this filter, including one that Refine() has made for the next
+  /// update. Unchanged where a step had nothing new to show.
   vtkTypeInt64 GetPictureCount() const;
 
-  /**
-   * Returns a text about the last image, in one line: samples per pixel; rays per second of the
-   * last tracing; device; path model. Empty before the first image; after a failure, "No image: " and why.
-   */
+  /// Returns a text about the last image, in one line: samples per pixel; rays per second of the
+  /// last tracing; device; path model. Empty before the first image; after a failure, "No image: " and why.
   const char* GetStatus() const { return this->Status.c_str(); }
 
   ///@{
-  /**
-   * What the image has at a place, fractions of its width and height from the lower left, in words: position, deflection,
-   * optical path difference and intensity. Empty beside the image. The place is no setting of the image.
-   */
+  /// What the image has at a place, fractions of its width and height from the lower left, in words: position, deflection,
+  /// optical path difference and intensity. Empty beside the image. The place is no setting of the image.
   void SetProbedPlace(double right, double up);
   const char* GetProbedPlace();
   ///@}
@@ -765,10 +706,8 @@ public:
   /// Returns the maker of the medium, with the current settings.
   VTK_WRAPEXCLUDE filters::MediumMaker& GetMaker() override;
 
-  /**
-   * Makes the next RequestData() treat this rank as one without input, because something upstream
-   * has failed; see vtkSchlierenPipeline.
-   */
+  /// Makes the next RequestData() treat this rank as one without input, because something upstream
+  /// has failed; see vtkSchlierenPipeline.
   VTK_WRAPEXCLUDE void LackInput();
 
   vtkTypeBool ProcessRequest(

@@ -201,42 +201,6 @@ TEST(CellTree, MeasuresTheSameCellsInParts)
   EXPECT_NEAR(tree.voxelShape()[0], (2 * 6 + 1) / 60., 2.1 / 60);
 }
 
-// A thin cell needs thin voxels along each axis that its normal has a part of.
-TEST(CellTree, KnowsTheSizeOfTurnedCells)
-{
-  const auto sizeAt = [](double degrees)
-  {
-    const auto grid = turnedBoxes({ 0.01, 0.06, 0.08 }, degrees);
-    return CellTree({ grid }).content({ { -1, -1, -1 }, { 1, 1, 1 } }).cellSize;
-  };
-  const Vec straight = sizeAt(0), turned = sizeAt(45), across = sizeAt(90), nearly = sizeAt(1);
-  const Vec expected[4] = { { 0.01, 0.06, 0.08 },
-    { 0.01 * std::sqrt(2), 0.01 * std::sqrt(2), 0.08 }, { 0.06, 0.01, 0.08 },
-    { 0.01, 0.06, 0.08 } };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    EXPECT_NEAR(straight[axis], expected[0][axis], 1e-8);
-    EXPECT_NEAR(turned[axis], expected[1][axis], 1e-8);
-    EXPECT_NEAR(across[axis], expected[2][axis], 1e-8);
-    EXPECT_NEAR(nearly[axis], expected[3][axis], 1e-4);
-  }
-}
-
-TEST(CellTree, KnowsTheSizeOfTetrahedraAndWedges)
-{
-  for (const auto& [type, frames] : { std::pair(VTK_TETRA, &kuhn), std::pair(VTK_WEDGE, &prisms) })
-  {
-    const Mesh mesh =
-      meshOf(type, 4, cut(unitCell(type, type == VTK_TETRA ? 4 : 6), *frames), 0, false);
-    setN(mesh, rough);
-    const CellTree tree({ mesh });
-    for (const double size : tree.content(tree.bounds()).cellSize)
-    {
-      EXPECT_NEAR(size, 0.25, 1e-6);
-    }
-  }
-}
-
 TEST(CellTree, ProposesVoxelsOfTheCellsShape)
 {
   const auto shapeOf = [](const Vec& size, double degrees)
