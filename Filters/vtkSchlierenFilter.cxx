@@ -183,8 +183,6 @@ int vtkSchlierenFilter::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-vtkImageData* vtkSchlierenFilter::GetOutput() { return this->GetOutput(IMAGE_PORT); }
-
 vtkImageData* vtkSchlierenFilter::GetOutput(int port)
 {
   return vtkImageData::SafeDownCast(this->GetOutputDataObject(port));
@@ -199,11 +197,9 @@ MediumMaker& vtkSchlierenFilter::GetMaker()
 
 bool vtkSchlierenFilter::ReportMedium(double done)
 {
-  this->Progress(mediumFraction * done);
+  this->UpdateProgress(mediumFraction * done);
   return !this->GetAbortExecute();
 }
-
-void vtkSchlierenFilter::Progress(double fraction) { this->UpdateProgress(fraction); }
 
 int vtkSchlierenFilter::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
@@ -273,15 +269,12 @@ int vtkSchlierenFilter::RequestData(
   output->Initialize();
   histogram->Initialize();
   const AtTheEnd complete([&] { setComplete(outputVector); }); // also of what has failed
-
   const AtTheEnd forgetChoice([&] { inside.Chosen.reset(); });
   const vtkMTimeType now = this->GetTimeOfImage();
-  const auto begin = [&]
-  {
-    // Of what has failed before, one message is enough.
-    return inside.Ranks.begin(this, inputVector, inside.FailedAt != now);
-  };
   bool isWanted = false;
+  // Of what has failed before, one message is enough.
+  const auto begin = [&]
+  { isWanted = inside.Ranks.begin(this, inputVector, inside.FailedAt != now); };
   const auto failOfRanks = [&](const std::string& problem)
   {
     if (isRank0() && inside.FailedAt != now)
@@ -289,7 +282,7 @@ int vtkSchlierenFilter::RequestData(
       this->Fail(problem, now, outputVector);
     }
   };
-  if (!guarded([&] { isWanted = begin(); }, noMemory, failOfRanks) || !isWanted)
+  if (!guarded(begin, noMemory, failOfRanks) || !isWanted)
   {
     return 1;
   }
@@ -325,7 +318,6 @@ int vtkSchlierenFilter::RequestData(
   }
 
   inside.Time = timeOf(request, inputVector, outputVector);
-
   this->SetAbortExecute(0); // it stays set after an abort
   inside.IsStopping = false;
   guarded([&] { this->MakeImage(maxCells, outputVector); }, noMemory,
@@ -349,9 +341,7 @@ void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* output
   vtkImageData* output = vtkImageData::GetData(outputs, IMAGE_PORT);
   vtkImageData* histogram = vtkImageData::GetData(outputs, HISTOGRAM_PORT);
   inside.Ranks.shareArrays();
-  const InputsOfRanks::Inputs inputs = inside.Ranks.gather(maxCells);
-  vtkDataObject* input = inputs.data;
-  vtkDataObject* bodies = inputs.bodies;
+  const auto [input, bodies] = inside.Ranks.gather(maxCells);
   if (!inside.Ranks.areInPieces() && isAbortedUpstream(this, input))
   {
     this->ForgetImage();

@@ -123,7 +123,7 @@ public:
 
   ///@{
   /// Returns the image, or the output of another port.
-  vtkImageData* GetOutput();
+  vtkImageData* GetOutput() { return this->GetOutput(IMAGE_PORT); }
   vtkImageData* GetOutput(int port);
   ///@}
 
@@ -777,8 +777,6 @@ private:
   schlieren::Image Begin(bool isPreview, double seconds, const schlieren::Monitor& monitor);
   /// Passes what was found for the last image to the locks.
   void KeepFound(const schlieren::Image& image);
-  /// Reports the progress of the image.
-  void Progress(double fraction);
   /// Makes the image from the refractivity, or resumes it. Returns false if aborted.
   bool Render(vtkImageData* output, vtkImageData* histogram, bool continues);
   /// Outputs an image, if anything in it is new. Returns false if aborted.

@@ -182,7 +182,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     this->Inside->Done = fraction;
     if (!(this->TimeLimit > 0)) // else it would flicker
     {
-      this->Progress(mediumFraction + (1 - mediumFraction) * fraction);
+      this->UpdateProgress(mediumFraction + (1 - mediumFraction) * fraction);
     }
   };
   std::optional<schlieren::Image> ready = std::exchange(inside.Ready, std::nullopt);

@@ -29,6 +29,12 @@ std::string gasOf(const std::string& word)
   return schlieren::findGas(word) ? word : schlieren::findGas(name) ? name : std::string();
 }
 
+/// Returns the unit of a quantity's values.
+std::string unitInWords(double scale, const std::string& unit)
+{
+  return scale == 1 ? " in " + unit : ", " + textOf(scale) + " " + unit + " each";
+}
+
 } // namespace
 
 bool isFraction(const FlowArray& array, Fraction& fraction)
@@ -256,15 +262,11 @@ bool FlowChooser::density(bool ofSpecies)
   }
   this->take(
     this->Result.indexModel, found.array->association, { { "Density", found.array->name } });
-  this->Result.message = "Density: " + quoted(found.array->name);
-  if (found.scale == 1)
-  {
-    this->Result.message += " in kg/m\xc2\xb3";
-  }
-  else
+  this->Result.message =
+    "Density: " + quoted(found.array->name) + unitInWords(found.scale, "kg/m\xc2\xb3");
+  if (found.scale != 1)
   {
     this->Result.scales = { { "DensityScale", found.scale } };
-    this->Result.message += ", " + textOf(found.scale) + " kg/m\xc2\xb3 each";
   }
   if (ofSpecies)
   {
@@ -311,14 +313,8 @@ void FlowChooser::species()
 
 bool FlowChooser::moistAir()
 {
-  for (const FlowArray::Association association : associations)
-  {
-    if (this->moistAir(association))
-    {
-      return true;
-    }
-  }
-  return false;
+  return std::any_of(std::begin(associations), std::end(associations),
+    [this](FlowArray::Association association) { return this->moistAir(association); });
 }
 
 bool FlowChooser::moistAir(FlowArray::Association association)
@@ -363,24 +359,12 @@ bool FlowChooser::moistAir(FlowArray::Association association)
   }
   this->take(MediumSettings::CIDDOR, association,
     { { "Temperature", temperature.array->name }, { "Pressure", pressure.array->name } });
-  this->Result.message = "Air; temperature: " + quoted(temperature.array->name);
-  if (kelvins == 1)
-  {
-    this->Result.message += " in K";
-  }
-  else
-  {
-    this->Result.message += ", " + textOf(kelvins) + " K each";
-  }
-  this->Result.message += "; pressure: " + quoted(pressure.array->name);
-  if (pascals == 1)
-  {
-    this->Result.message += " in Pa";
-  }
-  else
+  this->Result.message = "Air; temperature: " + quoted(temperature.array->name) +
+    unitInWords(kelvins, "K") + "; pressure: " + quoted(pressure.array->name) +
+    unitInWords(pascals, "Pa");
+  if (pascals != 1)
   {
     this->Result.scales.emplace_back("PressureScale", pascals);
-    this->Result.message += ", " + textOf(pascals) + " Pa each";
   }
   this->humidity(association);
   this->Result.message += ".";
