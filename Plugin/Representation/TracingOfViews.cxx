@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How the bench traces what a view looks at: at once, in slices, or as a preview.
+// How the bench traces what a view looks at: at once, time-sliced, or as a preview.
 #include "vtkSchlierenActor.h"
 
 #include "vtkSchlierenFilter.h"
