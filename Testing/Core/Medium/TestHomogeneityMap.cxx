@@ -213,26 +213,6 @@ Medium<double> mediumWithSolids(
   return buildMedium<double>(field.field, interpolation, 1);
 }
 
-TEST(HomogeneityMap, UniformGasIsOneCube)
-{
-  for (const Dimensions& dimensions : someDimensions)
-  {
-    for (const Interpolation interpolation : allInterpolations)
-    {
-      SampledField<float> field(gridOf(dimensions), [](double, double, double) { return 2.7e-4; });
-      const Medium<float> medium = buildMedium<float>(field.field, interpolation, 1);
-      const HomogeneityMap<float> map = buildHomogeneityMap(medium, interpolation, 0.f, 1);
-      const Vec3<float> last = medium.view().leafHigh;
-      for (const Vec3<float>& position : { Vec3<float>{ 0, 0, 0 }, 0.5f * last, last })
-      {
-        const HomogeneousCube<float> cube = homogeneousCube(map.view(), position);
-        EXPECT_EQ(length(cube.low), 0);
-        EXPECT_GE(cube.edge, std::max({ last.x, last.y, last.z }));
-      }
-    }
-  }
-}
-
 TEST(HomogeneityMap, NoToleranceSkipsASolid)
 {
   const Medium<double> medium = mediumWithSolids({ 30, 20, 10 }, Interpolation::Quadratic, 1e-5);
@@ -260,34 +240,6 @@ TEST(HomogeneityMap, NothingIsWithinANegativeOrMissingTolerance)
   {
     const auto map = buildHomogeneityMap(medium, Interpolation::Quadratic, tolerance, 1);
     EXPECT_EQ(homogeneousCube<double>(map.view(), { 4, 4, 4 }).edge, 0);
-  }
-}
-
-/// Grids that no memory holds, so only the numbers of their cubes.
-TEST(HomogeneityMap, NumbersHugeGrids)
-{
-  for (const Dimensions& dimensions : { Dimensions{ 50001, 40000, 60000 },
-         { std::int64_t{ 1 } << 30, 3, 2 }, { 2, std::int64_t{ 1 } << 30, 1 << 20 } })
-  {
-    const BrickPyramid pyramid = pyramidOver(dimensions);
-    EXPECT_EQ(pyramid.size(pyramid.levels - 1), 1);
-    EXPECT_LT(pyramid.levels, 255);
-    std::int64_t all = 0;
-    for (int level = 0; level < pyramid.levels; ++level)
-    {
-      EXPECT_EQ(pyramid.first(level), all);
-      all += pyramid.size(level);
-      const BrickPyramid::Place end{ pyramid.along(0, level) - 1, pyramid.along(1, level) - 1,
-        pyramid.along(2, level) - 1 };
-      EXPECT_EQ(pyramid.number(end, level), pyramid.size(level) - 1);
-      const BrickPyramid::Place place = pyramid.place(pyramid.size(level) - 1, level);
-      EXPECT_EQ(place.x, end.x);
-      EXPECT_EQ(place.y, end.y);
-      EXPECT_EQ(place.z, end.z);
-    }
-    const double cells = static_cast<double>(dimensions[0] - 1) *
-      static_cast<double>(dimensions[1] - 1) * static_cast<double>(dimensions[2] - 1);
-    EXPECT_GE(static_cast<double>(pyramid.size(0)), cells / (brickEdge * brickEdge * brickEdge));
   }
 }
 
