@@ -64,11 +64,6 @@ void LatticeSampling::separate(const Index& low)
   };
   std::array<Corner, 8> corners;
   std::size_t count = 0;
-  const auto areApart = [](const Corner& one, const Corner& other, double cosine)
-  {
-    return dot(one.side, other.side) < cosine && one.heightOf(other.place) < onSurface &&
-      other.heightOf(one.place) < onSurface;
-  };
   for (int c = 0; c < (this->Lattice.points[2] > 1 ? 8 : 4); ++c)
   {
     const Index at{ low.i + (c & 1), low.j + (c >> 1 & 1), low.k + (c >> 2) };
@@ -80,22 +75,43 @@ void LatticeSampling::separate(const Index& low)
       corners[count++] = { p, placeOf(at), side, &near, isOver(near, placeOf(at), besideThin) };
     }
   }
+  // Finds which corners are behind the walls that others are in front of.
+  double heights[8][8]; // over the wall of the first, of the second
+  for (std::size_t a = 0; a < count; ++a)
+  {
+    for (std::size_t b = 0; b < count; ++b)
+    {
+      heights[a][b] = corners[a].heightOf(corners[b].place);
+    }
+  }
+  // Whether a line from one to the other enters the one's wall before it leaves the other's.
+  const auto areApart = [&](std::size_t a, std::size_t b, double cosine)
+  {
+    return heights[a][b] < onSurface && heights[b][a] < onSurface &&
+      heights[a][a] * heights[b][b] <= heights[a][b] * heights[b][a] + onSurface &&
+      dot(corners[a].side, corners[b].side) < cosine;
+  };
+  std::array<unsigned, 8> together{}; // bits of the others that each corner is not apart from
+  for (std::size_t a = 0; a < count; ++a)
+  {
+    for (std::size_t b = 0; b < a; ++b)
+    {
+      const bool are = !areApart(a, b, cosineOfPlane);
+      together[a] |= are ? 1u << b : 0;
+      together[b] |= are ? 1u << a : 0;
+    }
+  }
   for (std::size_t a = 0; a < count; ++a)
   {
     for (std::size_t b = 0; b < count; ++b)
     {
       const Corner &one = corners[a], &other = corners[b];
       // Around an edge a third corner sees both.
-      const bool areOpposite = areApart(one, other, cosineOfThin) ||
-        (areApart(one, other, cosineOfPlane) &&
-          std::none_of(corners.begin(), corners.begin() + count,
-            [&](const Corner& third) {
-              return !areApart(one, third, cosineOfPlane) && !areApart(third, other, cosineOfPlane);
-            }));
+      const bool areOpposite = a != b && ((together[a] >> b) & 1) == 0 &&
+        ((together[a] & together[b]) == 0 || areApart(a, b, cosineOfThin));
       // Either is behind what the other is in front of, or one is between two walls.
       const bool areSeparated = one.isOver && other.isOver &&
-        (areOpposite ? a < b
-                     : one.heightOf(other.place) < -onSurface && isOver(*one.near, other.place, 0));
+        (areOpposite ? a < b : heights[a][b] < -onSurface && isOver(*one.near, other.place, 0));
       if (!areSeparated)
       {
         continue;
@@ -142,16 +158,31 @@ bool LatticeSampling::isThin(const Index& at) const
 void LatticeSampling::thickenPlates()
 {
   this->Marked.assign(this->States.size(), 0);
+  std::vector<unsigned char> isBeside(this->States.size());
+  for (std::size_t p = 0; p < isBeside.size(); ++p)
+  {
+    isBeside[p] = this->States[p] == InGas && this->SquaredToSolid[p] <= squaredDiagonal ? 1 : 0;
+  }
   const auto& points = this->Lattice.points;
+  // Allows for flat lattices, whose voxels are squares.
+  const auto row = static_cast<std::size_t>(points[0]);
+  const std::size_t layer = points[2] > 1 ? row * static_cast<std::size_t>(points[1]) : 0;
   this->forPoints(
     [&](const Index& at)
     {
-      // Allows for flat lattices, whose voxels are squares.
-      if (at.i + 1 < points[0] && at.j + 1 < points[1] && (at.k + 1 < points[2] || points[2] == 1))
-      {
-        this->separate(at);
-      }
       const std::size_t p = this->numberOf(at);
+      if (at.i + 1 < points[0] && at.j + 1 < points[1] && (at.k + 1 < points[2] || layer == 0))
+      {
+        int beside = 0;
+        for (const std::size_t corner : { p, p + row, p + layer, p + layer + row })
+        {
+          beside += isBeside[corner] + isBeside[corner + 1];
+        }
+        if (beside > 1)
+        {
+          this->separate(at);
+        }
+      }
       if (this->States[p] == InWall && this->Distances[p] > -depthOfThin && this->isThin(at))
       {
         this->Marked[p] = 1;
