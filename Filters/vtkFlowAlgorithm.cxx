@@ -50,40 +50,33 @@ ArraySelection selectionFrom(vtkInformation* info)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkFlowAlgorithm::vtkFlowAlgorithm()
   : Maker(std::make_shared<MediumMaker>([this](double done) { return this->ReportMedium(done); }))
 {
 }
 
-//------------------------------------------------------------------------------
 vtkFlowAlgorithm::~vtkFlowAlgorithm() = default;
 
-//------------------------------------------------------------------------------
 bool vtkFlowAlgorithm::ReportMedium(double done)
 {
   this->UpdateProgress(done);
   return !this->GetAbortExecute();
 }
 
-//------------------------------------------------------------------------------
 MediumMaker& vtkFlowAlgorithm::GetMaker()
 {
   this->Maker->settings = this->GetMediumSettings();
   return *this->Maker;
 }
 
-//------------------------------------------------------------------------------
 vtkTypeInt64 vtkFlowAlgorithm::GetMeshBuilds() { return this->Maker->mesh()->builds; }
 
-//------------------------------------------------------------------------------
 const char* vtkFlowAlgorithm::GetArraysUsed()
 {
   this->ArraysUsed = this->GetMaker().choice().message;
   return this->ArraysUsed.c_str();
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType vtkFlowAlgorithm::GetMTime()
 {
   vtkMTimeType time = this->Superclass::GetMTime();
@@ -94,7 +87,6 @@ vtkMTimeType vtkFlowAlgorithm::GetMTime()
   return time;
 }
 
-//------------------------------------------------------------------------------
 int vtkFlowAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   // Any, so that one message says what is wrong with tables and others: VTK says it several times.
@@ -106,14 +98,12 @@ int vtkFlowAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
-//------------------------------------------------------------------------------
 int vtkFlowAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector*)
 {
   return 1; // VTK makes what FillOutputPortInformation() names
 }
 
-//------------------------------------------------------------------------------
 void vtkFlowAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -127,7 +117,6 @@ void vtkFlowAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ArraysUsed: " << this->GetArraysUsed() << "\n";
 }
 
-//------------------------------------------------------------------------------
 MediumSettings vtkFlowAlgorithm::GetMediumSettings()
 {
   MediumSettings settings = *this;
@@ -149,21 +138,18 @@ MediumSettings vtkFlowAlgorithm::GetMediumSettings()
   return settings;
 }
 
-//------------------------------------------------------------------------------
 double vtkFlowAlgorithm::GetGladstoneDaleConstantUsed()
 {
   return isCustom(this->Gas) ? this->GladstoneDaleConstant
                              : vtkGasTable::GetConstant(this->Gas, this->Wavelength);
 }
 
-//------------------------------------------------------------------------------
 void vtkFlowAlgorithm::AddTransferFunction(vtkPiecewiseFunction* function)
 {
   this->Functions.emplace_back(function);
   this->Modified();
 }
 
-//------------------------------------------------------------------------------
 void vtkFlowAlgorithm::ClearTransferFunctions()
 {
   this->Functions.clear();

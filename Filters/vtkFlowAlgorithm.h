@@ -75,34 +75,25 @@ public:
     TRANSFER_FUNCTIONS = 5
   };
 
-  ///@{
   /// How the refractivity N = n - 1 is found. Default: Auto.
   vtkSetClampMacro(IndexModel, int, AUTO, TRANSFER_FUNCTIONS);
   vtkGetMacro(IndexModel, int);
-  ///@}
 
-  ///@{
   /// The gas whose Gladstone-Dale constant at Wavelength is used, by name or, in scripts, by
   /// formula (He). Default: Custom.
   vtkSetStdStringFromCharMacro(Gas);
   vtkGetCharFromStdStringMacro(Gas);
-  ///@}
 
-  ///@{
   /// K in N = K times density, in m^3/kg (Gladstone and Dale 1863). 2.26e-4 is air in visible
   /// light; nitrogen has 2.38e-4. Default: 2.26e-4.
   vtkSetMacro(GladstoneDaleConstant, double);
   vtkGetMacro(GladstoneDaleConstant, double);
-  ///@}
 
-  ///@{
   /// Factor that turns the density array into kg/m^3; 0: that of the unit in the array's name, such
   /// as Density [g/cm3] or rho_gcc, or 1 where there is none. Default: 0.
   vtkSetMacro(DensityScale, double);
   vtkGetMacro(DensityScale, double);
-  ///@}
 
-  ///@{
   /// The names of the arrays with the fractions of the species, for points or cells like the
   /// density. Default: none.
   void AddMixtureArray(const char* text)
@@ -115,9 +106,7 @@ public:
     this->MixtureArrays.clear();
     this->Modified();
   }
-  ///@}
 
-  ///@{
   /// What the species are, in the order of Mixture Arrays: names or formulas as for Gas, or
   /// numbers: the Gladstone-Dale constant in m^3/kg and, for volume fractions, a space and the
   /// molar mass in kg/mol, such as 2.3e-4 0.044. Default: none.
@@ -131,14 +120,11 @@ public:
     this->MixtureGases.clear();
     this->Modified();
   }
-  ///@}
 
-  ///@{
   /// The gas that makes up the rest of a mixture: a name, a formula or numbers as in Mixture Gases.
   /// Default: air.
   vtkSetStdStringFromCharMacro(BackgroundGas);
   vtkGetCharFromStdStringMacro(BackgroundGas);
-  ///@}
 
   /// Values of FractionType.
   enum FractionTypes
@@ -147,57 +133,42 @@ public:
     VOLUME = 1
   };
 
-  ///@{
   /// What the arrays are fractions of: Mass, or Volume, that is moles, which also uses the gases'
   /// molar masses. Default: Mass.
   vtkSetClampMacro(FractionType, int, MASS, VOLUME);
   vtkGetMacro(FractionType, int);
-  ///@}
 
-  ///@{
   /// Factor that turns the pressure array into Pa; 0: that of the unit in the array's name, such as
   /// p_hPa, or 1 where there is none. Default: 0.
   vtkSetMacro(PressureScale, double);
   vtkGetMacro(PressureScale, double);
-  ///@}
 
-  ///@{
   /// Pressure of air that is the same everywhere, in Pa, as around a heater or a fire in a room
   /// (101325); then a temperature is enough, and no array of the pressure is read. 0: the pressure
   /// is an array. Default: 0.
   vtkSetMacro(UniformPressure, double);
   vtkGetMacro(UniformPressure, double);
-  ///@}
 
-  ///@{
   /// Temperature at rest, K, of air whose pressure changes without heat, such as a flow without
   /// strong shocks (293.15 in a room); then a pressure is enough, and no array of the temperature
   /// is read: it is this times (p / Stagnation Pressure)^(2/7). 0: the temperature is an array.
   /// Default: 0.
   vtkSetMacro(StagnationTemperature, double);
   vtkGetMacro(StagnationTemperature, double);
-  ///@}
 
-  ///@{
   /// Pressure of this air at rest, Pa; more than 0. Default: 101325.
   vtkSetMacro(StagnationPressure, double);
   vtkGetMacro(StagnationPressure, double);
-  ///@}
 
-  ///@{
   /// Relative humidity, 0 to 1, where no array of it is chosen; 0 is dry air. Default: 0.
   vtkSetMacro(RelativeHumidity, double);
   vtkGetMacro(RelativeHumidity, double);
-  ///@}
 
-  ///@{
   /// Wavelength of the light in vacuum, nanometres: for gases chosen by name, and for moist air
   /// (300 to 1700). 632.8 is a helium-neon laser. Default: 632.8.
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);
-  ///@}
 
-  ///@{
   /// The names of the arrays to map through Transfer Functions, any number, all of points or all of
   /// cells. Default: none.
   void AddField(const char* text)
@@ -210,9 +181,7 @@ public:
     this->Fields.clear();
     this->Modified();
   }
-  ///@}
 
-  ///@{
   /// Two values for each of the Fields, which are mapped to 0 and 1; values beyond are clamped.
   /// Default: none.
   void AddFieldRange(double value)
@@ -225,14 +194,11 @@ public:
     this->FieldRanges.clear();
     this->Modified();
   }
-  ///@}
 
-  ///@{
   /// The refractivity where all Transfer Functions are 1: N = scale times their mean. 3e-4 is about
   /// that of air. Default: 3e-4.
   vtkSetMacro(RefractivityScale, double);
   vtkGetMacro(RefractivityScale, double);
-  ///@}
 
   /// Values of MaskedSide.
   enum MaskedSides
@@ -242,40 +208,30 @@ public:
     MASKED_BELOW = 1
   };
 
-  ///@{
   /// Auto: the side that the name of Mask means, Above where it is not known. Default: Auto.
   vtkSetClampMacro(MaskedSide, int, MASKED_AUTO, MASKED_BELOW);
   vtkGetMacro(MaskedSide, int);
-  ///@}
 
-  ///@{
   /// A point of the axis of symmetry. Default: 0 0 0.
   vtkSetVector3Macro(SymmetryOrigin, double);
   vtkGetVector3Macro(SymmetryOrigin, double);
-  ///@}
 
   // end
 
-  /**
-   * Returns the Gladstone-Dale constant in use, m^3/kg: that of Gas at Wavelength, or
-   * GladstoneDaleConstant. NaN for an unknown gas.
-   */
+  /// Returns the Gladstone-Dale constant in use, m^3/kg: that of Gas at Wavelength, or
+  /// GladstoneDaleConstant. NaN for an unknown gas.
   double GetGladstoneDaleConstantUsed();
 
   ///@{
-  /**
-   * The functions f_i, one for each field, or none (the default): straight lines from 0 to 1, also
-   * for functions that are null or have no points. Values may be any; x is between 0 and 1. Moving
-   * a point modifies this filter.
-   */
+  /// The functions f_i, one for each field, or none (the default): straight lines from 0 to 1, also
+  /// for functions that are null or have no points. Values may be any; x is between 0 and 1. Moving
+  /// a point modifies this filter.
   virtual void AddTransferFunction(vtkPiecewiseFunction* function);
   virtual void ClearTransferFunctions();
   ///@}
 
-  /**
-   * Returns the arrays in use, with the factors of their units, and the fractions of a mixture,
-   * such as "Density: 'rho'.".
-   */
+  /// Returns the arrays in use, with the factors of their units, and the fractions of a mixture,
+  /// such as "Density: 'rho'.".
   const char* GetArraysUsed();
 
   /// Light in regions without cells.
@@ -287,28 +243,24 @@ public:
   };
 
   ///@{
-  /**
-   * Light in regions of the data's bounding box that no cell covers, one of OutsideModes:
-   * - OUTSIDE_AUTO (the default): bodies that the mesh leaves out stop it; outside of the mesh's
-   *   outer boundary it goes straight on. A body is a hole that the mesh encloses, or that reaches
-   *   the bounding box only at plane sides that the mesh reaches, too, such as a symmetry plane or
-   *   a tunnel's floor.
-   * - OUTSIDE_BLOCKS: all such regions stop it.
-   * - OUTSIDE_PASSES: all of them let it pass. Give the surfaces of bodies to make them solid.
-   *
-   * Unless OUTSIDE_PASSES, walls without thickness within a mesh, whose sides have coincident
-   * points of their own, stop light where the values at these differ.
-   */
+  /// Light in regions of the data's bounding box that no cell covers, one of OutsideModes:
+  /// - OUTSIDE_AUTO (the default): bodies that the mesh leaves out stop it; outside of the mesh's
+  ///   outer boundary it goes straight on. A body is a hole that the mesh encloses, or that reaches
+  ///   the bounding box only at plane sides that the mesh reaches, too, such as a symmetry plane or
+  ///   a tunnel's floor.
+  /// - OUTSIDE_BLOCKS: all such regions stop it.
+  /// - OUTSIDE_PASSES: all of them let it pass. Give the surfaces of bodies to make them solid.
+  ///
+  /// Unless OUTSIDE_PASSES, walls without thickness within a mesh, whose sides have coincident
+  /// points of their own, stop light where the values at these differ.
   vtkSetClampMacro(Outside, int, OUTSIDE_AUTO, OUTSIDE_PASSES);
   vtkGetMacro(Outside, int);
   ///@}
 
   ///@{
-  /**
-   * Depth of data in one plane, or one cell thick, in data units, half of it on each side of the
-   * plane. Deflection and optical path are proportional to it. 0 (the default): the thickness of
-   * the cells, or, for a plane, the length of its shorter side. Ignored with Symmetry.
-   */
+  /// Depth of data in one plane, or one cell thick, in data units, half of it on each side of the
+  /// plane. Deflection and optical path are proportional to it. 0 (the default): the thickness of
+  /// the cells, or, for a plane, the length of its shorter side. Ignored with Symmetry.
   vtkSetClampMacro(Depth, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(Depth, double);
   ///@}
@@ -329,30 +281,24 @@ public:
   };
 
   ///@{
-  /**
-   * Symmetry of data in one plane, or in a wedge of one cell between two planes through an axis.
-   * NO_SYMMETRY (the default): the flow does not depend on the third coordinate. AXISYMMETRIC: a
-   * body of revolution, of which no mesh is made; of data on both sides of the axis, the positive
-   * side is used. Other data are an error.
-   */
+  /// Symmetry of data in one plane, or in a wedge of one cell between two planes through an axis.
+  /// NO_SYMMETRY (the default): the flow does not depend on the third coordinate. AXISYMMETRIC: a
+  /// body of revolution, of which no mesh is made; of data on both sides of the axis, the positive
+  /// side is used. Other data are an error.
   vtkSetClampMacro(Symmetry, int, NO_SYMMETRY, AXISYMMETRIC);
   vtkGetMacro(Symmetry, int);
   ///@}
 
   ///@{
-  /**
-   * Direction of the symmetry axis, one of SymmetryAxes. AUTO_AXIS (the default): that of a wedge;
-   * for a plane, the one of its two coordinate axes with the data on one side, touching it, and
-   * smooth across it.
-   */
+  /// Direction of the symmetry axis, one of SymmetryAxes. AUTO_AXIS (the default): that of a wedge;
+  /// for a plane, the one of its two coordinate axes with the data on one side, touching it, and
+  /// smooth across it.
   vtkSetClampMacro(SymmetryAxis, int, AUTO_AXIS, Z_AXIS);
   vtkGetMacro(SymmetryAxis, int);
   ///@}
 
-  /**
-   * Counts the meshes prepared. Where the mesh is the same, as for other time steps and fields,
-   * only what depends on the values is computed.
-   */
+  /// Counts the meshes prepared. Where the mesh is the same, as for other time steps and fields,
+  /// only what depends on the values is computed.
   vtkTypeInt64 GetMeshBuilds();
 
   /// Returns all of these properties.

@@ -19,17 +19,14 @@ constexpr double nanometresPerMetre = 1e9;
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void vtkGasTable::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfGases: " << vtkGasTable::GetNumberOfGases() << "\n";
 }
 
-//------------------------------------------------------------------------------
 int vtkGasTable::GetNumberOfGases() { return static_cast<int>(schlieren::gases().size()); }
 
-//------------------------------------------------------------------------------
 std::string vtkGasTable::GetName(int index)
 {
   const bool exists = index >= 0 && index < vtkGasTable::GetNumberOfGases();
@@ -37,45 +34,38 @@ std::string vtkGasTable::GetName(int index)
     exists ? schlieren::gases()[static_cast<std::size_t>(index)].name : std::string_view());
 }
 
-//------------------------------------------------------------------------------
 bool vtkGasTable::Has(const std::string& gas) { return schlieren::findGas(gas) != nullptr; }
 
-//------------------------------------------------------------------------------
 std::string vtkGasTable::GetFormula(const std::string& gas)
 {
   const schlieren::Gas* found = schlieren::findGas(gas);
   return std::string(found ? found->formula : std::string_view());
 }
 
-//------------------------------------------------------------------------------
 double vtkGasTable::GetConstant(const std::string& gas, double wavelength)
 {
   const schlieren::Gas* found = schlieren::findGas(gas);
   return found ? found->constantAt(wavelength / nanometresPerMetre) : notANumber;
 }
 
-//------------------------------------------------------------------------------
 double vtkGasTable::GetMolarMass(const std::string& gas)
 {
   const schlieren::Gas* found = schlieren::findGas(gas);
   return found ? found->molarMass : notANumber;
 }
 
-//------------------------------------------------------------------------------
 double vtkGasTable::GetShortestWavelength(const std::string& gas)
 {
   const schlieren::Gas* found = schlieren::findGas(gas);
   return found ? found->shortestWavelength * nanometresPerMetre : notANumber;
 }
 
-//------------------------------------------------------------------------------
 double vtkGasTable::GetLongestWavelength(const std::string& gas)
 {
   const schlieren::Gas* found = schlieren::findGas(gas);
   return found ? found->longestWavelength * nanometresPerMetre : notANumber;
 }
 
-//------------------------------------------------------------------------------
 std::string vtkGasTable::GetSource(const std::string& gas)
 {
   const schlieren::Gas* found = schlieren::findGas(gas);

@@ -35,46 +35,32 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /**
-   * Return the number of gases, and the name of each: 0 <= index < GetNumberOfGases().
-   */
+  /// Return the number of gases, and the name of each: 0 <= index < GetNumberOfGases().
   static int GetNumberOfGases();
   static std::string GetName(int index);
   ///@}
 
-  /**
-   * Returns whether there is a gas of this name or formula.
-   */
+  /// Returns whether there is a gas of this name or formula.
   static bool Has(const std::string& gas);
 
-  /**
-   * Returns the chemical formula, such as "CO2", of a gas by its name or formula.
-   */
+  /// Returns the chemical formula, such as "CO2", of a gas by its name or formula.
   static std::string GetFormula(const std::string& gas);
 
-  /**
-   * Returns the Gladstone-Dale constant K in m^3/kg for light of this wavelength in vacuum,
-   * nanometres. It is extrapolated from the longest measured wavelength to 1700 nm, and constant
-   * beyond that and below the shortest one. NaN for a wavelength that is not positive.
-   */
+  /// Returns the Gladstone-Dale constant K in m^3/kg for light of this wavelength in vacuum,
+  /// nanometres. It is extrapolated from the longest measured wavelength to 1700 nm, and constant
+  /// beyond that and below the shortest one. NaN for a wavelength that is not positive.
   static double GetConstant(const std::string& gas, double wavelength);
 
-  /**
-   * Returns the molar mass in kg/mol.
-   */
+  /// Returns the molar mass in kg/mol.
   static double GetMolarMass(const std::string& gas);
 
   ///@{
-  /**
-   * Return the range of measured wavelengths, nanometres; equal if there is only one.
-   */
+  /// Return the range of measured wavelengths, nanometres; equal if there is only one.
   static double GetShortestWavelength(const std::string& gas);
   static double GetLongestWavelength(const std::string& gas);
   ///@}
 
-  /**
-   * Returns the source of the numbers.
-   */
+  /// Returns the source of the numbers.
   static std::string GetSource(const std::string& gas);
 
 protected:

@@ -94,19 +94,15 @@ vtkSmartPointer<vtkUnsignedCharArray> visibleOf(const Leaf& leaf)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkRefractiveIndex::vtkRefractiveIndex() = default;
 
-//------------------------------------------------------------------------------
 vtkRefractiveIndex::~vtkRefractiveIndex() = default;
 
-//------------------------------------------------------------------------------
 void vtkRefractiveIndex::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
 }
 
-//------------------------------------------------------------------------------
 int vtkRefractiveIndex::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -123,7 +119,6 @@ int vtkRefractiveIndex::RequestDataObject(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 int vtkRefractiveIndex::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -138,7 +133,6 @@ int vtkRefractiveIndex::RequestInformation(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 int vtkRefractiveIndex::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
@@ -149,7 +143,6 @@ int vtkRefractiveIndex::RequestUpdateExtent(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 int vtkRefractiveIndex::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -203,7 +196,6 @@ int vtkRefractiveIndex::RequestData(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 void vtkRefractiveIndex::Append(vtkDataObject* input, vtkDataObject* output)
 {
   const Ranks ranks;
@@ -259,7 +251,6 @@ void vtkRefractiveIndex::Append(vtkDataObject* input, vtkDataObject* output)
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkRefractiveIndex::Revolve(vtkDataObject* input, vtkImageData* output)
 {
   const Ranks ranks;

@@ -126,7 +126,6 @@ void tellPlaces(vtkInformationVector* outputs)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkSchlierenFilter::vtkSchlierenFilter()
   : Inside(new Internals)
 {
@@ -134,36 +133,30 @@ vtkSchlierenFilter::vtkSchlierenFilter()
   this->SetNumberOfOutputPorts(2);
 }
 
-//------------------------------------------------------------------------------
 vtkSchlierenFilter::~vtkSchlierenFilter() = default;
 
-//------------------------------------------------------------------------------
 double vtkSchlierenFilter::MostGathered()
 {
   return this->GetMaker().canUsePieces() ? this->GatherLimit
                                          : std::numeric_limits<double>::infinity();
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetMTime()
 {
   return std::max(this->GetTimeOfProperties(), this->Inside->RefineTime.GetMTime());
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetTimeOfProperties()
 {
   vtkMTimeType time = this->Superclass::GetMTime();
   return this->GradedFilter ? std::max(time, this->GradedFilter->GetMTime()) : time;
 }
 
-//------------------------------------------------------------------------------
 vtkMTimeType vtkSchlierenFilter::GetTimeOfImage()
 {
   return std::max(this->GetTimeOfProperties(), upstreamTime(this));
 }
 
-//------------------------------------------------------------------------------
 vtkTypeBool vtkSchlierenFilter::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
@@ -182,26 +175,19 @@ vtkTypeBool vtkSchlierenFilter::ProcessRequest(
   return result;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::LackInput() { this->Inside->Ranks.lackInput(); }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::FillOutputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
   return 1;
 }
 
-//------------------------------------------------------------------------------
-vtkImageData* vtkSchlierenFilter::GetOutput() { return this->GetOutput(IMAGE_PORT); }
-
-//------------------------------------------------------------------------------
 vtkImageData* vtkSchlierenFilter::GetOutput(int port)
 {
   return vtkImageData::SafeDownCast(this->GetOutputDataObject(port));
 }
 
-//------------------------------------------------------------------------------
 MediumMaker& vtkSchlierenFilter::GetMaker()
 {
   MediumMaker& maker = this->Superclass::GetMaker();
@@ -209,17 +195,12 @@ MediumMaker& vtkSchlierenFilter::GetMaker()
   return maker;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::ReportMedium(double done)
 {
-  this->Progress(mediumFraction * done);
+  this->UpdateProgress(mediumFraction * done);
   return !this->GetAbortExecute();
 }
 
-//------------------------------------------------------------------------------
-void vtkSchlierenFilter::Progress(double fraction) { this->UpdateProgress(fraction); }
-
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -263,7 +244,6 @@ int vtkSchlierenFilter::RequestInformation(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -278,10 +258,8 @@ int vtkSchlierenFilter::RequestUpdateExtent(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::RequestSame(vtkInformation* inInfo) { requestPiece(inInfo); }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -291,15 +269,12 @@ int vtkSchlierenFilter::RequestData(
   output->Initialize();
   histogram->Initialize();
   const AtTheEnd complete([&] { setComplete(outputVector); }); // also of what has failed
-
   const AtTheEnd forgetChoice([&] { inside.Chosen.reset(); });
   const vtkMTimeType now = this->GetTimeOfImage();
-  const auto begin = [&]
-  {
-    // Of what has failed before, one message is enough.
-    return inside.Ranks.begin(this, inputVector, inside.FailedAt != now);
-  };
   bool isWanted = false;
+  // Of what has failed before, one message is enough.
+  const auto begin = [&]
+  { isWanted = inside.Ranks.begin(this, inputVector, inside.FailedAt != now); };
   const auto failOfRanks = [&](const std::string& problem)
   {
     if (isRank0() && inside.FailedAt != now)
@@ -307,7 +282,7 @@ int vtkSchlierenFilter::RequestData(
       this->Fail(problem, now, outputVector);
     }
   };
-  if (!guarded([&] { isWanted = begin(); }, noMemory, failOfRanks) || !isWanted)
+  if (!guarded(begin, noMemory, failOfRanks) || !isWanted)
   {
     return 1;
   }
@@ -343,7 +318,6 @@ int vtkSchlierenFilter::RequestData(
   }
 
   inside.Time = timeOf(request, inputVector, outputVector);
-
   this->SetAbortExecute(0); // it stays set after an abort
   inside.IsStopping = false;
   guarded([&] { this->MakeImage(maxCells, outputVector); }, noMemory,
@@ -351,7 +325,6 @@ int vtkSchlierenFilter::RequestData(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::ShowLast(vtkInformationVector* outputs)
 {
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
@@ -362,16 +335,13 @@ void vtkSchlierenFilter::ShowLast(vtkInformationVector* outputs)
   tellPlaces(outputs);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* outputs)
 {
   Internals& inside = *this->Inside;
   vtkImageData* output = vtkImageData::GetData(outputs, IMAGE_PORT);
   vtkImageData* histogram = vtkImageData::GetData(outputs, HISTOGRAM_PORT);
   inside.Ranks.shareArrays();
-  const InputsOfRanks::Inputs inputs = inside.Ranks.gather(maxCells);
-  vtkDataObject* input = inputs.data;
-  vtkDataObject* bodies = inputs.bodies;
+  const auto [input, bodies] = inside.Ranks.gather(maxCells);
   if (!inside.Ranks.areInPieces() && isAbortedUpstream(this, input))
   {
     this->ForgetImage();
@@ -404,7 +374,6 @@ void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* output
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::Fail(
   const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs)
 {
@@ -418,7 +387,6 @@ void vtkSchlierenFilter::Fail(
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::ForgetImage()
 {
   Internals& inside = *this->Inside;

@@ -123,29 +123,23 @@ public:
 
   ///@{
   /// Returns the image, or the output of another port.
-  vtkImageData* GetOutput();
+  vtkImageData* GetOutput() { return this->GetOutput(IMAGE_PORT); }
   vtkImageData* GetOutput(int port);
   ///@}
 
-  /**
-   * Returns the grid of the last image as text. Empty before the first and after a failed one.
-   */
+  /// Returns the grid of the last image as text. Empty before the first and after a failed one.
   const char* GetGrid() const;
 
   // setters: rest
-  ///@{
   /// Metres per unit of the data's coordinates; 0.001 for data in millimetres. Default: 1.
   vtkSetMacro(LengthScale, double);
   vtkGetMacro(LengthScale, double);
-  ///@}
 
-  ///@{
   /// Refractivity n - 1 of the surroundings; air at room conditions has 2.7e-4. -1: it is found, as
   /// the median over the domain's boundary, for the first image, and kept while the time changes,
   /// so that the fringes of a series are counted from the same reference. Default: -1.
   vtkSetMacro(AmbientRefractivity, double);
   vtkGetMacro(AmbientRefractivity, double);
-  ///@}
 
   /// Values of ExitInto.
   enum Exits
@@ -156,53 +150,39 @@ public:
     EXIT_CUSTOM = 3
   };
 
-  ///@{
   /// What light enters where it leaves the data through a plane across the line of sight, the
   /// window of a tank, which refracts it: Air (n - 1 = 2.718e-4), or Custom, of Exit Refractivity.
   /// Default: Auto.
   vtkSetClampMacro(ExitInto, int, EXIT_AUTO, EXIT_CUSTOM);
   vtkGetMacro(ExitInto, int);
-  ///@}
 
-  ///@{
   /// Refractivity n - 1 of what light leaves the data into: 2.7e-4 of air, 0.333 of water. Default:
   /// 2.7e-4.
   vtkSetMacro(ExitRefractivity, double);
   vtkGetMacro(ExitRefractivity, double);
-  ///@}
 
-  ///@{
   /// The direction of sight, as that of a parallel camera; light travels against it, towards the
   /// viewer. Default: 0 0 -1.
   vtkSetVector3Macro(ViewDirection, double);
   vtkGetVector3Macro(ViewDirection, double);
-  ///@}
 
-  ///@{
   /// The direction that points up in the image; not parallel to View Direction. Default: 0 1 0.
   vtkSetVector3Macro(ViewUp, double);
   vtkGetVector3Macro(ViewUp, double);
-  ///@}
 
-  ///@{
   /// Half the height of the image in the plane of the focal point, data units; 0: all of the data
   /// is visible. Default: 0.
   vtkSetMacro(ParallelScale, double);
   vtkGetMacro(ParallelScale, double);
-  ///@}
 
-  ///@{
   /// Perspective: degrees between the lower and the upper side of the image, seen from the camera;
   /// 0: parallel light, as of a wind tunnel's mirrors. Default: 0.
   vtkSetMacro(ViewAngle, double);
   vtkGetMacro(ViewAngle, double);
-  ///@}
 
-  ///@{
   /// Width and height of the image in pixels. Default: 512 512.
   vtkSetVector2Macro(ImageSize, int);
   vtkGetVector2Macro(ImageSize, int);
-  ///@}
 
   /// Values of Cutoff.
   enum Cutoffs
@@ -219,28 +199,22 @@ public:
     PHASE_CONTRAST = 9
   };
 
-  ///@{
   /// Which deflection the knife edge or the graded filter measures, degrees: 0 for a vertical edge,
   /// where deflection to the right is bright; 90 for a horizontal one, where deflection upwards is
   /// bright. Default: 0.
   vtkSetMacro(KnifeEdgeAngle, double);
   vtkGetMacro(KnifeEdgeAngle, double);
-  ///@}
 
-  ///@{
   /// Position of the knife edge or the graded filter relative to the middle of the source's image,
   /// as a fraction of its width. Default: 0.
   vtkSetMacro(CutoffOffset, double);
   vtkGetMacro(CutoffOffset, double);
-  ///@}
 
-  ///@{
   /// Put the knife edge or the graded filter on the other side: bright and dark are exchanged.
   /// Default: off.
   vtkSetMacro(InvertCutoff, bool);
   vtkGetMacro(InvertCutoff, bool);
   vtkBooleanMacro(InvertCutoff, bool);
-  ///@}
 
   /// Values of KMode.
   enum KModes
@@ -251,67 +225,49 @@ public:
     K_BENCH = 3
   };
 
-  ///@{
   /// Where the sensitivity k comes from. Default: Automatic.
   vtkSetClampMacro(KMode, int, K_AUTOMATIC, K_BENCH);
   vtkGetMacro(KMode, int);
-  ///@}
 
-  ///@{
   /// Sensitivity k of the cutoff, where K Mode is Value: the focal length over the width of the
   /// light source. Default: 1000.
   vtkSetMacro(KScale, double);
   vtkGetMacro(KScale, double);
-  ///@}
 
-  ///@{
   /// Focal length of the second mirror, metres; more than 0. Default: 1.
   vtkSetMacro(FocalLength, double);
   vtkGetMacro(FocalLength, double);
-  ///@}
 
-  ///@{
   /// Width of the source's image at the cutoff, across the knife edge, or diameter of a disc;
   /// millimetres. Default: 1.
   vtkSetMacro(SourceWidth, double);
   vtkGetMacro(SourceWidth, double);
-  ///@}
 
-  ///@{
   /// Distance of the edge from the middle of the source's image, towards covering it, millimetres.
   /// Default: 0.
   vtkSetMacro(CutoffPosition, double);
   vtkGetMacro(CutoffPosition, double);
-  ///@}
 
-  ///@{
   /// The image of the colour filter, which covers k times the deflection from -1 to 1 along both
   /// axes: the name of a PNG file that the server can read, or the file's content as text,
   /// data:image/png;base64,..., which is stored in state files. Default: none.
   vtkSetStdStringFromCharMacro(ColorFilterImage);
   vtkGetCharFromStdStringMacro(ColorFilterImage);
-  ///@}
 
-  ///@{
   /// 0: infinite fringes, undisturbed light is bright everywhere, and fringes follow the optical
   /// path. Default: 0.
   vtkSetMacro(FringeSpacing, double);
   vtkGetMacro(FringeSpacing, double);
-  ///@}
 
-  ///@{
   /// Direction from fringe to fringe, and from stripe to stripe of a background, degrees: 0 to the
   /// right, 90 upwards. Default: 0.
   vtkSetMacro(FringeAngle, double);
   vtkGetMacro(FringeAngle, double);
-  ///@}
 
-  ///@{
   /// Make the interferogram in white light, as the array Color. Default: off.
   vtkSetMacro(WhiteLight, bool);
   vtkGetMacro(WhiteLight, bool);
   vtkBooleanMacro(WhiteLight, bool);
-  ///@}
 
   /// Values of BackgroundPattern.
   enum BackgroundPatterns
@@ -322,112 +278,80 @@ public:
     SCENE = 3
   };
 
-  ///@{
   /// The pattern behind the flow: Dots, Stripes, a Picture, which is Background Image, or the
   /// Scene: what the view shows behind the flow, where it draws the flow as Schlieren. Default:
   /// Dots.
   vtkSetClampMacro(BackgroundPattern, int, DOTS, SCENE);
   vtkGetMacro(BackgroundPattern, int);
-  ///@}
 
-  ///@{
   /// Distance from where the data begin to the pattern behind them, data units; negative: one data
   /// depth, and of the Scene the distance of its middle. Default: -1.
   vtkSetMacro(BackgroundDistance, double);
   vtkGetMacro(BackgroundDistance, double);
-  ///@}
 
-  ///@{
   /// Distance between dots or stripes, data units; 0: eight pixels. Default: 0.
   vtkSetMacro(BackgroundPeriod, double);
   vtkGetMacro(BackgroundPeriod, double);
-  ///@}
 
-  ///@{
   /// The image behind the flow: the name of a PNG file that the server can read, or the file's
   /// content as text, data:image/png;base64,..., which is stored in state files. Default: none.
   vtkSetStdStringFromCharMacro(BackgroundImage);
   vtkGetCharFromStdStringMacro(BackgroundImage);
-  ///@}
 
-  ///@{
   /// Of a shadowgraph: distance from the plane where light leaves the data's box to the screen,
   /// data units; negative: one depth of that box along the light, wherever the flow is in it.
   /// Default: -1.
   vtkSetMacro(ScreenDistance, double);
   vtkGetMacro(ScreenDistance, double);
-  ///@}
 
-  ///@{
   /// The plane in focus, except of a shadowgraph: its distance from the middle of the data, with a
   /// perspective from the focal point, towards the viewer, data units. Default: 0.
   vtkSetMacro(FocusOffset, double);
   vtkGetMacro(FocusOffset, double);
-  ///@}
 
-  ///@{
   /// The lens of the camera, of Background Oriented and of images with a View Angle: focal length
   /// over aperture; 0: a pinhole, everything is in focus. Default: 0.
   vtkSetMacro(FNumber, double);
   vtkGetMacro(FNumber, double);
-  ///@}
 
-  ///@{
   /// Focal length of the camera's lens, millimetres; more than 0. Default: 50.
   vtkSetMacro(LensFocalLength, double);
   vtkGetMacro(LensFocalLength, double);
-  ///@}
 
-  ///@{
   /// Distance from the camera to the plane in focus, with a View Angle, data units; 0: Background
   /// Oriented focuses on the pattern, other images on the focal point, or as Focus Offset says.
   /// Default: 0.
   vtkSetMacro(FocusDistance, double);
   vtkGetMacro(FocusDistance, double);
-  ///@}
 
-  ///@{
   /// Width of the sensor behind the lens, millimetres: sets the View Angle. 0: off. Default: 0.
   vtkSetMacro(SensorWidth, double);
   vtkGetMacro(SensorWidth, double);
-  ///@}
 
-  ///@{
   /// The camera's sensor: electrons that a pixel can hold; 0: none. Default: 0.
   vtkSetMacro(FullWell, double);
   vtkGetMacro(FullWell, double);
-  ///@}
 
-  ///@{
   /// How much of the full well light 1 fills; more than 0. Default: 0.8.
   vtkSetMacro(Exposure, double);
   vtkGetMacro(Exposure, double);
-  ///@}
 
-  ///@{
   /// Standard deviation of the noise of reading, electrons. Default: 10.
   vtkSetMacro(ReadNoise, double);
   vtkGetMacro(ReadNoise, double);
-  ///@}
 
-  ///@{
   /// Recorded values are the light to the power of 1 over this; 1: linear. Default: 1.
   vtkSetMacro(Gamma, double);
   vtkGetMacro(Gamma, double);
-  ///@}
 
-  ///@{
   /// Bits of the recorded values; the array has 8 or 16. Default: 8.
   vtkSetClampMacro(BitDepth, int, 1, 16);
   vtkGetMacro(BitDepth, int);
-  ///@}
 
-  ///@{
   /// Light diverges from a point at this distance before the middle of the data, data units; more
   /// than half of the data's depth. 0: it is collimated. Default: 0.
   vtkSetMacro(SourceDistance, double);
   vtkGetMacro(SourceDistance, double);
-  ///@}
 
   /// Values of SourceShape.
   enum SourceShapes
@@ -437,18 +361,14 @@ public:
     DISC = 2
   };
 
-  ///@{
   /// Point, or an extended source: a Slit along the knife edge or a Disc, as wide as Source Width.
   /// Default: Point.
   vtkSetClampMacro(SourceShape, int, POINT, DISC);
   vtkGetMacro(SourceShape, int);
-  ///@}
 
-  ///@{
   /// Length of a slit's image at the cutoff, along the knife edge, millimetres. Default: 10.
   vtkSetMacro(SourceLength, double);
   vtkGetMacro(SourceLength, double);
-  ///@}
 
   /// Values of LightModel.
   enum LightModels
@@ -458,48 +378,35 @@ public:
     LIGHT_AUTO = 2
   };
 
-  ///@{
   /// How light continues behind the flow. Default: Rays.
   vtkSetClampMacro(LightModel, int, LIGHT_RAYS, LIGHT_AUTO);
   vtkGetMacro(LightModel, int);
-  ///@}
 
-  ///@{
   /// Of waves: full width of the light's spectrum around Wavelength, nanometres; 0: one wavelength.
   /// Default: 0.
   vtkSetClampMacro(Bandwidth, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(Bandwidth, double);
-  ///@}
 
-  ///@{
   /// Of Phase Contrast: diameter of the plate in the middle of the cutoff plane, millimetres, with
   /// Focal Length; 0: only undisturbed light passes it. Default: 0.
   vtkSetClampMacro(PhasePlateDiameter, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(PhasePlateDiameter, double);
-  ///@}
 
-  ///@{
   /// Of Phase Contrast: by how much the plate delays light, wavelengths. 0.25: denser gas is
   /// bright; -0.25: it is dark. Default: 0.25.
   vtkSetMacro(PhasePlateDelay, double);
   vtkGetMacro(PhasePlateDelay, double);
-  ///@}
 
-  ///@{
   /// Of Phase Contrast: the fraction of light that the plate lets pass. Default: 1.
   vtkSetClampMacro(PhasePlateTransmission, double, 0, 1);
   vtkGetMacro(PhasePlateTransmission, double);
-  ///@}
 
-  ///@{
   /// Tint the image: light takes on the colours of the Fields whose gradients it crosses. Default:
   /// off.
   vtkSetMacro(ColorByField, bool);
   vtkGetMacro(ColorByField, bool);
   vtkBooleanMacro(ColorByField, bool);
-  ///@}
 
-  ///@{
   /// Red, green and blue, 0 to 1, of each of the Fields. Default: none.
   void AddFieldColor(double value)
   {
@@ -511,7 +418,6 @@ public:
     this->FieldColors.clear();
     this->Modified();
   }
-  ///@}
 
   /// Values of PathModel.
   enum PathModels
@@ -520,30 +426,22 @@ public:
     REFRACTED = 1
   };
 
-  ///@{
   /// How light passes the medium. Default: Refracted.
   vtkSetClampMacro(PathModel, int, STRAIGHT, REFRACTED);
   vtkGetMacro(PathModel, int);
-  ///@}
 
-  ///@{
   /// Length of an integration step, voxels; with solids no longer than 1. Default: 2.
   vtkSetMacro(StepSize, double);
   vtkGetMacro(StepSize, double);
-  ///@}
 
-  ///@{
   /// Rays cross a cube of voxels in one step where the refractivity varies in it by no more than
   /// this fraction of its range in the whole flow; 0: nothing is skipped. Default: 0.001.
   vtkSetMacro(HomogeneityTolerance, double);
   vtkGetMacro(HomogeneityTolerance, double);
-  ///@}
 
-  ///@{
   /// Rays per pixel; the first is at the pixel's centre. Default: 1.
   vtkSetMacro(SamplesPerPixel, int);
   vtkGetMacro(SamplesPerPixel, int);
-  ///@}
 
   /// Values of Precision.
   enum Precisions
@@ -552,41 +450,31 @@ public:
     DOUBLE = 1
   };
 
-  ///@{
   /// Smooths the image by a Gaussian with a standard deviation of half this radius, pixels; 0: not
   /// at all. Default: 0.
   vtkSetMacro(SmoothingRadius, double);
   vtkGetMacro(SmoothingRadius, double);
-  ///@}
 
-  ///@{
   /// Of meshes: the error of the deflection that the size of voxels may cause, relative to the
   /// largest deflection; with Color By Field also that of a colour's strength; 0: voxels are as
   /// fine as the mesh. Default: 0.003.
   vtkSetMacro(MediumTolerance, double);
   vtkGetMacro(MediumTolerance, double);
-  ///@}
 
-  ///@{
   /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the
   /// settings below; negative: what cannot be seen. Default: 0.
   vtkSetMacro(TargetError, double);
   vtkGetMacro(TargetError, double);
-  ///@}
 
-  ///@{
   /// Whether an image with a target error has the array ErrorEstimate, the error of each pixel in
   /// the unit of Target Error. Default: off.
   vtkSetMacro(ErrorEstimate, bool);
   vtkGetMacro(ErrorEstimate, bool);
   vtkBooleanMacro(ErrorEstimate, bool);
-  ///@}
 
-  ///@{
   /// Of meshes: memory for voxels, MiB. Default: 1024.
   vtkSetClampMacro(MediumMemory, int, 1, VTK_INT_MAX);
   vtkGetMacro(MediumMemory, int);
-  ///@}
 
   /// Values of Device.
   enum Devices
@@ -596,49 +484,37 @@ public:
     CUDA = 2
   };
 
-  ///@{
   /// What traces the rays. Default: Auto.
   vtkSetClampMacro(Device, int, AUTO, CUDA);
   vtkGetMacro(Device, int);
-  ///@}
 
-  ///@{
   /// Threads on the CPU; 0: VTK_SMP_MAX_THREADS where that is set, else the cores that the process
   /// may use. Default: 0.
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
-  ///@}
 
-  ///@{
   /// Where ParaView runs as several processes: up to how many cells in all the pieces of a mesh
   /// that these have are put together on rank 0. Default: 1000000.
   vtkSetClampMacro(GatherLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(GatherLimit, int);
-  ///@}
 
   // end
 
-  /**
-   * Wavelength of the light in vacuum, nanometres, for the medium and for interferograms. Default: 632.8.
-   */
+  /// Wavelength of the light in vacuum, nanometres, for the medium and for interferograms. Default: 632.8.
   void SetWavelength(double wavelength) override;
 
   ///@{
-  /**
-   * Whether 2-D data in a plane along z (also the section that Symmetry revolves) are viewed
-   * face-on instead of along their plane if ViewDirection is the default (0, 0, -1): then along y,
-   * or against x, with z up unless ViewUp is changed. Default: on.
-   */
+  /// Whether 2-D data in a plane along z (also the section that Symmetry revolves) are viewed
+  /// face-on instead of along their plane if ViewDirection is the default (0, 0, -1): then along y,
+  /// or against x, with z up unless ViewUp is changed. Default: on.
   vtkSetMacro(FaceFlatData, bool);
   vtkGetMacro(FaceFlatData, bool);
   vtkBooleanMacro(FaceFlatData, bool);
   ///@}
 
   ///@{
-  /**
-   * Point at the centre of the image, data units. By default, and after ClearFocalPoint(), the
-   * data's centre; GetFocalPoint() then returns an unused value.
-   */
+  /// Point at the centre of the image, data units. By default, and after ClearFocalPoint(), the
+  /// data's centre; GetFocalPoint() then returns an unused value.
   virtual void SetFocalPoint(double x, double y, double z);
   virtual void SetFocalPoint(const double point[3])
   {
@@ -650,30 +526,26 @@ public:
   ///@}
 
   ///@{
-  /**
-   * The cutoff, one of Cutoffs. With the deflection eps, its component e along KnifeEdgeAngle and
-   * the sensitivity k, the intensity, clamped to 0 ... 1, is
-   * - KNIFE_EDGE (the default): 1/2 - offset + k e;
-   * - SHADOWGRAPH: 1, so that the image shows only where light lands on a screen;
-   * - CIRCULAR: 1 - k |eps|, inverse of a dark field; CIRCULAR_COMPLEMENT: k |eps|;
-   * - GRADED_FILTER: GradedFilter at 1/2 - offset + k e;
-   * - COLOR_FILTER: the colour at k eps in ColorFilterImage, or in a colour wheel;
-   * - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
-   * - BACKGROUND_ORIENTED: a camera's image of a pattern behind the flow;
-   * - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), common for computed flows, but no stop of a bench;
-   * - PHASE_CONTRAST: 1 + 2 phi of a small phase phi, by a plate (PhasePlateDelay) that the
-   *   undisturbed light passes; of waves alone, see LightModel.
-   */
+  /// The cutoff, one of Cutoffs. With the deflection eps, its component e along KnifeEdgeAngle and
+  /// the sensitivity k, the intensity, clamped to 0 ... 1, is
+  /// - KNIFE_EDGE (the default): 1/2 - offset + k e;
+  /// - SHADOWGRAPH: 1, so that the image shows only where light lands on a screen;
+  /// - CIRCULAR: 1 - k |eps|, inverse of a dark field; CIRCULAR_COMPLEMENT: k |eps|;
+  /// - GRADED_FILTER: GradedFilter at 1/2 - offset + k e;
+  /// - COLOR_FILTER: the colour at k eps in ColorFilterImage, or in a colour wheel;
+  /// - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
+  /// - BACKGROUND_ORIENTED: a camera's image of a pattern behind the flow;
+  /// - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), common for computed flows, but no stop of a bench;
+  /// - PHASE_CONTRAST: 1 + 2 phi of a small phase phi, by a plate (PhasePlateDelay) that the
+  ///   undisturbed light passes; of waves alone, see LightModel.
   virtual void SetCutoff(int cutoff);
   vtkGetMacro(Cutoff, int);
   ///@}
 
   ///@{
-  /**
-   * Return whether a cutoff has a sensitivity k; a straight edge with an angle, an offset and an
-   * inverse; fringes; a screen behind the flow, or a pattern; and, with these settings, colours of
-   * its own. False for invalid numbers.
-   */
+  /// Return whether a cutoff has a sensitivity k; a straight edge with an angle, an offset and an
+  /// inverse; fringes; a screen behind the flow, or a pattern; and, with these settings, colours of
+  /// its own. False for invalid numbers.
   static bool CutoffHasK(int cutoff);
   static bool CutoffHasEdge(int cutoff);
   static bool CutoffHasFringes(int cutoff);
@@ -683,144 +555,109 @@ public:
   bool HasOwnColor() const;
   ///@}
 
-  /**
-   * Return the light that is shown as white: 2 for a cutoff whose undisturbed light is 1 and becomes
-   * more and less than that, as a shadowgraph's, else 1.
-   */
+  /// Return the light that is shown as white: 2 for a cutoff whose undisturbed light is 1 and becomes
+  /// more and less than that, as a shadowgraph's, else 1.
   static double CutoffWhite(int cutoff);
 
   ///@{
-  /**
-   * The automatic k kept from an earlier image, and the ambient refractivity; else 0. Setting them (as
-   * state files do) sets those of the next image, which are then kept; 0 means automatic.
-   */
+  /// The automatic k kept from an earlier image, and the ambient refractivity; else 0. Setting them (as
+  /// state files do) sets those of the next image, which are then kept; 0 means automatic.
   void SetLockedK(double k);
   double GetLockedK() const;
   void SetLockedAmbient(double ambient);
   double GetLockedAmbient() const;
   ///@}
 
-  /**
-   * Finds an automatic k again for the next image, whatever has been kept.
-   */
+  /// Finds an automatic k again for the next image, whatever has been kept.
   void FitK();
 
-  /**
-   * Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
-   * with the first and the last where there are more, and keeps the smallest of their automatic k, that of the largest
-   * deflections: no image exceeds full scale then by more than an image with its own k. Reports progress; aborted, it
-   * changes nothing. An error where the data have no time steps or k is not automatic. The output is that of the last
-   * update until the next one.
-   */
+  /// Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
+  /// with the first and the last where there are more, and keeps the smallest of their automatic k, that of the largest
+  /// deflections: no image exceeds full scale then by more than an image with its own k. Reports progress; aborted, it
+  /// changes nothing. An error where the data have no time steps or k is not automatic. The output is that of the last
+  /// update until the next one.
   void FitKOverSeries();
   static constexpr int MOST_STEPS = 100; ///< of FitKOverSeries()
 
   ///@{
-  /**
-   * Returns the k of the last image; 0 before the first, after errors, and without a cutoff.
-   */
+  /// Returns the k of the last image; 0 before the first, after errors, and without a cutoff.
   vtkGetMacro(KScaleUsed, double);
   ///@}
 
-  /**
-   * Returns a text about the last image's sensitivity: k, the full-scale deflection and equivalent
-   * optics; of an interferogram, its wavelength. Empty where there is none.
-   */
+  /// Returns a text about the last image's sensitivity: k, the full-scale deflection and equivalent
+  /// optics; of an interferogram, its wavelength. Empty where there is none.
   const char* GetSensitivity() const { return this->Sensitivity.c_str(); }
 
   ///@{
-  /**
-   * Transmission, 0 to 1, of the GRADED_FILTER across its width, 0 to 1; undisturbed light passes
-   * the middle. Null (the default) or without points: a line from 0 to 1. Sampled at 1025 points.
-   */
+  /// Transmission, 0 to 1, of the GRADED_FILTER across its width, 0 to 1; undisturbed light passes
+  /// the middle. Null (the default) or without points: a line from 0 to 1. Sampled at 1025 points.
   virtual void SetGradedFilter(vtkPiecewiseFunction* function);
   vtkPiecewiseFunction* GetGradedFilter() const;
   ///@}
 
-  /**
-   * Sets the image that the camera sees behind the flow, for BACKGROUND_ORIENTED with SCENE: RGB
-   * bytes as on a screen, stretched over the image. `distance` is used if BackgroundDistance is
-   * negative; negative: one data depth. Null (the default): images with this pattern fail.
-   */
+  /// Sets the image that the camera sees behind the flow, for BACKGROUND_ORIENTED with SCENE: RGB
+  /// bytes as on a screen, stretched over the image. `distance` is used if BackgroundDistance is
+  /// negative; negative: one data depth. Null (the default): images with this pattern fail.
   void SetBackgroundScene(vtkImageData* image, double distance);
 
-  /**
-   * Sets the pupil of a view's camera instead of FNumber and FocusDistance: its diameter and the
-   * distance of what is in focus, data units. `diameter` 0 (the default): there is none.
-   */
+  /// Sets the pupil of a view's camera instead of FNumber and FocusDistance: its diameter and the
+  /// distance of what is in focus, data units. `diameter` 0 (the default): there is none.
   void SetPupil(double diameter, double focusDistance);
 
-  /// Returns the colours of the fields; see AddFieldColor().
-  VTK_WRAPEXCLUDE const std::vector<double>& GetFieldColors() const { return this->FieldColors; }
-
   ///@{
-  /**
-   * Preset of accuracy and speed, one of Qualities. Setting it sets the properties that
-   * GetQualitySetting() lists; CUSTOM sets none. Getting it returns the preset whose values the
-   * properties have, or CUSTOM. Default: INTERACTIVE, whose values are the properties' defaults.
-   */
+  /// Preset of accuracy and speed, one of Qualities. Setting it sets the properties that
+  /// GetQualitySetting() lists; CUSTOM sets none. Getting it returns the preset whose values the
+  /// properties have, or CUSTOM. Default: INTERACTIVE, whose values are the properties' defaults.
   virtual void SetQuality(int quality);
   virtual int GetQuality();
   ///@}
 
   ///@{
-  /**
-   * Return the names of the properties that Quality sets, from number 0 on, null after the last;
-   * and their values in a preset, 0 for invalid numbers.
-   */
+  /// Return the names of the properties that Quality sets, from number 0 on, null after the last;
+  /// and their values in a preset, 0 for invalid numbers.
   static const char* GetQualitySetting(int number);
   static double GetQualityValue(int quality, int number);
   ///@}
 
   ///@{
-  /**
-   * Return what has been measured of a preset on four flows (quality.md): the error that 99 % of the
-   * pixels keep with a cutoff, in the unit of TargetError, and the time for another view, relative to
-   * INTERACTIVE. 0: not known, of REFERENCE, AUTOMATIC and CUSTOM.
-   */
+  /// Return what has been measured of a preset on four flows (quality.md): the error that 99 % of the
+  /// pixels keep with a cutoff, in the unit of TargetError, and the time for another view, relative to
+  /// INTERACTIVE. 0: not known, of REFERENCE, AUTOMATIC and CUSTOM.
   static double GetQualityError(int quality, int cutoff);
   static double GetQualityTime(int quality);
   ///@}
 
   ///@{
-  /**
-   * Floating-point precision of tracing, one of Precisions. With DOUBLE and no target error, the
-   * steps of refracted rays are adaptive.
-   */
+  /// Floating-point precision of tracing, one of Precisions. With DOUBLE and no target error, the
+  /// steps of refracted rays are adaptive.
   virtual void SetPrecision(int precision);
   vtkGetMacro(Precision, int);
   ///@}
 
   ///@{
-  /**
-   * Count what this filter has done since it was made: media built and rays traced. Updates that use earlier results add nothing.
-   */
+  /// Count what this filter has done since it was made: media built and rays traced. Updates that use earlier results add nothing.
   vtkTypeInt64 GetMediumBuilds();
   vtkTypeInt64 GetTotalRaysTraced();
   ///@}
 
   ///@{
-  /**
-   * Pixels of the full image, along each axis, for each pixel of a preview: 2 gives the same view
-   * with half as many columns and rows. Previews have one ray per pixel, whatever SamplesPerPixel
-   * is, and steps no shorter than those of INTERACTIVE. For interaction with a view. Default: 1.
-   */
+  /// Pixels of the full image, along each axis, for each pixel of a preview: 2 gives the same view
+  /// with half as many columns and rows. Previews have one ray per pixel, whatever SamplesPerPixel
+  /// is, and steps no shorter than those of INTERACTIVE. For interaction with a view. Default: 1.
   vtkSetClampMacro(PreviewReduction, int, 1, 64);
   vtkGetMacro(PreviewReduction, int);
   ///@}
 
   ///@{
-  /**
-   * Time that an update may spend on rays and light, seconds, approximately; 0 (the default): no
-   * limit. After that, the output is the image of the completed samples or, if some pixel has
-   * none, the previous image, stretched to the new size (of a new filter: a preview). Refine()
-   * works for as long again and, if it has completed samples, lets the next update show them; it
-   * also begins an image if only properties of this filter have changed. Without a limit it lets
-   * the next update finish the image. GetFinished() returns whether nothing remains to be done.
-   * Each call makes some progress, and the finished image equals the one without a limit to the
-   * last bit. Changing the limit keeps the image. Making the medium is not limited, and progress
-   * is not reported.
-   */
+  /// Time that an update may spend on rays and light, seconds, approximately; 0 (the default): no
+  /// limit. After that, the output is the image of the completed samples or, if some pixel has
+  /// none, the previous image, stretched to the new size (of a new filter: a preview). Refine()
+  /// works for as long again and, if it has completed samples, lets the next update show them; it
+  /// also begins an image if only properties of this filter have changed. Without a limit it lets
+  /// the next update finish the image. GetFinished() returns whether nothing remains to be done.
+  /// Each call makes some progress, and the finished image equals the one without a limit to the
+  /// last bit. Changing the limit keeps the image. Making the medium is not limited, and progress
+  /// is not reported.
   void SetTimeLimit(double seconds) { this->TimeLimit = seconds; }
   vtkGetMacro(TimeLimit, double);
   void Refine();
@@ -828,43 +665,31 @@ public:
   ///@}
 
   ///@{
-  /**
-   * Stops an unfinished image, which counts as finished until Refine() resumes it or something
-   * changes the image. Aborting an update with a TimeLimit while it computes the refractivity, or
-   * any that has called Stop() by then, also stops it, with an empty output: else the next update
-   * makes the image anew. GetStopped() returns whether that is so.
-   */
+  /// Stops an unfinished image, which counts as finished until Refine() resumes it or something
+  /// changes the image. Aborting an update with a TimeLimit while it computes the refractivity, or
+  /// any that has called Stop() by then, also stops it, with an empty output: else the next update
+  /// makes the image anew. GetStopped() returns whether that is so.
   void Stop();
   bool GetStopped();
   ///@}
 
-  /**
-   * Returns whether the last update has made an image, which rank 0 has: the same on all ranks.
-   */
+  /// Returns whether the last update has made an image, which rank 0 has: the same on all ranks.
   bool GetHasImage();
 
-  /**
-   * Returns the completed fraction of the image, per cent; 100 only for a finished one.
-   */
+  /// Returns the completed fraction of the image, per cent; 100 only for a finished one.
   int GetPercentDone();
 
-  /**
-   * Counts the different images of this filter, including one that Refine() has made for the next
-   * update. Unchanged where a step had nothing new to show.
-   */
+  /// Counts the different images of this filter, including one that Refine() has made for the next
+  /// update. Unchanged where a step had nothing new to show.
   vtkTypeInt64 GetPictureCount() const;
 
-  /**
-   * Returns a text about the last image, in one line: samples per pixel; rays per second of the
-   * last tracing; device; path model. Empty before the first image; after a failure, "No image: " and why.
-   */
+  /// Returns a text about the last image, in one line: samples per pixel; rays per second of the
+  /// last tracing; device; path model. Empty before the first image; after a failure, "No image: " and why.
   const char* GetStatus() const { return this->Status.c_str(); }
 
   ///@{
-  /**
-   * What the image has at a place, fractions of its width and height from the lower left, in words: position, deflection,
-   * optical path difference and intensity. Empty beside the image. The place is no setting of the image.
-   */
+  /// What the image has at a place, fractions of its width and height from the lower left, in words: position, deflection,
+  /// optical path difference and intensity. Empty beside the image. The place is no setting of the image.
   void SetProbedPlace(double right, double up);
   const char* GetProbedPlace();
   ///@}
@@ -881,10 +706,8 @@ public:
   /// Returns the maker of the medium, with the current settings.
   VTK_WRAPEXCLUDE filters::MediumMaker& GetMaker() override;
 
-  /**
-   * Makes the next RequestData() treat this rank as one without input, because something upstream
-   * has failed; see vtkSchlierenPipeline.
-   */
+  /// Makes the next RequestData() treat this rank as one without input, because something upstream
+  /// has failed; see vtkSchlierenPipeline.
   VTK_WRAPEXCLUDE void LackInput();
 
   vtkTypeBool ProcessRequest(
@@ -954,8 +777,6 @@ private:
   schlieren::Image Begin(bool isPreview, double seconds, const schlieren::Monitor& monitor);
   /// Passes what was found for the last image to the locks.
   void KeepFound(const schlieren::Image& image);
-  /// Reports the progress of the image.
-  void Progress(double fraction);
   /// Makes the image from the refractivity, or resumes it. Returns false if aborted.
   bool Render(vtkImageData* output, vtkImageData* histogram, bool continues);
   /// Outputs an image, if anything in it is new. Returns false if aborted.

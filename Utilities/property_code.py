@@ -103,12 +103,12 @@ def setters(item):
     if size == 0:
         one, clear = item.command, item.element.get("clean_command")
         given, kept = ("const char* text", 'text ? text : ""') if kind == "std::string" else (f"{kind} value", "value")
-        return ["///@{", *note(item),
+        return [*note(item),
                 f"void {one}({given})", "{", f"  this->{name}.emplace_back({kept});", "  this->Modified();", "}",
-                f"void {clear}()", "{", f"  this->{name}.clear();", "  this->Modified();", "}", "///@}"]
+                f"void {clear}()", "{", f"  this->{name}.clear();", "  this->Modified();", "}"]
     lines, ends = enumeration(item)
     ends = ends or limits(item)
-    lines += ["///@{", *note(item)]
+    lines += note(item)
     if kind == "std::string":
         lines += [f"vtkSetStdStringFromCharMacro({name});", f"vtkGetCharFromStdStringMacro({name});"]
     elif size > 1:
@@ -119,7 +119,7 @@ def setters(item):
         lines.append(f"vtkGetMacro({name}, {kind});")
         if kind == "bool":
             lines.append(f"vtkBooleanMacro({name}, bool);")
-    return lines + ["///@}"]
+    return lines
 
 
 def declares(text, item, what):

@@ -24,7 +24,6 @@ double limited(double fraction) { return std::min(1., std::max(0., fraction)); }
 
 } // namespace
 
-//------------------------------------------------------------------------------
 QRgb wheelColor(const QPointF& place)
 {
   const double saturation = std::min(1., std::hypot(place.x(), place.y()));
@@ -36,7 +35,6 @@ QRgb wheelColor(const QPointF& place)
     value(2 - std::abs(sixths > 1 ? sixths - 4 : sixths + 2)));
 }
 
-//------------------------------------------------------------------------------
 QImage wheel()
 {
   QImage image(side, side, QImage::Format_RGB32);
@@ -51,7 +49,6 @@ QImage wheel()
   return image;
 }
 
-//------------------------------------------------------------------------------
 QRgb colorAt(const QImage& image, const QPointF& place)
 {
   if (image.isNull())
@@ -64,7 +61,6 @@ QRgb colorAt(const QImage& image, const QPointF& place)
     pixel((1 + place.x()) / 2, image.width()), pixel((1 - place.y()) / 2, image.height()));
 }
 
-//------------------------------------------------------------------------------
 QRgb lit(QRgb color, double light)
 {
   const double fraction = colorWithoutLight + (1 - colorWithoutLight) * light;
@@ -73,7 +69,6 @@ QRgb lit(QRgb color, double light)
   return qRgb(mixed(qRed(color)), mixed(qGreen(color)), mixed(qBlue(color)));
 }
 
-//------------------------------------------------------------------------------
 QImage decoded(const QString& text)
 {
   if (text.startsWith("data:"))
@@ -83,7 +78,6 @@ QImage decoded(const QString& text)
   return text.isEmpty() ? QImage() : QImage(text);
 }
 
-//------------------------------------------------------------------------------
 QString encoded(const QImage& image)
 {
   QBuffer png;
@@ -91,7 +85,6 @@ QString encoded(const QImage& image)
   return "data:image/png;base64," + QString::fromLatin1(png.data().toBase64());
 }
 
-//------------------------------------------------------------------------------
 QImage paintable(const QImage& image)
 {
   if (image.isNull())
@@ -104,7 +97,6 @@ QImage paintable(const QImage& image)
     .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
 }
 
-//------------------------------------------------------------------------------
 void paint(
   QImage& image, const QImage& underneath, const Brush& brush, const QVector<QPointF>& places)
 {
@@ -120,7 +112,6 @@ void paint(
   QPainter(&image).fillPath(dabs, brush.Erases ? QBrush(underneath) : QBrush(brush.Color));
 }
 
-//------------------------------------------------------------------------------
 QVector<QPointF> stroke(const QPointF& from, const QPointF& to, double radius)
 {
   const QPointF line = to - from;

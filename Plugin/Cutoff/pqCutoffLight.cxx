@@ -17,7 +17,6 @@ constexpr double nearlyAll = 0.999;
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqCutoffLight::pqCutoffLight(vtkImageData* histogram)
 {
   vtkDataArray* rays = histogram ? histogram->GetPointData()->GetArray("Rays") : nullptr;
@@ -51,7 +50,6 @@ pqCutoffLight::pqCutoffLight(vtkImageData* histogram)
   }
 }
 
-//------------------------------------------------------------------------------
 double pqCutoffLight::brightnessAt(const QPointF& deflection) const
 {
   if (this->isEmpty())

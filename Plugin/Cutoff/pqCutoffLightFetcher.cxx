@@ -30,7 +30,6 @@ int informationOf(vtkSMProxy* filter, const char* name)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqCutoffLightFetcher::pqCutoffLightFetcher(vtkSMProxy* filter, QWidget* widget)
   : QObject(widget)
   , Filter(filter)
@@ -52,10 +51,8 @@ pqCutoffLightFetcher::pqCutoffLightFetcher(vtkSMProxy* filter, QWidget* widget)
   widget->installEventFilter(this);
 }
 
-//------------------------------------------------------------------------------
 pqCutoffLightFetcher::~pqCutoffLightFetcher() = default;
 
-//------------------------------------------------------------------------------
 bool pqCutoffLightFetcher::eventFilter(QObject* watched, QEvent* event)
 {
   if (event->type() == QEvent::Show)
@@ -65,14 +62,12 @@ bool pqCutoffLightFetcher::eventFilter(QObject* watched, QEvent* event)
   return QObject::eventFilter(watched, event);
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffLightFetcher::setWaiting(bool waits)
 {
   this->Waits = waits;
   this->imageUpdated();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffLightFetcher::imageUpdated()
 {
   if (this->Filter && !this->Waits)
@@ -81,7 +76,6 @@ void pqCutoffLightFetcher::imageUpdated()
   }
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffLightFetcher::fetch()
 {
   if (!this->Filter || this->Waits || !this->Widget->isVisible())

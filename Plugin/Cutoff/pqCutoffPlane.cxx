@@ -27,7 +27,6 @@ double sizeOf(const pqCutoff& cutoff, const QPointF& deflection)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 double rounded(double value, int digits)
 {
   if (value == 0 || !std::isfinite(value))
@@ -40,7 +39,6 @@ double rounded(double value, int digits)
   return exponent > 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
 }
 
-//------------------------------------------------------------------------------
 pqCutoff withSensitivity(pqCutoff cutoff, double k)
 {
   if (cutoff.EdgeIsFastened)
@@ -51,23 +49,19 @@ pqCutoff withSensitivity(pqCutoff cutoff, double k)
   return cutoff;
 }
 
-//------------------------------------------------------------------------------
 QPointF pqCutoff::normal() const
 {
   const double angle = qDegreesToRadians(this->Angle);
   return { std::cos(angle), std::sin(angle) };
 }
 
-//------------------------------------------------------------------------------
 double pqCutoff::placeOf(const QPointF& deflection) const
 {
   return 0.5 - this->Offset + this->K * QPointF::dotProduct(deflection, this->normal());
 }
 
-//------------------------------------------------------------------------------
 double pqCutoff::deflectionOf(double place) const { return (place - 0.5 + this->Offset) / this->K; }
 
-//------------------------------------------------------------------------------
 double pqCutoff::transmission(const QPointF& deflection) const
 {
   schlieren::RayAtFilm ray{};
@@ -103,40 +97,33 @@ double pqCutoff::transmission(const QPointF& deflection) const
   return light[0];
 }
 
-//------------------------------------------------------------------------------
 pqCutoffPlane::pqCutoffPlane(const QRectF& square, double range)
   : Square(square)
   , Range(range)
 {
 }
 
-//------------------------------------------------------------------------------
 double pqCutoffPlane::deflectionPerPixel() const { return 2 * this->Range / this->Square.width(); }
 
-//------------------------------------------------------------------------------
 QPointF pqCutoffPlane::pixelAt(const QPointF& deflection) const
 {
   return this->centre() + QPointF(deflection.x(), -deflection.y()) / this->deflectionPerPixel();
 }
 
-//------------------------------------------------------------------------------
 QPointF pqCutoffPlane::deflectionAt(const QPointF& pixel) const
 {
   const QPointF from = pixel - this->centre();
   return QPointF(from.x(), -from.y()) * this->deflectionPerPixel();
 }
 
-//------------------------------------------------------------------------------
 double pqCutoffPlane::turnRadius() const { return turnFraction * this->Square.width() / 2; }
 
-//------------------------------------------------------------------------------
 QPointF pqCutoffPlane::turnHandle(const pqCutoff& cutoff) const
 {
   const QPointF normal = cutoff.normal();
   return this->centre() + this->turnRadius() * QPointF(normal.x(), -normal.y());
 }
 
-//------------------------------------------------------------------------------
 pqCutoffPlane::Handle pqCutoffPlane::handleAt(const pqCutoff& cutoff, const QPointF& pixel) const
 {
   if (cutoff.Kind == pqCutoff::NoCutoff || !(cutoff.K > 0))
@@ -172,7 +159,6 @@ pqCutoffPlane::Handle pqCutoffPlane::handleAt(const pqCutoff& cutoff, const QPoi
   return nearest;
 }
 
-//------------------------------------------------------------------------------
 pqCutoff pqCutoffPlane::dragged(
   const pqCutoff& start, Handle handle, const QPointF& from, const QPointF& to, bool inSteps) const
 {
@@ -223,7 +209,6 @@ pqCutoff pqCutoffPlane::dragged(
   return cutoff;
 }
 
-//------------------------------------------------------------------------------
 double pqCutoffPlane::roundRange(double range, int step)
 {
   constexpr double slack = 1e-9; // keeps round numbers

@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqCutoffView.h"
 
-#include "MousePlace.h"
 #include "UnitPrefix.h"
 #include "pqColorFilterImage.h"
 
 #include <QFontMetrics>
-#include <QKeyEvent>
-#include <QMouseEvent>
 #include <QPainter>
-#include <QWheelEvent>
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +15,6 @@ namespace
 {
 
 constexpr int smallestSide = 120, largestSide = 360, sideStep = 20; // pixels
-constexpr double edgeStep = 0.01;                                   // of the range, per key
-constexpr double turnStep = 1;                                      // degrees, per key
-constexpr double sensitivityStep = 1.02;                            // per key
 constexpr double marginOfScale = 1.3;                               // around full scale
 constexpr double marginOfLight = 1.1;
 constexpr double leastRange = 1e-12; // radians, minimum that can be shown
@@ -37,7 +30,6 @@ int blend(double a, double b, double fraction)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqCutoffView::pqCutoffView(QWidget* parentObject)
   : QWidget(parentObject)
 {
@@ -60,10 +52,8 @@ pqCutoffView::pqCutoffView(QWidget* parentObject)
   this->setAccessibleDescription(help);
 }
 
-//------------------------------------------------------------------------------
 pqCutoffView::~pqCutoffView() = default;
 
-//------------------------------------------------------------------------------
 QRectF pqCutoffView::square() const
 {
   const int line = this->fontMetrics().height();
@@ -72,23 +62,19 @@ QRectF pqCutoffView::square() const
   return { line + 2., 2., static_cast<double>(side), static_cast<double>(side) };
 }
 
-//------------------------------------------------------------------------------
 int pqCutoffView::heightForWidth(int width) const
 {
   return std::min(width, largestSide + this->fontMetrics().height() + 4);
 }
 
-//------------------------------------------------------------------------------
 QSize pqCutoffView::sizeHint() const
 {
   constexpr int usual = 250;
   return { usual, this->heightForWidth(usual) };
 }
 
-//------------------------------------------------------------------------------
 pqCutoffPlane pqCutoffView::plane() const { return { this->square(), this->Range }; }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::setCutoff(const pqCutoff& cutoff, const QImage& image)
 {
   this->Cutoff = cutoff;
@@ -96,14 +82,12 @@ void pqCutoffView::setCutoff(const pqCutoff& cutoff, const QImage& image)
   this->fit();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::setLight(const pqCutoffLight& light)
 {
   this->Light = light;
   this->fit();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::fit()
 {
   // Keeps the scale while a handle is dragged.
@@ -125,14 +109,12 @@ void pqCutoffView::fit()
   this->changed();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::changed()
 {
   this->Composed = QImage();
   this->update();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::zoom(int steps)
 {
   this->Range = std::max(leastRange, pqCutoffPlane::roundRange(this->Range, -steps));
@@ -140,7 +122,6 @@ void pqCutoffView::zoom(int steps)
   this->changed();
 }
 
-//------------------------------------------------------------------------------
 QImage pqCutoffView::composed() const
 {
   const double ratio = this->devicePixelRatioF();
@@ -174,7 +155,6 @@ QImage pqCutoffView::composed() const
   return image;
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
@@ -203,7 +183,6 @@ void pqCutoffView::paintEvent(QPaintEvent*)
   this->drawAxes(painter);
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::drawLines(QPainter& painter) const
 {
   const pqCutoffPlane plane = this->plane();
@@ -253,7 +232,6 @@ void pqCutoffView::drawLines(QPainter& painter) const
   painter.drawEllipse(plane.turnHandle(this->Cutoff), 5, 5);
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffView::drawAxes(QPainter& painter) const
 {
   const QRectF square = this->square();
@@ -289,222 +267,4 @@ void pqCutoffView::drawAxes(QPainter& painter) const
   painter.restore();
 }
 
-//------------------------------------------------------------------------------
-void pqCutoffView::grab(pqCutoffPlane::Handle handle)
-{
-  this->Before = this->Cutoff;
-  this->Grabbed = handle;
-  Q_EMIT this->grabbed();
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::moveTo(const pqCutoff& cutoff)
-{
-  this->Cutoff = cutoff;
-  this->changed();
-  Q_EMIT this->dragged();
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::release(bool keep)
-{
-  if (this->isGrabbed())
-  {
-    this->Grabbed = pqCutoffPlane::NoHandle;
-    this->ByKeys = false;
-    if (!keep)
-    {
-      this->Cutoff = this->Before;
-    }
-    Q_EMIT this->released(keep);
-    this->fit();
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::mousePressEvent(QMouseEvent* event)
-{
-  if (event->button() != Qt::LeftButton || this->isGrabbed())
-  {
-    return;
-  }
-  const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, mousePlace(event));
-  if (handle != pqCutoffPlane::NoHandle)
-  {
-    this->GrabbedAt = this->LastPlace = mousePlace(event);
-    this->grab(handle);
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::mouseMoveEvent(QMouseEvent* event)
-{
-  if (this->isGrabbed() && !this->ByKeys)
-  {
-    this->follow(event);
-    return;
-  }
-  const pqCutoffPlane::Handle handle = this->plane().handleAt(this->Cutoff, mousePlace(event));
-  if (handle != this->Hovered)
-  {
-    this->Hovered = handle;
-    this->setCursor(handle == pqCutoffPlane::NoHandle ? Qt::ArrowCursor : Qt::OpenHandCursor);
-    this->update();
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::follow(QMouseEvent* event)
-{
-  this->LastPlace = mousePlace(event);
-  this->moveTo(this->plane().dragged(this->Before, this->Grabbed, this->GrabbedAt, this->LastPlace,
-    event->modifiers() & Qt::ShiftModifier));
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::mouseReleaseEvent(QMouseEvent* event)
-{
-  if (event->button() == Qt::LeftButton && !this->ByKeys)
-  {
-    // A quick drag ends beyond the last move.
-    if (this->isGrabbed() && mousePlace(event) != this->LastPlace)
-    {
-      this->follow(event);
-    }
-    this->release(true);
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::mouseDoubleClickEvent(QMouseEvent* event)
-{
-  if (event->button() == Qt::LeftButton)
-  {
-    this->IsZoomed = false;
-    this->fit();
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::wheelEvent(QWheelEvent* event)
-{
-  // Leaves the wheel to the panel, which could not be scrolled otherwise.
-  if (!this->hasFocus() || event->angleDelta().y() == 0)
-  {
-    event->ignore();
-    return;
-  }
-  if (!this->isGrabbed())
-  {
-    this->zoom(event->angleDelta().y() > 0 ? 1 : -1);
-  }
-  event->accept();
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::keyPressEvent(QKeyEvent* event)
-{
-  const bool isAlone = !this->isGrabbed();
-  switch (event->key())
-  {
-    case Qt::Key_Plus:
-      this->zoom(isAlone ? 1 : 0);
-      return;
-    case Qt::Key_Minus:
-      this->zoom(isAlone ? -1 : 0);
-      return;
-    case Qt::Key_Home:
-      this->IsZoomed = false;
-      this->fit();
-      return;
-    case Qt::Key_Escape:
-      if (isAlone)
-      {
-        break;
-      }
-      this->release(false);
-      return;
-    default:
-      break;
-  }
-  using Plane = pqCutoffPlane;
-  const bool right = event->key() == Qt::Key_Right, up = event->key() == Qt::Key_Up;
-  const bool moves = right || event->key() == Qt::Key_Left;
-  const bool scales = up || event->key() == Qt::Key_Down;
-  if (!(this->Cutoff.K > 0) || this->Cutoff.Kind == pqCutoff::NoCutoff ||
-    !(scales || (moves && this->Cutoff.HasEdge)) || (this->isGrabbed() && !this->ByKeys))
-  {
-    QWidget::keyPressEvent(event);
-    return;
-  }
-  const bool turns = moves && event->modifiers() & Qt::ShiftModifier;
-  const Plane::Handle handle = turns ? Plane::TurnHandle
-    : moves                          ? Plane::EdgeLine
-    : this->Cutoff.HasEdge           ? Plane::BrightLine
-                                     : Plane::SizeHandle;
-  if (this->ByKeys && this->Grabbed != handle)
-  {
-    this->release(true);
-  }
-  if (!this->ByKeys)
-  {
-    this->ByKeys = true;
-    this->grab(handle);
-  }
-  pqCutoff cutoff = this->Cutoff;
-  if (turns)
-  {
-    // Turns clockwise for Right.
-    cutoff.Angle = std::fmod(cutoff.Angle + (right ? 360 - turnStep : turnStep), 360);
-  }
-  else if (moves)
-  {
-    const double shift = (right ? 1 : -1) * edgeStep * this->Range;
-    cutoff.Offset = rounded(cutoff.Offset + cutoff.K * shift, 3);
-  }
-  else
-  {
-    cutoff =
-      withSensitivity(cutoff, rounded(cutoff.K * (up ? sensitivityStep : 1 / sensitivityStep), 4));
-  }
-  this->moveTo(cutoff);
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::keyReleaseEvent(QKeyEvent* event)
-{
-  if (this->ByKeys && !event->isAutoRepeat())
-  {
-    this->release(true);
-  }
-}
-
-//------------------------------------------------------------------------------
-void pqCutoffView::focusOutEvent(QFocusEvent* event)
-{
-  if (this->ByKeys)
-  {
-    this->release(true);
-  }
-  QWidget::focusOutEvent(event);
-}
-
-//------------------------------------------------------------------------------
 void pqCutoffView::resizeEvent(QResizeEvent*) { this->changed(); }
-
-//------------------------------------------------------------------------------
-bool pqCutoffView::event(QEvent* event)
-{
-  // Overrides the window's shortcut Escape.
-  if (event->type() == QEvent::ShortcutOverride && this->isGrabbed())
-  {
-    event->accept();
-    return true;
-  }
-  if (event->type() == QEvent::Leave)
-  {
-    this->Hovered = pqCutoffPlane::NoHandle;
-    this->update();
-  }
-  return QWidget::event(event);
-}

@@ -89,7 +89,6 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqCutoffWidget::pqCutoffWidget(
   vtkSMProxy* smProxy, vtkSMPropertyGroup* group, QWidget* parentObject)
   : pqPropertyWidget(smProxy, parentObject)
@@ -129,10 +128,8 @@ pqCutoffWidget::pqCutoffWidget(
   this->readCutoff();
 }
 
-//------------------------------------------------------------------------------
 pqCutoffWidget::~pqCutoffWidget() = default;
 
-//------------------------------------------------------------------------------
 void pqCutoffWidget::readCutoff()
 {
   this->View->setEnabled(pqLiveEdit::isPossible(this->proxy()));
@@ -148,7 +145,6 @@ void pqCutoffWidget::readCutoff()
   this->showNumbers();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffWidget::showNumbers()
 {
   const pqCutoff& cutoff = this->View->cutoff();
@@ -165,14 +161,12 @@ void pqCutoffWidget::showNumbers()
   this->Numbers->setText(numbers.join(", "));
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffWidget::grabbed()
 {
   this->Fetcher->setWaiting(true);
   this->Edit = std::make_unique<pqLiveEdit>(this->proxy(), tr("Drag Cutoff"));
 }
 
-//------------------------------------------------------------------------------
 QMap<QString, QVariant> pqCutoffWidget::changes() const
 {
   const pqCutoff& now = this->View->cutoff();
@@ -208,14 +202,12 @@ QMap<QString, QVariant> pqCutoffWidget::changes() const
   return values;
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffWidget::dragged()
 {
   this->Edit->show(this->changes());
   this->showNumbers();
 }
 
-//------------------------------------------------------------------------------
 void pqCutoffWidget::released(bool keep)
 {
   const std::unique_ptr<pqLiveEdit> edit = std::move(this->Edit);

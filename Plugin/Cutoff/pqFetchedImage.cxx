@@ -31,7 +31,6 @@ vtkSmartPointer<vtkSMSourceProxy> newFilter(const char* name, vtkSMProxy* input,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> fetchedImage(
   vtkSMProxy* filter, unsigned int port, const std::vector<std::string>& arrays)
 {

@@ -102,7 +102,6 @@ bool placeUnder(const int pixel[2], vtkRenderer* renderer, const ImagePlane& pla
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqImagePainter::pqImagePainter(vtkSMProxy* filter, QObject* parentObject)
   : QObject(parentObject)
   , Filter(filter)
@@ -111,10 +110,8 @@ pqImagePainter::pqImagePainter(vtkSMProxy* filter, QObject* parentObject)
     model(), &pqServerManagerModel::preViewRemoved, this, &pqImagePainter::viewRemoved);
 }
 
-//------------------------------------------------------------------------------
 pqImagePainter::~pqImagePainter() { this->stop(); }
 
-//------------------------------------------------------------------------------
 bool pqImagePainter::start()
 {
   for (pqView* view : model()->findItems<pqView*>())
@@ -141,7 +138,6 @@ bool pqImagePainter::start()
   return this->isOn();
 }
 
-//------------------------------------------------------------------------------
 void pqImagePainter::stop()
 {
   if (!this->isOn())
@@ -168,7 +164,6 @@ void pqImagePainter::stop()
   Q_EMIT this->stopped();
 }
 
-//------------------------------------------------------------------------------
 void pqImagePainter::viewRemoved(pqView* view)
 {
   if (this->Views.contains(view))
@@ -177,7 +172,6 @@ void pqImagePainter::viewRemoved(pqView* view)
   }
 }
 
-//------------------------------------------------------------------------------
 bool pqImagePainter::eventFilter(QObject* watched, QEvent* event)
 {
   if ((event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride) &&
@@ -190,7 +184,6 @@ bool pqImagePainter::eventFilter(QObject* watched, QEvent* event)
   return QObject::eventFilter(watched, event);
 }
 
-//------------------------------------------------------------------------------
 bool pqImagePainter::fetchDeflection()
 {
   for (const char* name : { "PictureCount", "KScaleUsed" })
@@ -208,7 +201,6 @@ bool pqImagePainter::fetchDeflection()
     this->K > 0;
 }
 
-//------------------------------------------------------------------------------
 void pqImagePainter::mouseEvent(
   vtkObject* caller, unsigned long event, void* client, void*, vtkCommand* command)
 {
@@ -244,7 +236,6 @@ void pqImagePainter::mouseEvent(
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImagePainter::brush(vtkRenderWindowInteractor* interactor)
 {
   QPointF position;
@@ -272,7 +263,6 @@ void pqImagePainter::brush(vtkRenderWindowInteractor* interactor)
   }
 }
 
-//------------------------------------------------------------------------------
 QVector<QPointF> pqImagePainter::placesAround(const QPointF& position) const
 {
   vtkDataArray* deflections = this->Deflection->GetPointData()->GetArray("Deflection");

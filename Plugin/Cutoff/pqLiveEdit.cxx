@@ -10,20 +10,17 @@
 #include "vtkSMProxy.h"
 #include "vtkSMTrace.h"
 
-//------------------------------------------------------------------------------
 pqLiveEdit::pqLiveEdit(vtkSMProxy* filter, const QString& label)
   : Filter(filter)
   , Label(label)
 {
 }
 
-//------------------------------------------------------------------------------
 bool pqLiveEdit::isPossible(vtkSMProxy* filter)
 {
   return vtkSMPropertyHelper(filter, "PictureCount").GetAsInt() > 0;
 }
 
-//------------------------------------------------------------------------------
 void pqLiveEdit::push(const QMap<QString, QVariant>& values)
 {
   for (auto value = values.begin(); value != values.end(); ++value)
@@ -37,7 +34,6 @@ void pqLiveEdit::push(const QMap<QString, QVariant>& values)
   this->Filter->UpdateVTKObjects();
 }
 
-//------------------------------------------------------------------------------
 void pqLiveEdit::show(const QMap<QString, QVariant>& values)
 {
   if (!this->Filter)
@@ -60,7 +56,6 @@ void pqLiveEdit::show(const QMap<QString, QVariant>& values)
   pqApplicationCore::instance()->render();
 }
 
-//------------------------------------------------------------------------------
 void pqLiveEdit::finish()
 {
   if (!this->Filter || this->Now == this->Before)
@@ -80,7 +75,6 @@ void pqLiveEdit::finish()
   pqApplicationCore::instance()->render();
 }
 
-//------------------------------------------------------------------------------
 void pqLiveEdit::cancel()
 {
   if (this->Filter && !this->Before.isEmpty())

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkUnsignedCharArray> paintedLight(
   vtkUnsignedCharArray* colors, double white, vtkScalarsToColors* map)
 {

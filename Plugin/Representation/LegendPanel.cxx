@@ -79,10 +79,8 @@ struct LegendPanel::Pencil
 
 vtkStandardNewMacro(LegendPanel);
 
-//------------------------------------------------------------------------------
 float LegendPanel::HeightOfHead() const { return this->HasIcon() ? 2 * lineHeight : lineHeight; }
 
-//------------------------------------------------------------------------------
 std::string LegendPanel::GetLabelWithUnit() const
 {
   const double most = std::max(std::abs(this->Range[0]), std::abs(this->Range[1]));
@@ -90,14 +88,12 @@ std::string LegendPanel::GetLabelWithUnit() const
                             : this->Label + ", " + unitPrefixOf(most).name + this->Unit;
 }
 
-//------------------------------------------------------------------------------
 std::string LegendPanel::TextAt(double value) const
 {
   const double most = std::max(std::abs(this->Range[0]), std::abs(this->Range[1]));
   return textOf(this->Unit.empty() ? value : value / unitPrefixOf(most).factor);
 }
 
-//------------------------------------------------------------------------------
 void LegendPanel::UseText(vtkContext2D* painter, int justification, bool isBold) const
 {
   vtkNew<vtkTextProperty> text;
@@ -110,7 +106,6 @@ void LegendPanel::UseText(vtkContext2D* painter, int justification, bool isBold)
   painter->ApplyTextProp(text);
 }
 
-//------------------------------------------------------------------------------
 float LegendPanel::HeightOfFont(vtkContext2D* painter)
 {
   constexpr float bySize = 0.92f; // of a capital with a descender
@@ -119,7 +114,6 @@ float LegendPanel::HeightOfFont(vtkContext2D* painter)
   return std::max(1.f, bounds[3] / bySize);
 }
 
-//------------------------------------------------------------------------------
 // Draws the image of the light source, and what the stop covers of it.
 void LegendPanel::DrawIcon(const Pencil& pencil, float left, float bottom) const
 {
@@ -154,7 +148,6 @@ void LegendPanel::DrawIcon(const Pencil& pencil, float left, float bottom) const
   to->DrawPolygon(corners, 4);
 }
 
-//------------------------------------------------------------------------------
 // A stop in the middle covers the light that nothing bends, an iris what is bent.
 void LegendPanel::DrawStop(const Pencil& pencil, float x, float y, float radius) const
 {
@@ -170,7 +163,6 @@ void LegendPanel::DrawStop(const Pencil& pencil, float x, float y, float radius)
   }
 }
 
-//------------------------------------------------------------------------------
 void LegendPanel::DrawTicks(const Pencil& pencil, float bottom) const
 {
   const bool hasZero = this->Range[0] < 0 && this->Range[1] > 0;
@@ -189,7 +181,6 @@ void LegendPanel::DrawTicks(const Pencil& pencil, float bottom) const
   }
 }
 
-//------------------------------------------------------------------------------
 void LegendPanel::DrawRuler(const Pencil& pencil, float bottom) const
 {
   const double most = this->MetresPerPixel * widthOfScale * pencil.Height;
@@ -213,7 +204,6 @@ void LegendPanel::DrawRuler(const Pencil& pencil, float bottom) const
   pencil.Text(width / pencil.Height + padding, bottom, lengthInWords(length));
 }
 
-//------------------------------------------------------------------------------
 float LegendPanel::HeightOf(const Layout& layout) const
 {
   const float lines = static_cast<float>(layout.Notes) + (this->Label.empty() ? 0 : 1) +
@@ -222,7 +212,6 @@ float LegendPanel::HeightOf(const Layout& layout) const
     (this->HasScale() ? layout.Side + belowScale : 0) + 2 * padding;
 }
 
-//------------------------------------------------------------------------------
 float LegendPanel::WidthOf(const Layout& layout, vtkContext2D* painter) const
 {
   float width = widthOfScale;
@@ -243,7 +232,6 @@ float LegendPanel::WidthOf(const Layout& layout, vtkContext2D* painter) const
   return width + 2 * padding;
 }
 
-//------------------------------------------------------------------------------
 bool LegendPanel::Fit(vtkContext2D* painter, Layout& layout)
 {
   const auto room = static_cast<float>(this->GetScene()->GetSceneWidth());
@@ -282,7 +270,6 @@ bool LegendPanel::Fit(vtkContext2D* painter, Layout& layout)
   }
 }
 
-//------------------------------------------------------------------------------
 bool LegendPanel::Paint(vtkContext2D* painter)
 {
   Layout layout;
@@ -331,7 +318,6 @@ bool LegendPanel::Paint(vtkContext2D* painter)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void LegendPanel::DrawHead(const Pencil& pencil, float bottom) const
 {
   const float height = this->HeightOfHead();
@@ -344,7 +330,6 @@ void LegendPanel::DrawHead(const Pencil& pencil, float bottom) const
     this->HasIcon() ? sizeOfIcon + padding : 0, bottom + 0.5f * (height - lineHeight), this->Title);
 }
 
-//------------------------------------------------------------------------------
 void LegendPanel::DrawScale(const Pencil& pencil, float bottom, float side) const
 {
   const float across = this->HasPlane() ? side : widthOfScale;

@@ -111,7 +111,6 @@ vtkSmartPointer<vtkImageData> imageOf(vtkTextureObject* texture, const int size[
 
 } // namespace
 
-//------------------------------------------------------------------------------
 SceneBehind::SceneBehind(vtkRenderer* renderer)
   : Renderer(renderer)
 {
@@ -126,7 +125,6 @@ SceneBehind::SceneBehind(vtkRenderer* renderer)
   }
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> SceneBehind::Draw(
   vtkCamera* camera, const int size[2], double depth) const
 {
@@ -176,7 +174,6 @@ vtkSmartPointer<vtkImageData> SceneBehind::Draw(
   return image;
 }
 
-//------------------------------------------------------------------------------
 double SceneBehind::GetDistance(double depth) const
 {
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
@@ -197,5 +194,4 @@ double SceneBehind::GetDistance(double depth) const
   return farthest > depth ? 0.5 * (nearest + farthest) - depth : -1;
 }
 
-//------------------------------------------------------------------------------
 double backOf(const double bounds[6], vtkCamera* camera) { return depthsOf(bounds, camera).second; }

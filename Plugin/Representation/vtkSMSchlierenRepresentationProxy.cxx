@@ -8,13 +8,11 @@
 
 vtkStandardNewMacro(vtkSMSchlierenRepresentationProxy);
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenRepresentationProxy::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
 }
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenRepresentationProxy::PostUpdateData(bool usingCache)
 {
   this->Superclass::PostUpdateData(usingCache);

@@ -49,78 +49,52 @@ public:
     bool operator==(const View& other) const;
   };
 
-  /**
-   * Returns how a renderer is looked through. With a perspective, its parallel scale is that at the depth of
-   * the focal point.
-   */
+  /// Returns how a renderer is looked through. With a perspective, its parallel scale is that at the depth of
+  /// the focal point.
   static View ViewOf(vtkRenderer* renderer);
 
   /// Returns what is drawn over the image.
   vtkSchlierenLegend* GetLegend() const { return this->Legend; }
 
-  /**
-   * Returns whether another actor is drawn instead: light cannot pass through both flows.
-   */
+  /// Returns whether another actor is drawn instead: light cannot pass through both flows.
   bool IsHidden(vtkRenderer* renderer);
 
-  /**
-   * Sets the flow's bounds, behind which the scene of the background pattern SCENE begins.
-   */
+  /// Sets the flow's bounds, behind which the scene of the background pattern SCENE begins.
   void SetFlowBounds(const double bounds[6]) { std::copy_n(bounds, 6, this->FlowBounds); }
 
-  /**
-   * Adds the actor, and disables FXAA, which would blur the image, while it is visible.
-   */
+  /// Adds the actor, and disables FXAA, which would blur the image, while it is visible.
   void AddTo(vtkRenderer* renderer);
   void RemoveFrom(vtkRenderer* renderer);
 
-  /**
-   * Sets the time of tracing per rendering, seconds; 0 (the default): images are complete.
-   */
+  /// Sets the time of tracing per rendering, seconds; 0 (the default): images are complete.
   void SetTimeSlice(double seconds) { this->TimeSlice = this->HasOtherRanks ? 0 : seconds; }
 
-  /**
-   * Sets whether several ranks trace one image, which disables TimeSlice.
-   */
+  /// Sets whether several ranks trace one image, which disables TimeSlice.
   void SetHasOtherRanks(bool hasOtherRanks) { this->HasOtherRanks = hasOtherRanks; }
 
-  /**
-   * Sets whether the next rendering is for a screenshot, which is complete, whatever TimeSlice is.
-   */
+  /// Sets whether the next rendering is for a screenshot, which is complete, whatever TimeSlice is.
   void SetIsForScreenshot(bool isForScreenshot) { this->IsForScreenshot = isForScreenshot; }
 
-  /**
-   * Updates the image after changes of the data or of the bench's properties, outside of rendering,
-   * with progress and abort. Before the first rendering the image is coarse, for the sake of the
-   * refractivity. After a failure nothing is drawn until the next call or another change of the
-   * bench's properties.
-   */
+  /// Updates the image after changes of the data or of the bench's properties, outside of rendering,
+  /// with progress and abort. Before the first rendering the image is coarse, for the sake of the
+  /// refractivity. After a failure nothing is drawn until the next call or another change of the
+  /// bench's properties.
   void UpdateImage(vtkRenderer* renderer);
 
-  /**
-   * Returns whether the bench's properties have changed since the image was made.
-   */
+  /// Returns whether the bench's properties have changed since the image was made.
   bool IsChanged() const;
 
-  /**
-   * Traces for TimeSlice, or returns true where there is more to show since the last call.
-   */
+  /// Traces for TimeSlice, or returns true where there is more to show since the last call.
   bool Refine();
 
-  /**
-   * Returns whether the image is complete, or stopped.
-   */
+  /// Returns whether the image is complete, or stopped.
   bool GetFinished() const;
 
-  /**
-   * Returns the full image's pixels, along each axis, for each pixel of the preview.
-   */
+  /// Returns the full image's pixels, along each axis, for each pixel of the preview.
   int GetReduction() const { return this->Reduction; }
 
-  /**
-   * Sets bounds that contain the whole view, or none. With several ranks IceT omits what is outside
-   * of the bounds; but cameras are placed by the bounds of what is visible.
-   */
+  /// Sets bounds that contain the whole view, or none. With several ranks IceT omits what is outside
+  /// of the bounds; but cameras are placed by the bounds of what is visible.
   void SetFillsView(vtkRenderer* renderer);
   void ClearBounds() { this->UseBoundsOff(); }
   double* GetBounds() override { return this->UseBounds ? this->ViewBounds : nullptr; }

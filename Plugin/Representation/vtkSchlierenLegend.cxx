@@ -47,7 +47,6 @@ std::vector<std::string> textsIn(vtkFieldData* data, const char* name)
 
 vtkStandardNewMacro(vtkSchlierenLegend);
 
-//------------------------------------------------------------------------------
 vtkSchlierenLegend::vtkSchlierenLegend()
   : Shown(vtkSmartPointer<LegendPanel>::New())
 {
@@ -57,10 +56,8 @@ vtkSchlierenLegend::vtkSchlierenLegend()
   this->UseBoundsOff();
 }
 
-//------------------------------------------------------------------------------
 vtkSchlierenLegend::~vtkSchlierenLegend() = default;
 
-//------------------------------------------------------------------------------
 void vtkSchlierenLegend::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -69,13 +66,10 @@ void vtkSchlierenLegend::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Title: " << this->Shown->Title << "\n";
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenLegend::SetCorner(int corner) { this->Shown->Corner = corner; }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenLegend::SetFontSize(int points) { this->Shown->FontSize = points; }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenLegend::CopyFieldData(vtkImageData* from, vtkImageData* to)
 {
   for (const char* name : arraysOfLegend)
@@ -87,7 +81,6 @@ void vtkSchlierenLegend::CopyFieldData(vtkImageData* from, vtkImageData* to)
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenLegend::SetImage(vtkImageData* image, const Painting& painting)
 {
   LegendPanel& shown = *this->Shown;
@@ -134,7 +127,6 @@ void vtkSchlierenLegend::SetImage(vtkImageData* image, const Painting& painting)
   shown.MetresPerUnit = numberIn(data, "LengthScale", 0, 0);
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenLegend::RenderOverlay(vtkViewport* viewport)
 {
   auto* renderer = vtkRenderer::SafeDownCast(viewport);

@@ -10,7 +10,6 @@
 
 vtkStandardNewMacro(vtkSchlierenPipeline);
 
-//------------------------------------------------------------------------------
 int vtkSchlierenPipeline::ForwardUpstream(vtkInformation* request)
 {
   const int result = this->Superclass::ForwardUpstream(request);

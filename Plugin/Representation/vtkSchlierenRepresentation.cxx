@@ -62,46 +62,38 @@ std::pair<int, int> ranks()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 vtkSchlierenRepresentation::vtkSchlierenRepresentation()
 {
   vtkMath::UninitializeBounds(this->Bounds);
   this->Actor->SetHasOtherRanks(ranks().second > 1);
 }
 
-//------------------------------------------------------------------------------
 vtkSchlierenRepresentation::~vtkSchlierenRepresentation() = default;
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   this->Actor->PrintSelf(os, indent);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::SetBench(vtkObject* bench)
 {
   this->Actor->SetBench(vtkSchlierenFilter::SafeDownCast(bench));
   this->MarkModified();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::SetTimeSlice(double seconds)
 {
   this->Actor->SetTimeSlice(std::max(0., seconds));
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenRepresentation::GetFinished()
 {
   return !this->GetVisibility() || this->Actor->GetFinished();
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenRepresentation::GetReduction() { return this->Actor->GetReduction(); }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::SetVisibility(bool isVisible)
 {
   this->Superclass::SetVisibility(isVisible);
@@ -109,32 +101,27 @@ void vtkSchlierenRepresentation::SetVisibility(bool isVisible)
   this->ShowOrHideLegend();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::ShowOrHideLegend()
 {
   this->Actor->GetLegend()->SetVisibility(this->HasLegend && this->GetVisibility());
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::SetLegend(bool isShown)
 {
   this->HasLegend = isShown;
   this->ShowOrHideLegend();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::SetLegendCorner(int corner)
 {
   this->Actor->GetLegend()->SetCorner(corner);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::SetLegendFontSize(int points)
 {
   this->Actor->GetLegend()->SetFontSize(points);
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenRepresentation::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
@@ -143,7 +130,6 @@ int vtkSchlierenRepresentation::FillInputPortInformation(int, vtkInformation* in
   return 1;
 }
 
-//------------------------------------------------------------------------------
 // Requests the same as the bench, so that upstream filters run once.
 int vtkSchlierenRepresentation::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
@@ -157,7 +143,6 @@ int vtkSchlierenRepresentation::RequestUpdateExtent(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
@@ -183,7 +168,6 @@ int vtkSchlierenRepresentation::RequestData(
   return this->Superclass::RequestData(request, input, output);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::PassTimeToBench()
 {
   if (this->UpdateTimeValid)
@@ -193,7 +177,6 @@ void vtkSchlierenRepresentation::PassTimeToBench()
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::TellIfHidden()
 {
   const bool wasHidden = this->IsHidden;
@@ -209,7 +192,6 @@ void vtkSchlierenRepresentation::TellIfHidden()
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenRepresentation::TellIfServerCannotDraw()
 {
   auto* session = vtkPVSession::SafeDownCast(vtkProcessModule::GetProcessModule()->GetSession());
@@ -226,7 +208,6 @@ void vtkSchlierenRepresentation::TellIfServerCannotDraw()
   this->HasToldOfServer = isToTell;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenRepresentation::AddToView(vtkView* view)
 {
   vtkRenderer* renderer = rendererOf(view);
@@ -237,7 +218,6 @@ bool vtkSchlierenRepresentation::AddToView(vtkView* view)
   return renderer && this->Superclass::AddToView(view);
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenRepresentation::RemoveFromView(vtkView* view)
 {
   vtkRenderer* renderer = rendererOf(view);
@@ -248,7 +228,6 @@ bool vtkSchlierenRepresentation::RemoveFromView(vtkView* view)
   return renderer && this->Superclass::RemoveFromView(view);
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenRepresentation::Guarded(const std::function<int()>& work)
 {
   int result = 1;
@@ -258,21 +237,18 @@ int vtkSchlierenRepresentation::Guarded(const std::function<int()>& work)
   return result;
 }
 
-//------------------------------------------------------------------------------
 vtkTypeBool vtkSchlierenRepresentation::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   return this->Guarded([&] { return this->Superclass::ProcessRequest(request, input, output); });
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
   return this->Guarded([&] { return this->RespondToView(request, input, output); });
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenRepresentation::RespondToView(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {

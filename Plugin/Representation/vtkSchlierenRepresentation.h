@@ -28,31 +28,23 @@ public:
   vtkTypeMacro(vtkSchlierenRepresentation, vtkPVDataRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /**
-   * Sets the vtkSchlierenFilter that makes the image; this representation sets its input, view and
-   * size. Null on clients that do not process data.
-   */
+  /// Sets the vtkSchlierenFilter that makes the image; this representation sets its input, view and
+  /// size. Null on clients that do not process data.
   void SetBench(vtkObject* bench);
 
-  /**
-   * Sets the tracing time of a rendering or streaming update, seconds, not negative; 0 (the
-   * default): images are complete.
-   */
+  /// Sets the tracing time of a rendering or streaming update, seconds, not negative; 0 (the
+  /// default): images are complete.
   void SetTimeSlice(double seconds);
 
   ///@{
-  /**
-   * Set whether a legend is drawn (default: on), its corner, one of vtkSchlierenLegend::Corners
-   * (default: lower right), and the size of its font, points (default: 10).
-   */
+  /// Set whether a legend is drawn (default: on), its corner, one of vtkSchlierenLegend::Corners
+  /// (default: lower right), and the size of its font, points (default: 10).
   void SetLegend(bool isShown);
   void SetLegendCorner(int corner);
   void SetLegendFontSize(int points);
   ///@}
 
-  /**
-   * Return whether the last image is complete, and its reduction; see vtkSchlierenActor.
-   */
+  /// Return whether the last image is complete, and its reduction; see vtkSchlierenActor.
   bool GetFinished();
   int GetReduction();
 

@@ -33,52 +33,43 @@ vtkSchlierenLegend::Painting paintingOf(vtkPVImageSliceMapper* mapper)
 
 vtkStandardNewMacro(vtkSchlierenSliceRepresentation);
 
-//------------------------------------------------------------------------------
 vtkSchlierenSliceRepresentation::vtkSchlierenSliceRepresentation() = default;
 
-//------------------------------------------------------------------------------
 vtkSchlierenSliceRepresentation::~vtkSchlierenSliceRepresentation() = default;
 
-//------------------------------------------------------------------------------
 void vtkSchlierenSliceRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   this->Legend->PrintSelf(os, indent);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenSliceRepresentation::SetLegend(bool isShown)
 {
   this->HasLegend = isShown;
   this->ShowOrHideLegend();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenSliceRepresentation::SetLegendCorner(int corner)
 {
   this->Legend->SetCorner(corner);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenSliceRepresentation::SetLegendFontSize(int points)
 {
   this->Legend->SetFontSize(points);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenSliceRepresentation::SetVisibility(bool isVisible)
 {
   this->Superclass::SetVisibility(isVisible);
   this->ShowOrHideLegend();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenSliceRepresentation::ShowOrHideLegend()
 {
   this->Legend->SetVisibility(this->HasLegend && this->GetVisibility());
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenSliceRepresentation::AddToView(vtkView* view)
 {
   auto* renderView = vtkPVRenderView::SafeDownCast(view);
@@ -89,7 +80,6 @@ bool vtkSchlierenSliceRepresentation::AddToView(vtkView* view)
   return this->Superclass::AddToView(view);
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenSliceRepresentation::RemoveFromView(vtkView* view)
 {
   auto* renderView = vtkPVRenderView::SafeDownCast(view);
@@ -100,7 +90,6 @@ bool vtkSchlierenSliceRepresentation::RemoveFromView(vtkView* view)
   return this->Superclass::RemoveFromView(view);
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenSliceRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {

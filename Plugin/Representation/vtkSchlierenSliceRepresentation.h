@@ -22,10 +22,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /**
-   * Set whether a legend is drawn (default: on), its corner, one of vtkSchlierenLegend::Corners
-   * (default: lower right), and the size of its font, points (default: 10).
-   */
+  /// Set whether a legend is drawn (default: on), its corner, one of vtkSchlierenLegend::Corners
+  /// (default: lower right), and the size of its font, points (default: 10).
   void SetLegend(bool isShown);
   void SetLegendCorner(int corner);
   void SetLegendFontSize(int points);

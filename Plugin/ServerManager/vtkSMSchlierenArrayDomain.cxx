@@ -51,13 +51,11 @@ std::pair<FlowArray::Association, std::string> choiceFor(
 
 vtkStandardNewMacro(vtkSMSchlierenArrayDomain);
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenArrayDomain::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
 }
 
-//------------------------------------------------------------------------------
 int vtkSMSchlierenArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useUnchecked)
 {
   // Skips inputs without information, for which the superclass fails on a string for no array.
@@ -80,7 +78,6 @@ int vtkSMSchlierenArrayDomain::SetDefaultValues(vtkSMProperty* property, bool us
   return 1;
 }
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenArrayDomain::Update(vtkSMProperty* requestingProperty)
 {
   this->Superclass::Update(requestingProperty);

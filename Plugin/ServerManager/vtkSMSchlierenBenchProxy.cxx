@@ -7,13 +7,11 @@
 
 vtkStandardNewMacro(vtkSMSchlierenBenchProxy);
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenBenchProxy::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
 }
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenBenchProxy::CreateVTKObjects()
 {
   if (this->ObjectsCreated)

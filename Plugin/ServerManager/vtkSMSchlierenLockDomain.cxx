@@ -12,16 +12,13 @@
 
 vtkStandardNewMacro(vtkSMSchlierenLockDomain);
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenLockDomain::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
 }
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenLockDomain::Update(vtkSMProperty*) {}
 
-//------------------------------------------------------------------------------
 int vtkSMSchlierenLockDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElement* element)
 {
   if (!this->Superclass::ReadXMLAttributes(property, element))
@@ -33,7 +30,6 @@ int vtkSMSchlierenLockDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXM
   return 1;
 }
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenLockDomain::OnUpdate(vtkObject* object, unsigned long, void*)
 {
   auto* proxy = vtkSMProxy::SafeDownCast(object);

@@ -15,16 +15,13 @@ using Filter = vtkSchlierenFilter;
 
 vtkStandardNewMacro(vtkSMSchlierenQualityDomain);
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenQualityDomain::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
 }
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenQualityDomain::Update(vtkSMProperty*) {}
 
-//------------------------------------------------------------------------------
 int vtkSMSchlierenQualityDomain::ReadXMLAttributes(
   vtkSMProperty* property, vtkPVXMLElement* element)
 {
@@ -54,7 +51,6 @@ int vtkSMSchlierenQualityDomain::ReadXMLAttributes(
   return 1;
 }
 
-//------------------------------------------------------------------------------
 void vtkSMSchlierenQualityDomain::OnModified(vtkObject* property, unsigned long event, void*)
 {
   if (this->Following || !this->GetProperty())
@@ -73,7 +69,6 @@ void vtkSMSchlierenQualityDomain::OnModified(vtkObject* property, unsigned long 
   this->Following = false;
 }
 
-//------------------------------------------------------------------------------
 template <class Helper>
 void vtkSMSchlierenQualityDomain::Follow(vtkSMProperty* modified)
 {

@@ -55,7 +55,6 @@ BenchPreset preset(const char* name, const std::vector<PresetSetting>& changes)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const std::vector<BenchPreset>& benchPresets()
 {
   static const std::vector<BenchPreset> presets = {

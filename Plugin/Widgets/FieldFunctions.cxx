@@ -33,25 +33,20 @@ vtkSmartPointer<vtkSMProxy> newFunction(vtkSMSessionProxyManager* manager)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 FieldFunctions::FieldFunctions(vtkSMProxyProperty* property)
   : Property(property)
 {
 }
 
-//------------------------------------------------------------------------------
 FieldFunctions::~FieldFunctions() = default;
 
-//------------------------------------------------------------------------------
 vtkSMProxyProperty* FieldFunctions::property() const { return this->Property; }
 
-//------------------------------------------------------------------------------
 vtkSMProxy* FieldFunctions::at(int row) const
 {
   return row >= 0 && row < this->Rows.size() ? this->Rows[row].Get() : nullptr;
 }
 
-//------------------------------------------------------------------------------
 void FieldFunctions::complete(int count)
 {
   this->Rows.resize(count);
@@ -65,7 +60,6 @@ void FieldFunctions::complete(int count)
   }
 }
 
-//------------------------------------------------------------------------------
 FieldFunctions::Functions FieldFunctions::used() const
 {
   Functions functions;
@@ -76,10 +70,8 @@ FieldFunctions::Functions FieldFunctions::used() const
   return functions;
 }
 
-//------------------------------------------------------------------------------
 void FieldFunctions::read() { this->Rows = this->used(); }
 
-//------------------------------------------------------------------------------
 void FieldFunctions::write()
 {
   const Functions before = this->used();
@@ -92,7 +84,6 @@ void FieldFunctions::write()
   }
 }
 
-//------------------------------------------------------------------------------
 void FieldFunctions::dropUnused()
 {
   const Functions now = this->used();

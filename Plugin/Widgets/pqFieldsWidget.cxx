@@ -123,7 +123,6 @@ private:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqFieldsWidget::pqFieldsWidget(
   vtkSMProxy* smproxy, vtkSMPropertyGroup* smgroup, QWidget* parentObject)
   : pqPropertyWidget(smproxy, parentObject)
@@ -200,10 +199,8 @@ pqFieldsWidget::pqFieldsWidget(
   this->addDecorator(new Decorator(this));
 }
 
-//------------------------------------------------------------------------------
 pqFieldsWidget::~pqFieldsWidget() = default;
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::completeLists()
 {
   complete(this->Ranges, 2 * this->rows());
@@ -219,7 +216,6 @@ void pqFieldsWidget::completeLists()
   this->Functions.complete(this->rows());
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::emitChanges()
 {
   this->completeLists();
@@ -228,7 +224,6 @@ void pqFieldsWidget::emitChanges()
   Q_EMIT this->colorsChanged();
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::setList(QVariantList& list, const QVariantList& values)
 {
   if (list != values)
@@ -238,7 +233,6 @@ void pqFieldsWidget::setList(QVariantList& list, const QVariantList& values)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::addRow()
 {
   const QStringList arrays = arraysFor(this->proxy());
@@ -251,7 +245,6 @@ void pqFieldsWidget::addRow()
   this->Table->selectRow(this->rows() - 1);
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::removeRow()
 {
   const int row = this->Table->currentRow();
@@ -268,7 +261,6 @@ void pqFieldsWidget::removeRow()
   this->emitChanges();
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::setCell(int row, int column, QWidget* widget, const QString& name)
 {
   widget->setObjectName(QString("%1%2").arg(name).arg(row));
@@ -278,7 +270,6 @@ void pqFieldsWidget::setCell(int row, int column, QWidget* widget, const QString
   this->Table->setCellWidget(row, column, widget);
 }
 
-//------------------------------------------------------------------------------
 bool pqFieldsWidget::eventFilter(QObject* cell, QEvent* event)
 {
   if (event->type() == QEvent::FocusIn)
@@ -288,7 +279,6 @@ bool pqFieldsWidget::eventFilter(QObject* cell, QEvent* event)
   return this->pqPropertyWidget::eventFilter(cell, event);
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::showRows()
 {
   constexpr int fewest = 2, most = 4; // rows without scrolling
@@ -359,7 +349,6 @@ void pqFieldsWidget::showRows()
   this->showFunction();
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::rangeEdited(int row)
 {
   if (row >= this->rows())
@@ -383,7 +372,6 @@ void pqFieldsWidget::rangeEdited(int row)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::showFunction()
 {
   const int row = this->rows() > 0 ? this->Table->currentRow() : -1;
@@ -405,7 +393,6 @@ void pqFieldsWidget::showFunction()
           .arg(this->Fields.value(row).toString()));
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::pointsMoved()
 {
   if (!this->Shown)
@@ -425,14 +412,12 @@ void pqFieldsWidget::pointsMoved()
   Q_EMIT this->changeAvailable();
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::readFunctions()
 {
   this->Functions.read();
   this->showRows();
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::apply()
 {
   this->Functions.write();
@@ -441,7 +426,6 @@ void pqFieldsWidget::apply()
   this->Functions.dropUnused();
 }
 
-//------------------------------------------------------------------------------
 void pqFieldsWidget::reset()
 {
   this->pqPropertyWidget::reset();

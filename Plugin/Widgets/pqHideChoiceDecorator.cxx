@@ -8,7 +8,6 @@
 #include <QComboBox>
 #include <QLabel>
 
-//------------------------------------------------------------------------------
 pqHideChoiceDecorator::pqHideChoiceDecorator(
   vtkPVXMLElement* element, pqPropertyWidget* parentObject)
   : pqPropertyWidgetDecorator(element, parentObject)
@@ -23,5 +22,4 @@ pqHideChoiceDecorator::pqHideChoiceDecorator(
   }
 }
 
-//------------------------------------------------------------------------------
 pqHideChoiceDecorator::~pqHideChoiceDecorator() = default;

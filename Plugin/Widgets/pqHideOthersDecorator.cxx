@@ -33,7 +33,6 @@ vtkSMProxy* ownerOf(const pqPropertyWidget* widget)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqHideOthersDecorator::pqHideOthersDecorator(
   vtkPVXMLElement* element, pqPropertyWidget* parentObject)
   : pqPropertyWidgetDecorator(element, parentObject)
@@ -51,5 +50,4 @@ pqHideOthersDecorator::pqHideOthersDecorator(
   }
 }
 
-//------------------------------------------------------------------------------
 pqHideOthersDecorator::~pqHideOthersDecorator() = default;

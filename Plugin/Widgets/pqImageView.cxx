@@ -22,7 +22,6 @@ constexpr int largeStep = 8;                     // times a step
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqImageView::pqImageView(bool isColorFilter, QWidget* parentObject)
   : QWidget(parentObject)
   , IsColorFilter(isColorFilter)
@@ -43,30 +42,25 @@ pqImageView::pqImageView(bool isColorFilter, QWidget* parentObject)
   }
 }
 
-//------------------------------------------------------------------------------
 pqImageView::~pqImageView() = default;
 
-//------------------------------------------------------------------------------
 QRect pqImageView::place() const
 {
   return this->IsColorFilter ? QRect(this->Margin, this->Margin, filterSide, filterSide)
                              : this->rect();
 }
 
-//------------------------------------------------------------------------------
 QPointF pqImageView::placeAt(const QPointF& pixel) const
 {
   const QPointF inside = (pixel - this->place().topLeft()) / (filterSide / 2.);
   return { inside.x() - 1, 1 - inside.y() };
 }
 
-//------------------------------------------------------------------------------
 QPointF pqImageView::pixelAt(const QPointF& place) const
 {
   return this->place().topLeft() + QPointF(1 + place.x(), 1 - place.y()) * (filterSide / 2.);
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::setImage(const QImage& image)
 {
   this->Image = image;
@@ -80,7 +74,6 @@ void pqImageView::setImage(const QImage& image)
   this->update();
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::setLight(const pqCutoffLight& light, double k)
 {
   this->Light = light;
@@ -89,14 +82,12 @@ void pqImageView::setLight(const pqCutoffLight& light, double k)
   this->update();
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::setBrushRadius(double radius)
 {
   this->BrushRadius = radius;
   this->update();
 }
 
-//------------------------------------------------------------------------------
 QImage pqImageView::shown() const
 {
   const double ratio = this->devicePixelRatioF();
@@ -124,7 +115,6 @@ QImage pqImageView::shown() const
   return image;
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
@@ -145,7 +135,6 @@ void pqImageView::paintEvent(QPaintEvent*)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::drawAxes(QPainter& painter) const
 {
   const QRect square = this->place();
@@ -171,7 +160,6 @@ void pqImageView::drawAxes(QPainter& painter) const
     Qt::AlignLeft | Qt::AlignVCenter, QString::fromUtf8("k ε\u1D64\n= 1"));
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::drawBrush(QPainter& painter) const
 {
   if (this->IsBrushShown)
@@ -186,7 +174,6 @@ void pqImageView::drawBrush(QPainter& painter) const
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::mousePressEvent(QMouseEvent* event)
 {
   if (this->IsColorFilter && event->button() == Qt::LeftButton)
@@ -198,7 +185,6 @@ void pqImageView::mousePressEvent(QMouseEvent* event)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::mouseMoveEvent(QMouseEvent* event)
 {
   if (this->IsColorFilter)
@@ -214,7 +200,6 @@ void pqImageView::mouseMoveEvent(QMouseEvent* event)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::mouseReleaseEvent(QMouseEvent* event)
 {
   if (this->IsDown && event->button() == Qt::LeftButton)
@@ -224,7 +209,6 @@ void pqImageView::mouseReleaseEvent(QMouseEvent* event)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::keyPressEvent(QKeyEvent* event)
 {
   QPointF direction;
@@ -266,7 +250,6 @@ void pqImageView::keyPressEvent(QKeyEvent* event)
   this->update();
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::leaveEvent(QEvent* event)
 {
   this->IsBrushShown = this->hasFocus();
@@ -274,14 +257,12 @@ void pqImageView::leaveEvent(QEvent* event)
   QWidget::leaveEvent(event);
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::focusInEvent(QFocusEvent* event)
 {
   this->IsBrushShown = true;
   QWidget::focusInEvent(event);
 }
 
-//------------------------------------------------------------------------------
 void pqImageView::focusOutEvent(QFocusEvent* event)
 {
   this->IsBrushShown = false;

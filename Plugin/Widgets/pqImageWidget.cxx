@@ -58,7 +58,6 @@ pqUndoStack* undoStack() { return pqApplicationCore::instance()->getUndoStack();
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqImageWidget::pqImageWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidget* parentObject)
   : pqPropertyWidget(smProxy, parentObject)
 {
@@ -99,10 +98,8 @@ pqImageWidget::pqImageWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWi
   this->addPropertyLink(this, "image", SIGNAL(imageChanged()), smProperty);
 }
 
-//------------------------------------------------------------------------------
 pqImageWidget::~pqImageWidget() = default;
 
-//------------------------------------------------------------------------------
 QAbstractButton* pqImageWidget::newButton(const char* name, const QString& text, const QString& tip)
 {
   auto* button = new QPushButton(text, this);
@@ -112,7 +109,6 @@ QAbstractButton* pqImageWidget::newButton(const char* name, const QString& text,
   return button;
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::addPainting(QGridLayout* grid)
 {
   this->Save = this->newButton("Save", tr("&Save..."), tr("Writes the filter to a PNG file."));
@@ -189,7 +185,6 @@ void pqImageWidget::addPainting(QGridLayout* grid)
   QObject::connect(this->Light, &QAbstractButton::toggled, this, &pqImageWidget::showLight);
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::followStrokes()
 {
   this->Pause.setSingleShot(true);
@@ -206,7 +201,6 @@ void pqImageWidget::followStrokes()
   QObject::connect(this->OnImage, &QAbstractButton::toggled, this, &pqImageWidget::paintOnImage);
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::setImage(const QString& image)
 {
   if (this->Image != image)
@@ -217,7 +211,6 @@ void pqImageWidget::setImage(const QString& image)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::showImage()
 {
   const bool isEmpty = this->Image.isEmpty();
@@ -246,7 +239,6 @@ void pqImageWidget::showImage()
   this->Note->setText(name.isEmpty() ? size : tr("%1: %2").arg(name, size));
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::showLight()
 {
   this->proxy()->UpdatePropertyInformation(this->proxy()->GetProperty("KScaleUsed"));
@@ -254,7 +246,6 @@ void pqImageWidget::showLight()
   this->View->setLight(this->Light->isChecked() ? this->Fetcher->light() : pqCutoffLight(), k);
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::beginStroke()
 {
   const QImage before = pqColorFilterImage::decoded(this->Image);
@@ -281,7 +272,6 @@ void pqImageWidget::beginStroke()
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::brush(const QVector<QPointF>& places)
 {
   if (this->IsPainting)
@@ -295,7 +285,6 @@ void pqImageWidget::brush(const QVector<QPointF>& places)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::showStroke()
 {
   const QString image = pqColorFilterImage::encoded(this->Canvas);
@@ -310,7 +299,6 @@ void pqImageWidget::showStroke()
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::endStroke()
 {
   if (!this->IsPainting)
@@ -332,7 +320,6 @@ void pqImageWidget::endStroke()
   this->showImage();
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::fill()
 {
   this->beginStroke();
@@ -351,7 +338,6 @@ void pqImageWidget::fill()
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::paintOnImage(bool on)
 {
   if (!on)
@@ -368,7 +354,6 @@ void pqImageWidget::paintOnImage(bool on)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::hideEvent(QHideEvent* event)
 {
   if (this->Painter)
@@ -378,7 +363,6 @@ void pqImageWidget::hideEvent(QHideEvent* event)
   this->pqPropertyWidget::hideEvent(event);
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::load()
 {
   pqFileDialog dialog(nullptr, pqCoreUtilities::mainWidget(), tr("Load Image"), QString(),
@@ -404,7 +388,6 @@ void pqImageWidget::load()
   this->setImage(pqColorFilterImage::encoded(image));
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::save()
 {
   pqFileDialog dialog(nullptr, pqCoreUtilities::mainWidget(), tr("Save Image"), QString(),
@@ -424,5 +407,4 @@ void pqImageWidget::save()
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageWidget::clear() { this->setImage(QString("")); } // a null string would not be sent

@@ -22,7 +22,6 @@ bool isValueInPanel(vtkSMProperty* property)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqKeepKDecorator::pqKeepKDecorator(vtkPVXMLElement* element, pqPropertyWidget* parentObject)
   : pqPropertyWidgetDecorator(element, parentObject)
   , WasValue(isValueInPanel(parentObject->property()))
@@ -34,10 +33,8 @@ pqKeepKDecorator::pqKeepKDecorator(vtkPVXMLElement* element, pqPropertyWidget* p
   }
 }
 
-//------------------------------------------------------------------------------
 pqKeepKDecorator::~pqKeepKDecorator() = default;
 
-//------------------------------------------------------------------------------
 void pqKeepKDecorator::onChoice()
 {
   vtkSMProperty* choice = this->parentWidget()->property();

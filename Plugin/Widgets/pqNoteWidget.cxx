@@ -17,7 +17,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 
-//------------------------------------------------------------------------------
 pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidget* parentObject)
   : pqPropertyWidget(smProxy, parentObject)
   , Label(new QLabel(this))
@@ -54,10 +53,8 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
   this->showText();
 }
 
-//------------------------------------------------------------------------------
 pqNoteWidget::~pqNoteWidget() = default;
 
-//------------------------------------------------------------------------------
 void pqNoteWidget::changeEvent(QEvent* event)
 {
   // Keeps the widget enabled, because disabled ones look like a line edit.
@@ -68,10 +65,8 @@ void pqNoteWidget::changeEvent(QEvent* event)
   pqPropertyWidget::changeEvent(event);
 }
 
-//------------------------------------------------------------------------------
 void pqNoteWidget::refresh() { this->proxy()->UpdatePropertyInformation(this->property()); }
 
-//------------------------------------------------------------------------------
 void pqNoteWidget::showText()
 {
   const QString text = QString::fromUtf8(vtkSMPropertyHelper(this->property(), true).GetAsString());

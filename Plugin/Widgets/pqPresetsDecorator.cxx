@@ -83,7 +83,6 @@ void showPreset(vtkSMProxy* filter, const BenchPreset& preset)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidget* parentObject)
   : pqPropertyWidgetDecorator(element, parentObject)
 {
@@ -121,5 +120,4 @@ pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidge
   appendToRow(parentObject, button);
 }
 
-//------------------------------------------------------------------------------
 pqPresetsDecorator::~pqPresetsDecorator() = default;

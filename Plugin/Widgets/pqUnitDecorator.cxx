@@ -49,7 +49,6 @@ QLabel* addLabel(pqPropertyWidget* property)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqUnitDecorator::pqUnitDecorator(vtkPVXMLElement* element, pqPropertyWidget* parentObject)
   : pqPropertyWidgetDecorator(element, parentObject)
   , Unit(QString::fromUtf8(element->GetAttributeOrEmpty("unit")))
@@ -57,10 +56,8 @@ pqUnitDecorator::pqUnitDecorator(vtkPVXMLElement* element, pqPropertyWidget* par
   parentObject->installEventFilter(this); // waits for the label
 }
 
-//------------------------------------------------------------------------------
 pqUnitDecorator::~pqUnitDecorator() = default;
 
-//------------------------------------------------------------------------------
 bool pqUnitDecorator::eventFilter(QObject* watched, QEvent* event)
 {
   if (event->type() == QEvent::Show)
@@ -71,7 +68,6 @@ bool pqUnitDecorator::eventFilter(QObject* watched, QEvent* event)
   return pqPropertyWidgetDecorator::eventFilter(watched, event);
 }
 
-//------------------------------------------------------------------------------
 void pqUnitDecorator::writeUnit()
 {
   QLabel* label = labelOf(this->parentWidget());

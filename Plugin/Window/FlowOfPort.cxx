@@ -28,19 +28,16 @@ void setStrings(vtkSMProxy* filter, const char* name, const std::vector<std::str
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isApplied(pqPipelineSource* source)
 {
   return source->modifiedState() != pqProxy::UNINITIALIZED;
 }
 
-//------------------------------------------------------------------------------
 QString notApplied(pqPipelineSource* source)
 {
   return "'" + source->getSMName() + "' has not been applied yet. Press Apply first.";
 }
 
-//------------------------------------------------------------------------------
 QString problemOfFlow(pqOutputPort* port)
 {
   if (!port)
@@ -66,13 +63,11 @@ QString problemOfFlow(pqOutputPort* port)
   return QString();
 }
 
-//------------------------------------------------------------------------------
 std::vector<FlowArray> arraysOfFlow(pqOutputPort* port)
 {
   return arraysOf(port->getDataInformation());
 }
 
-//------------------------------------------------------------------------------
 std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name)
 {
   vtkPVArrayInformation* array = port->getDataInformation()->GetArrayInformation(name, association);
@@ -84,7 +79,6 @@ std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const ch
   return { range[0], range[1] };
 }
 
-//------------------------------------------------------------------------------
 FlowDefaults completed(const std::vector<FlowArray>& arrays, Completion completion)
 {
   switch (completion)
@@ -99,7 +93,6 @@ FlowDefaults completed(const std::vector<FlowArray>& arrays, Completion completi
   return flowDefaults(arrays);
 }
 
-//------------------------------------------------------------------------------
 Completion offerFor(const std::vector<FlowArray>& arrays)
 {
   for (const Completion completion : { Completion::UniformPressure, Completion::Isentropic })
@@ -112,7 +105,6 @@ Completion offerFor(const std::vector<FlowArray>& arrays)
   return Completion::None;
 }
 
-//------------------------------------------------------------------------------
 void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
 {
   vtkSMPropertyHelper(filter, "IndexModel").Set(defaults.indexModel);

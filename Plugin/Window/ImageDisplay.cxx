@@ -49,7 +49,6 @@ void setMapScalars(vtkSMProxy* representation, int value)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void ImageDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 {
   const bool isColored = white(filter) == 0;
@@ -72,7 +71,6 @@ void ImageDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
   }
 }
 
-//------------------------------------------------------------------------------
 double ImageDisplay::white(vtkSMProxy* filter)
 {
   const int cutoff = valueOf(filter, "Cutoff");
@@ -82,7 +80,6 @@ double ImageDisplay::white(vtkSMProxy* filter)
   return isColored ? 0 : Filter::CutoffWhite(cutoff);
 }
 
-//------------------------------------------------------------------------------
 bool ImageDisplay::isApplied(vtkSMProxy* representation)
 {
   if (!representation->GetProperty("ColorArrayName") ||

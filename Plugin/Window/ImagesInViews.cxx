@@ -25,7 +25,6 @@ pqServerManagerModel* model() { return pqApplicationCore::instance()->getServerM
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool imagesInViews::isSchlieren(pqPipelineSource* source)
 {
   const char* name = source && source->getProxy() ? source->getProxy()->GetXMLName() : nullptr;
@@ -33,7 +32,6 @@ bool imagesInViews::isSchlieren(pqPipelineSource* source)
     source->getProxy()->GetProperty("PictureCount");
 }
 
-//------------------------------------------------------------------------------
 pqPipelineSource* imagesInViews::filterOf(pqPipelineSource* source)
 {
   if (!source || isSchlieren(source))
@@ -51,14 +49,12 @@ pqPipelineSource* imagesInViews::filterOf(pqPipelineSource* source)
   return nullptr;
 }
 
-//------------------------------------------------------------------------------
 vtkSMProxy* imagesInViews::benchOf(pqRepresentation* representation)
 {
   vtkSMProperty* bench = representation->getProxy()->GetProperty("SchlierenBench");
   return bench ? vtkSMPropertyHelper(bench).GetAsProxy() : nullptr;
 }
 
-//------------------------------------------------------------------------------
 bool imagesInViews::isDrawn(pqRepresentation* representation)
 {
   return representation->isVisible() && benchOf(representation) &&
@@ -66,7 +62,6 @@ bool imagesInViews::isDrawn(pqRepresentation* representation)
       "Schlieren") == 0;
 }
 
-//------------------------------------------------------------------------------
 QList<vtkSMProxy*> imagesInViews::benchesIn(pqView* view)
 {
   QList<vtkSMProxy*> benches;
@@ -80,7 +75,6 @@ QList<vtkSMProxy*> imagesInViews::benchesIn(pqView* view)
   return benches;
 }
 
-//------------------------------------------------------------------------------
 pqRenderView* imagesInViews::scene(pqOutputPort* flow)
 {
   QList<pqRenderView*> views = model()->findItems<pqRenderView*>(flow->getServer());
@@ -105,7 +99,6 @@ pqRenderView* imagesInViews::scene(pqOutputPort* flow)
   return found == views.end() ? nullptr : *found;
 }
 
-//------------------------------------------------------------------------------
 QList<pqPipelineSource*> imagesInViews::imagesIn(pqView* view)
 {
   QList<pqPipelineSource*> shown;
@@ -124,7 +117,6 @@ QList<pqPipelineSource*> imagesInViews::imagesIn(pqView* view)
   return shown;
 }
 
-//------------------------------------------------------------------------------
 bool imagesInViews::isFlat(pqView* view)
 {
   return vtkSMPropertyHelper(view->getProxy(), "InteractionMode", true).GetAsInt() ==

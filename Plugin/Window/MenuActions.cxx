@@ -34,7 +34,6 @@ QByteArray quoted(const QString& text)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 QString menuActions::saveFigure()
 {
   QObject* python = pqApplicationCore::instance()->manager("PYTHON_MANAGER");
@@ -57,7 +56,6 @@ QString menuActions::saveFigure()
     : "This ParaView does not run Python, which draws figures.";
 }
 
-//------------------------------------------------------------------------------
 QString menuActions::openExample()
 {
   pqServer* server = pqActiveObjects::instance().activeServer();

@@ -12,7 +12,6 @@
 
 #include <cstring>
 
-//------------------------------------------------------------------------------
 void copySettings(vtkSMProxy* from, vtkSMProxy* to)
 {
   auto properties = vtkSmartPointer<vtkSMPropertyIterator>::Take(to->NewPropertyIterator());
@@ -38,7 +37,6 @@ void copySettings(vtkSMProxy* from, vtkSMProxy* to)
   }
 }
 
-//------------------------------------------------------------------------------
 void useKOf(vtkSMProxy* from, vtkSMProxy* to)
 {
   const auto valueOf = [](vtkSMProxy* proxy, const char* name)

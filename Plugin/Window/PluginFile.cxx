@@ -8,7 +8,6 @@
 
 #include <cstring>
 
-//------------------------------------------------------------------------------
 QString pluginFile()
 {
   vtkPVPluginTracker* plugins = vtkPVPluginTracker::GetInstance();
@@ -23,7 +22,6 @@ QString pluginFile()
   return QString();
 }
 
-//------------------------------------------------------------------------------
 void traceLoading(pqServer* server)
 {
   const QString file = pluginFile();

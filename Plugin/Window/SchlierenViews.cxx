@@ -460,7 +460,6 @@ private:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 SchlierenViews::Result SchlierenViews::add(
   Arrangement arrangement, const Cell& cell, Completion completion)
 {
@@ -506,7 +505,6 @@ SchlierenViews::Result SchlierenViews::add(
   return result;
 }
 
-//------------------------------------------------------------------------------
 void SchlierenViews::show(pqPipelineSource* filter)
 {
   const auto inputs = qobject_cast<pqPipelineFilter*>(filter)->getInputs("Input");

@@ -81,7 +81,6 @@ void unlink(vtkSMCameraLink* cameras, const std::string& name, vtkSMProxy* view)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addUndoStep(std::function<void()> undo, std::function<void()> redo)
 {
   vtkNew<UndoStep> step;
@@ -90,7 +89,6 @@ void addUndoStep(std::function<void()> undo, std::function<void()> redo)
   ADD_UNDO_ELEM(step);
 }
 
-//------------------------------------------------------------------------------
 void keepActiveView()
 {
   pqView* active = pqActiveObjects::instance().activeView();
@@ -111,7 +109,6 @@ void keepActiveView()
   addUndoStep(activate, []() {});
 }
 
-//------------------------------------------------------------------------------
 void noteLayout(vtkSMViewLayoutProxy* layout, int cell)
 {
   SCOPED_UNDO_EXCLUDE();
@@ -122,21 +119,18 @@ void noteLayout(vtkSMViewLayoutProxy* layout, int cell)
   }
 }
 
-//------------------------------------------------------------------------------
 ProxyById::ProxyById(vtkSMProxy* proxy)
   : Session(proxy->GetSession())
   , Id(proxy->GetGlobalID())
 {
 }
 
-//------------------------------------------------------------------------------
 vtkSMProxy* ProxyById::get() const
 {
   return this->Session ? vtkSMProxy::SafeDownCast(this->Session->GetRemoteObject(this->Id))
                        : nullptr;
 }
 
-//------------------------------------------------------------------------------
 std::function<void()> cameraSetter(vtkSMRenderViewProxy* from, vtkSMProxy* to)
 {
   static const char* const names[] = { "CameraPosition", "CameraFocalPoint", "CameraViewUp",
@@ -166,7 +160,6 @@ std::function<void()> cameraSetter(vtkSMRenderViewProxy* from, vtkSMProxy* to)
   };
 }
 
-//------------------------------------------------------------------------------
 void linkCameras(pqRenderView* firstView, pqRenderView* secondView)
 {
   vtkSMProxy* first = firstView->getProxy();

@@ -101,7 +101,6 @@ void setOpacity(vtkSMProxy* opacity, const std::array<double, 2>& range, double 
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void showAsVolume(
   pqOutputPort* flow, pqRenderView* view, const FlowDefaults& defaults, vtkSMProxy* bench)
 {

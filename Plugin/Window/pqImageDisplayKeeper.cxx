@@ -30,7 +30,6 @@ constexpr const char* lastWhite = "SchlierenWhite";
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqImageDisplayKeeper::pqImageDisplayKeeper(QObject* parentObject)
   : QObject(parentObject)
 {
@@ -42,10 +41,8 @@ pqImageDisplayKeeper::pqImageDisplayKeeper(QObject* parentObject)
   }
 }
 
-//------------------------------------------------------------------------------
 pqImageDisplayKeeper::~pqImageDisplayKeeper() = default;
 
-//------------------------------------------------------------------------------
 void pqImageDisplayKeeper::watch(pqPipelineSource* source)
 {
   if (imagesInViews::isSchlieren(source))
@@ -67,7 +64,6 @@ void pqImageDisplayKeeper::watch(pqPipelineSource* source)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageDisplayKeeper::onFilterChanged(vtkObject* filter)
 {
   auto* proxy = static_cast<vtkSMProxy*>(filter);

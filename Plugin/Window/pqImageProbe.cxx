@@ -98,7 +98,6 @@ QString sliceInWords(pqRenderView* view, double right, double up)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqImageProbe::pqImageProbe(QObject* parentObject)
   : QObject(parentObject)
 {
@@ -110,7 +109,6 @@ pqImageProbe::pqImageProbe(QObject* parentObject)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageProbe::watch(pqView* view)
 {
   if (qobject_cast<pqRenderView*>(view) && view->widget())
@@ -122,7 +120,6 @@ void pqImageProbe::watch(pqView* view)
   }
 }
 
-//------------------------------------------------------------------------------
 bool pqImageProbe::eventFilter(QObject* object, QEvent* event)
 {
   auto* widget = qobject_cast<QWidget*>(object);

@@ -68,7 +68,6 @@ bool isForLater(QObject* receiver, QEvent* event)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqImageProgress::pqImageProgress(QObject* parentObject)
   : QObject(parentObject)
 {
@@ -92,10 +91,8 @@ pqImageProgress::pqImageProgress(QObject* parentObject)
   }
 }
 
-//------------------------------------------------------------------------------
 pqImageProgress::~pqImageProgress() = default;
 
-//------------------------------------------------------------------------------
 void pqImageProgress::watch(pqProxy* item)
 {
   auto* representation = qobject_cast<pqRepresentation*>(item);
@@ -108,7 +105,6 @@ void pqImageProgress::watch(pqProxy* item)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageProgress::show(const QString& what, int percent)
 {
   this->IsRefining = !what.isEmpty();
@@ -120,7 +116,6 @@ void pqImageProgress::show(const QString& what, int percent)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageProgress::enableAbort(pqProgressWidget* bar, bool isEnabled)
 {
   // Observes the button, whose signal ParaView 6.1 sends to nobody else.
@@ -129,7 +124,6 @@ void pqImageProgress::enableAbort(pqProgressWidget* bar, bool isEnabled)
   bar->enableAbort(isEnabled);
 }
 
-//------------------------------------------------------------------------------
 void pqImageProgress::abort()
 {
   if (this->Executing)
@@ -150,7 +144,6 @@ void pqImageProgress::abort()
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageProgress::letAbort(vtkObject* filter)
 {
   pqProgressWidget* bar = progressBar();
@@ -175,7 +168,6 @@ void pqImageProgress::letAbort(vtkObject* filter)
   this->SinceEvents.start();
 }
 
-//------------------------------------------------------------------------------
 bool pqImageProgress::eventFilter(QObject* receiver, QEvent* event)
 {
   pqProgressWidget* bar = progressBar();

@@ -70,20 +70,17 @@ QString statusOf(vtkSMProxy* filter)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool pqImageStatus::isShown()
 {
   return pqApplicationCore::instance()->settings()->value(settingName, true).toBool();
 }
 
-//------------------------------------------------------------------------------
 void pqImageStatus::setShown(bool isShown)
 {
   pqApplicationCore::instance()->settings()->setValue(settingName, isShown);
   pqApplicationCore::instance()->render();
 }
 
-//------------------------------------------------------------------------------
 pqImageStatus::pqImageStatus(QObject* parentObject)
   : QObject(parentObject)
 {
@@ -107,7 +104,6 @@ pqImageStatus::pqImageStatus(QObject* parentObject)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageStatus::watch(pqView* item)
 {
   if (auto* view = qobject_cast<pqRenderView*>(item))
@@ -119,7 +115,6 @@ void pqImageStatus::watch(pqView* item)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqImageStatus::show(pqRenderView* view)
 {
   QWidget* widget = view->widget();
@@ -162,7 +157,6 @@ void pqImageStatus::show(pqRenderView* view)
   }
 }
 
-//------------------------------------------------------------------------------
 bool pqImageStatus::eventFilter(QObject* object, QEvent* event)
 {
   auto* widget = qobject_cast<QWidget*>(object);

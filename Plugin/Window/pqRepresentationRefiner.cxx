@@ -109,7 +109,6 @@ private:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 pqRepresentationRefiner::pqRepresentationRefiner(QObject* parentObject)
   : QObject(parentObject)
 {
@@ -129,7 +128,6 @@ pqRepresentationRefiner::pqRepresentationRefiner(QObject* parentObject)
   }
 }
 
-//------------------------------------------------------------------------------
 pqRepresentationRefiner* pqRepresentationRefiner::instance()
 {
   static QPointer<pqRepresentationRefiner> refiner;
@@ -140,7 +138,6 @@ pqRepresentationRefiner* pqRepresentationRefiner::instance()
   return refiner;
 }
 
-//------------------------------------------------------------------------------
 void pqRepresentationRefiner::limit(pqRepresentation* representation)
 {
   vtkSMProxy* proxy = representation->getProxy();
@@ -151,7 +148,6 @@ void pqRepresentationRefiner::limit(pqRepresentation* representation)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqRepresentationRefiner::watch(pqView* view)
 {
   if (qobject_cast<pqRenderView*>(view))
@@ -160,7 +156,6 @@ void pqRepresentationRefiner::watch(pqView* view)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqRepresentationRefiner::refineLater(pqView* view)
 {
   if (isBeingTurned(view))
@@ -178,7 +173,6 @@ void pqRepresentationRefiner::refineLater(pqView* view)
   QTimer::singleShot(pauseMilliseconds, view, [this, view]() { this->refine(view); });
 }
 
-//------------------------------------------------------------------------------
 void pqRepresentationRefiner::refine(pqView* view)
 {
   if (!isBeingTurned(view) && !view->getServer()->isProcessingPending())
@@ -202,7 +196,6 @@ void pqRepresentationRefiner::refine(pqView* view)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqRepresentationRefiner::note(pqView* view, bool isUnfinished)
 {
   if (!isUnfinished)
@@ -216,7 +209,6 @@ void pqRepresentationRefiner::note(pqView* view, bool isUnfinished)
   this->report();
 }
 
-//------------------------------------------------------------------------------
 void pqRepresentationRefiner::report()
 {
   QList<vtkSMProxy*> benches;
@@ -247,7 +239,6 @@ void pqRepresentationRefiner::report()
     percent / static_cast<int>(benches.size()));
 }
 
-//------------------------------------------------------------------------------
 void pqRepresentationRefiner::stop()
 {
   for (pqView* view : std::exchange(this->Since, {}).keys())

@@ -11,13 +11,10 @@
 
 #include <QPointer>
 
-//------------------------------------------------------------------------------
 pqSchlierenStart::pqSchlierenStart() = default;
 
-//------------------------------------------------------------------------------
 pqSchlierenStart::~pqSchlierenStart() = default;
 
-//------------------------------------------------------------------------------
 void pqSchlierenStart::startup()
 {
   // Starts only one instance, even if the plugin is loaded again.

@@ -28,7 +28,6 @@
 #include <QStatusBar>
 #include <QTimer>
 
-//------------------------------------------------------------------------------
 pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
   : QToolBar("Schlieren", parentObject)
 {
@@ -61,7 +60,6 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
   QTimer::singleShot(0, this, [this]() { this->makeRoom(); });
 }
 
-//------------------------------------------------------------------------------
 pqSchlierenToolBar::~pqSchlierenToolBar()
 {
   if (pqApplicationCore* core = pqApplicationCore::instance())
@@ -70,7 +68,6 @@ pqSchlierenToolBar::~pqSchlierenToolBar()
   }
 }
 
-//------------------------------------------------------------------------------
 void pqSchlierenToolBar::frameConnected(pqViewFrame* frame, pqView* view)
 {
   if (!view)
@@ -79,7 +76,6 @@ void pqSchlierenToolBar::frameConnected(pqViewFrame* frame, pqView* view)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqSchlierenToolBar::addToEmpty(QWidget* frame)
 {
   // Inserts the button by its text among ParaView's.
@@ -119,7 +115,6 @@ void pqSchlierenToolBar::addToEmpty(QWidget* frame)
     Qt::QueuedConnection); // the button is deleted with the empty cell
 }
 
-//------------------------------------------------------------------------------
 QAction* pqSchlierenToolBar::addArrangement(const char* name, const QString& text,
   const QString& hint, SchlierenViews::Arrangement arrangement)
 {
@@ -137,7 +132,6 @@ QAction* pqSchlierenToolBar::addArrangement(const char* name, const QString& tex
   return action;
 }
 
-//------------------------------------------------------------------------------
 void pqSchlierenToolBar::addMenu()
 {
   auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
@@ -174,7 +168,6 @@ void pqSchlierenToolBar::addMenu()
   window->menuBar()->insertMenu(menus.empty() ? nullptr : menus.last(), menu);
 }
 
-//------------------------------------------------------------------------------
 void pqSchlierenToolBar::add(
   SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell, Completion completion)
 {
@@ -197,7 +190,6 @@ void pqSchlierenToolBar::add(
   this->showResult(result);
 }
 
-//------------------------------------------------------------------------------
 QMessageBox* pqSchlierenToolBar::message()
 {
   if (!this->Message)
@@ -209,7 +201,6 @@ QMessageBox* pqSchlierenToolBar::message()
   return this->Message;
 }
 
-//------------------------------------------------------------------------------
 void pqSchlierenToolBar::showExample()
 {
   const QString problem = menuActions::openExample();
@@ -221,7 +212,6 @@ void pqSchlierenToolBar::showExample()
   this->showResult({ false, true, problem });
 }
 
-//------------------------------------------------------------------------------
 void pqSchlierenToolBar::makeRoom()
 {
   auto* window = qobject_cast<QMainWindow*>(this->parentWidget());
@@ -238,7 +228,6 @@ void pqSchlierenToolBar::makeRoom()
   }
 }
 
-//------------------------------------------------------------------------------
 void pqSchlierenToolBar::showResult(const SchlierenViews::Result& result)
 {
   if (!result.isMade && result.message.isEmpty())
@@ -274,7 +263,6 @@ void pqSchlierenToolBar::showResult(const SchlierenViews::Result& result)
   }
 }
 
-//------------------------------------------------------------------------------
 void pqSchlierenToolBar::updateActions()
 {
   const bool hasSource = pqActiveObjects::instance().activeSource() != nullptr;

@@ -13,16 +13,16 @@ from frame import Frame
 grid = os.path.join(DATA, "bluntfin_plot3d", "bluntfinxyz.bin")
 path = os.path.abspath("fin.png")
 code, out, err = run_demo(grid, "--density-scale", "0.72", "--length-scale", "0.0127",
-                          "--center", "1.5,2.5,2.8", "--half-height", "2.5", "--size", "400x250",
+                          "--center", "1.5,2.5,2.8", "--half-height", "2.5", "--size", "200x125",
                           "--output", path)
 assert code == 0, f"Exit code {code}"
 assert out.splitlines()[-1].endswith(f"The image: {path}"), "It does not say where the image is"
 assert "bluntfinq.bin" in out and "'Density'" in out, "It does not say what it reads"
 
-options = SimpleNamespace(view=VIEWS["z"], center=[1.5, 2.5, 2.8], size=(400, 250),
+options = SimpleNamespace(view=VIEWS["z"], center=[1.5, 2.5, 2.8], size=(200, 125),
                           half_height=2.5)
 frame = Frame((-7.8157473, 14.3622036, 0, 8.3275585, 0, 5.7242513), options)
-assert np.isclose(frame.left, -2.5) and np.isclose(frame.pixel, 0.02)
+assert np.isclose(frame.left, -2.5) and np.isclose(frame.pixel, 0.04)
 volume, vertical, horizontal, shadow = tiles(path, frame)
 check_not_blank(volume, vertical, horizontal, shadow)
 

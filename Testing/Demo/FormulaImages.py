@@ -12,12 +12,12 @@ from frame import Frame
 
 case = os.path.join(DATA, "ladenburg_openfoam", "ladenburg.foam")
 path = os.path.abspath("wedge.png")
-code, out, err = run_demo(case, "--formula", "p/(287.1*T)", "--size", "480x160",
+code, out, err = run_demo(case, "--formula", "p/(287.1*T)", "--size", "240x80",
                           "--set", "Outside=Passes", "--set", "ScreenDistance=0.2",
                           "--output", path)
 assert code == 0, f"Exit code {code}"
 
-options = SimpleNamespace(view=VIEWS["z"], center=None, size=(480, 160), half_height=None)
+options = SimpleNamespace(view=VIEWS["z"], center=None, size=(240, 80), half_height=None)
 frame = Frame((0, 0.03, 0, 0.01, -4.366e-4, 4.366e-4), options)
 volume, vertical, horizontal, shadow = tiles(path, frame)
 check_not_blank(volume, vertical, horizontal, shadow)

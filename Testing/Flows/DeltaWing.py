@@ -20,7 +20,7 @@ wing.UpdatePipeline()
 # From behind, along the chord: the right of the image is +y, the starboard half as computed.
 schlieren = Schlieren(wing, Density=["POINTS", "Density"], GladstoneDaleConstant=K,
                       DensityScale=DENSITY, AmbientRefractivity=K * DENSITY,
-                      **EVERY_VOXEL, ImageSize=[320, 240], ViewDirection=[-1, 0, 0],
+                      **EVERY_VOXEL, ImageSize=[160, 120], ViewDirection=[-1, 0, 0],
                       ViewUp=[0, 0, 1], FocalPoint=[0.5, 0, 0.2], ParallelScale=0.6)
 y, z = coordinates(schlieren)
 path = image_array(schlieren, "OpticalPathDifference")
@@ -29,7 +29,7 @@ deflection = image_array(schlieren, "Deflection")
 # Sums along rays that VTK takes through the half that was computed. The wing is a sheet without
 # thickness at z = 0, on which the density jumps and which stops light: two voxels from there.
 data = one_dataset(half)
-rows, columns = [index.ravel() for index in np.mgrid[4:240:8, 164:320:8]]
+rows, columns = [index.ravel() for index in np.mgrid[2:120:4, 82:160:4]]
 apart = abs(z[rows]) > 0.07
 rows, columns = rows[apart], columns[apart]
 begin = np.stack([np.full(rows.size, -0.8), y[columns], z[rows]], axis=1)

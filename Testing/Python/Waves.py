@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Laser light: a sphere's shadow with the bright spot in its middle, phase contrast, filters and interferograms."""
+"""Laser light: a sphere's shadow with the bright spot in its middle, and what the view's line says of waves."""
 
 import math
 
@@ -85,77 +85,31 @@ shadow.Cutoff = "Color Filter"
 output(shadow)
 assert "of which no waves are made" in status_of(shadow), status_of(shadow)
 
-# In focus: a column of 3.4 rad, 1/e half width 0.6 mm, behind plates and filters, and with a reference beam.
+# What the view's line says of other techniques.
 column = Schlieren(Input=gaussian_column(96), Density=["POINTS", "N"], IndexModel="Refractivity", IndexArray=["POINTS", "N"],
                    AmbientRefractivity=0, LengthScale=2e-3, Wavelength=1e9 * WAVELENGTH, ParallelScale=0.8,
-                   ImageSize=[128, 128], Quality="Publication", LightModel="Waves")
-
-
-def difference(values, exact):
-    """The root of the mean square of what two images differ by."""
-    return float(np.sqrt(np.mean((values - exact)**2)))
-
-
-column.Cutoff = "Phase Contrast"
-for delay, transmission, inverted in ((0.25, 1, 0), (-0.25, 0.1, 0), (0.25, 0, 0), (0.125, 0.5, 1)):
-    column.PhasePlateDelay, column.PhasePlateTransmission, column.InvertCutoff = delay, transmission, inverted
-    seen = image_array(column, "Intensity")
-    phase = np.exp(2j * math.pi * image_array(column, "OpticalPathDifference") / WAVELENGTH)
-    plate = math.sqrt(transmission) * np.exp(2j * math.pi * delay)
-    truth = np.abs(1 + plate * (phase - 1))**2 if inverted else np.abs(plate + phase - 1)**2
-    print(f"phase contrast {delay}, {transmission}: {difference(seen, truth):.1e}")
-    assert difference(seen, truth) < 5e-3
-    assert np.ptp(truth) > 0.5
-    level = output(column).GetFieldData().GetArray("UndisturbedLevel").GetValue(0)
-    assert abs(level - (1 if inverted else transmission)) < 1e-9, level
-assert "rays do not show phases" in status_of(column), status_of(column)
-
-# A stop and an aperture of 5 mm, 1 m focal length, are wider than what the column bends light by.
-column.PhasePlateTransmission, column.PhasePlateDiameter, column.InvertCutoff = 0, 5, 0
-stopped = image_array(column, "Intensity")
-column.InvertCutoff = 1
-passed = image_array(column, "Intensity")
-stopped, passed = stopped[48:80], passed[48:80]  # away from where the data end
-print(f"stop {stopped.max():.1e}, aperture {difference(passed, 1):.1e}")
-assert stopped.max() < 0.02 and difference(passed, 1) < 0.02
-column.PhasePlateDiameter = 0.3
-assert image_array(column, "Intensity")[64].min() < 0.5, "The flanks bend light beside the aperture"
-column.InvertCutoff = 0
-
-for cutoff, settings, most in (("Graded Filter", {"KMode": "Value", "KScale": 300}, 5e-3), ("Interferogram", {}, 3e-3),
-                               ("Interferogram", {"FringeSpacing": 0.1, "FringeAngle": 60}, 3e-3)):
+                   ImageSize=[64, 64], LightModel="Waves", SamplesPerPixel=4)
+for cutoff, words in (("Phase Contrast", "rays do not show phases"), ("Graded Filter", "waves"), ("Interferogram", "waves"),
+                      ("Circular", "several wavelengths")):
     column.Cutoff = cutoff
-    for key, value in settings.items():
-        setattr(column, key, value)
-    column.LightModel = "Waves"
-    waves = image_array(column, "Intensity")
-    assert "waves" in status_of(column), status_of(column)
-    column.LightModel = "Rays"
-    rays = image_array(column, "Intensity")
-    print(f"{cutoff}: {difference(waves, rays):.1e}")
-    assert difference(waves, rays) < most
-    assert np.ptp(rays) > 0.2
+    output(column)
+    assert words in status_of(column), status_of(column)
+
+# The plate is the one that is set.
+column.Cutoff, column.PhasePlateDelay, column.PhasePlateTransmission = "Phase Contrast", -0.25, 0.1
+column.Quality = "Publication"
+seen = image_array(column, "Intensity")
+phase = np.exp(2j * math.pi * image_array(column, "OpticalPathDifference") / WAVELENGTH)
+truth = np.abs(math.sqrt(0.1) * np.exp(-0.5j * math.pi) + phase - 1)**2
+assert np.ptp(truth) > 0.5 and np.sqrt(np.mean((seen - truth)**2)) < 1e-2, np.sqrt(np.mean((seen - truth)**2))
 
 # A preview has no waves, and says so.
 column.LightModel = "Waves"
+column.Cutoff = "Interferogram"
 column.GetClientSideObject().SetPreviewReduction(4)
 output(column)
 assert status_of(column).startswith("Preview: rays as yet, "), status_of(column)
 column.GetClientSideObject().SetPreviewReduction(1)
-
-# Stops whose light depends on |deflection| show the square of a weak phase, and of a strong one what rays do.
-for cutoff in ("Circular", "Circular Complement"):
-    column.Cutoff = cutoff
-    column.LightModel = "Rays"
-    rays = image_array(column, "Intensity")
-    column.LightModel, column.SourceShape = "Waves", "Point"
-    laser = image_array(column, "Intensity")
-    column.SourceShape, column.SourceWidth = "Disc", 1
-    disc = image_array(column, "Intensity")
-    print(f"{cutoff}: {difference(laser, rays):.2f}, {difference(laser, disc):.2f}")
-    assert 0.01 < difference(laser, rays) < 0.3
-    assert difference(laser, disc) > 0.01
-    assert "several wavelengths" in status_of(column), status_of(column)
 
 # What waves cannot do is one message.
 flow = Schlieren(Input=gaussian_column(16), Density=["POINTS", "rho"], ImageSize=[32, 32], LightModel="Waves",

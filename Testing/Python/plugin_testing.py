@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the plugin share: the plugin, loaded, and a Gaussian column to look through."""
 
-import math
 import os
 from importlib import import_module
 
@@ -58,14 +57,6 @@ def gaussian_column(points=128):
     return reader
 
 
-def one_ray_per_pixel(bench, pixels=64):
-    """Rays at the pixels' centres only, in vacuum, so that the closed form holds for every pixel."""
-    bench.ImageSize = [pixels, pixels]
-    simple.SetProperties(bench, **EVERY_VOXEL)
-    bench.AmbientRefractivity = 0
-    bench.ParallelScale = 0.9
-
-
 def output(bench):
     """The updated output, as a vtkImageData of this process."""
     bench.UpdatePipeline()
@@ -84,19 +75,6 @@ def image_array(bench, name):
 def is_empty(bench):
     image = output(bench)
     return image.GetNumberOfPoints() == 0 and image.GetPointData().GetNumberOfArrays() == 0
-
-
-def column_errors(bench):
-    """The largest errors of deflection and optical path, relative to their largest values, seen along z."""
-    image = output(bench)
-    x = image.GetOrigin()[0] + np.arange(image.GetDimensions()[0]) * image.GetSpacing()[0]
-    gauss = AMPLITUDE * np.exp(-(x / RADIUS)**2)
-    deflection = -2 * math.sqrt(math.pi) * x / RADIUS * gauss
-    path = math.sqrt(math.pi) * RADIUS * gauss
-    seen = image_array(bench, "Deflection")
-    return (max(np.abs(seen[..., 0] - deflection).max(), np.abs(seen[..., 1]).max())
-            / np.abs(deflection).max(),
-            np.abs(image_array(bench, "OpticalPathDifference") - path).max() / path.max())
 
 
 def comes_back(state, script, check):

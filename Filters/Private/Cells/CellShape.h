@@ -54,17 +54,8 @@ inline CellShape shapeOf(int type)
 
 constexpr int cornersOf(CellShape shape)
 {
-  switch (shape)
-  {
-    case CellShape::Tetrahedron:
-      return 4;
-    case CellShape::Wedge:
-      return 6;
-    case CellShape::Pyramid:
-      return 5;
-    default:
-      return 8;
-  }
+  constexpr int corners[] = { 4, 6, 5, 8, 8, 8 }; // in their order; of others, the most
+  return corners[static_cast<int>(shape)];
 }
 
 /// Coefficients of 1, u, v, w, uv, vw, uw and uvw: coordinates from the middle of the cell.

@@ -85,7 +85,7 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
     }
   }
   mesh->firstNumbers.push_back(static_cast<Number>(cells));
-  this->addBlocks(blocks);
+  this->Blocks = std::vector<MeshArrays>(blocks.begin(), blocks.end());
   this->findCells(*mesh, copies, progress.part(0, 0.1));
   if (reconstruction != Reconstruction::Linear)
   {
@@ -100,19 +100,10 @@ CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, Reconstruction recons
 
 CellTree::CellTree(const std::vector<vtkDataSet*>& blocks, std::shared_ptr<const Mesh> mesh,
   const WorkProgress& progress)
-  : Sorted(std::move(mesh))
+  : Blocks(blocks.begin(), blocks.end())
+  , Sorted(std::move(mesh))
 {
-  this->addBlocks(blocks);
   this->setValues(progress);
-}
-
-void CellTree::addBlocks(const std::vector<vtkDataSet*>& blocks)
-{
-  this->Blocks.reserve(blocks.size());
-  for (vtkDataSet* block : blocks)
-  {
-    this->Blocks.emplace_back(block);
-  }
 }
 
 CellTree::Cell CellTree::cell(Number number) const

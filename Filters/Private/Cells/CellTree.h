@@ -225,7 +225,6 @@ private:
 
   static std::array<float, 3> floatSizeOf(const Cell& cell);
   static Bounds boundsOf(const Cell& cell);
-  void addBlocks(const std::vector<vtkDataSet*>& blocks);
   Steps stepsOf(const Bounds& box) const;
   void findCells(Mesh& mesh, Copies copies, const WorkProgress& progress);
   void findNeighbours(Mesh& mesh, const WorkProgress& progress);

@@ -60,7 +60,6 @@ std::string inWords(double bytes)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 double availableMemory()
 {
   constexpr double kibibyte = 1024;
@@ -76,7 +75,6 @@ double availableMemory()
   return available;
 }
 
-//------------------------------------------------------------------------------
 void requireMemory(double bytes, const std::string& what, const std::string& remedy)
 {
   if (!fits(bytes))
@@ -88,7 +86,6 @@ void requireMemory(double bytes, const std::string& what, const std::string& rem
   }
 }
 
-//------------------------------------------------------------------------------
 void setTuples(vtkAbstractArray* array, vtkIdType tuples)
 {
   if (!fits(

@@ -31,7 +31,6 @@ vtkUnsignedCharArray* bytesOf(vtkImageData* image, const char* name)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 schlieren::Grid gridFrom(vtkImageData* image)
 {
   schlieren::Grid grid;
@@ -45,7 +44,6 @@ schlieren::Grid gridFrom(vtkImageData* image)
   return grid;
 }
 
-//------------------------------------------------------------------------------
 schlieren::Field fieldFrom(vtkImageData* refractivity)
 {
   vtkDataArray* values = refractivity->GetPointData()->GetArray("Refractivity");
@@ -65,7 +63,6 @@ schlieren::Field fieldFrom(vtkImageData* refractivity)
   return field;
 }
 
-//------------------------------------------------------------------------------
 void mergeMasks(vtkImageData* refractivity)
 {
   vtkPointData* arrays = refractivity->GetPointData();

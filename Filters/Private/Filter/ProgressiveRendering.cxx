@@ -43,7 +43,6 @@ void requireMemoryFor(const schlieren::View& view, bool isColored, bool hasBackg
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::Refine()
 {
   Internals& inside = *this->Inside;
@@ -75,7 +74,6 @@ void vtkSchlierenFilter::Refine()
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::RefineOnRank0()
 {
   Internals& inside = *this->Inside;
@@ -95,7 +93,6 @@ bool vtkSchlierenFilter::RefineOnRank0()
   return this->TimeLimit > 0 ? this->WorkOn() : !this->GetFinished();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::Stop()
 {
   Internals& inside = *this->Inside;
@@ -106,23 +103,19 @@ void vtkSchlierenFilter::Stop()
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::GetStopped()
 {
   return this->Inside->StoppedOf != 0 && this->Inside->StoppedOf == this->GetTimeOfImage();
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::GetHasImage() { return this->Inside->HasImage; }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::GetPercentDone()
 {
   const int percent = static_cast<int>(100 * this->Inside->Done);
   return this->GetFinished() && !this->GetStopped() ? 100 : std::min(percent, 99);
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::WorkOn()
 {
   Internals& inside = *this->Inside;
@@ -150,7 +143,6 @@ bool vtkSchlierenFilter::WorkOn()
   return std::exchange(inside.UnfinishedOf, 0) != 0; // then there will be another image
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
 {
   Internals& inside = *this->Inside;
@@ -164,16 +156,13 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     this->UseOwnRanks();
 }
 
-//------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetPictureCount() const
 {
   return this->PictureCount + (this->Inside->Ready ? 1 : 0);
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::GetFinished() { return this->Inside->UnfinishedOf == 0; }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::Continues(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
@@ -183,7 +172,6 @@ bool vtkSchlierenFilter::Continues(vtkDataObject* input, vtkDataObject* bodies)
     this->UseOwnRanks();
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, bool continues)
 {
   Internals& inside = *this->Inside;
@@ -194,7 +182,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     this->Inside->Done = fraction;
     if (!(this->TimeLimit > 0)) // else it would flicker
     {
-      this->Progress(mediumFraction + (1 - mediumFraction) * fraction);
+      this->UpdateProgress(mediumFraction + (1 - mediumFraction) * fraction);
     }
   };
   std::optional<schlieren::Image> ready = std::exchange(inside.Ready, std::nullopt);
@@ -221,7 +209,6 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
   return this->Show(this->Begin(false, this->TimeLimit, monitor), output, histogram);
 }
 
-//------------------------------------------------------------------------------
 ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
   std::vector<double> medium, std::vector<double> rays)
 {
@@ -231,7 +218,6 @@ ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
   return { inside.Time, inside.Input, std::move(properties), std::move(medium), std::move(rays) };
 }
 
-//------------------------------------------------------------------------------
 std::optional<double> vtkSchlierenFilter::KeptK()
 {
   if (!choosesK(*this))
@@ -246,7 +232,6 @@ std::optional<double> vtkSchlierenFilter::KeptK()
       settingsOfRays(*this)));
 }
 
-//------------------------------------------------------------------------------
 std::optional<double> vtkSchlierenFilter::KeptAmbient()
 {
   this->Inside->AmbientLock.For(K_AUTOMATIC, this->CircumstancesOf({}, {}));
@@ -254,7 +239,6 @@ std::optional<double> vtkSchlierenFilter::KeptAmbient()
   return this->Inside->AmbientLock.GetKept();
 }
 
-//------------------------------------------------------------------------------
 schlieren::Image vtkSchlierenFilter::Begin(
   bool isPreview, double seconds, const schlieren::Monitor& monitor)
 {
@@ -293,7 +277,6 @@ schlieren::Image vtkSchlierenFilter::Begin(
   return inside.Images.Begin(field, scene, seconds, monitor);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::KeepFound(const schlieren::Image& image)
 {
   Internals& inside = *this->Inside;
@@ -307,7 +290,6 @@ void vtkSchlierenFilter::KeepFound(const schlieren::Image& image)
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::Show(
   schlieren::Image&& image, vtkImageData* output, vtkImageData* histogram)
 {

@@ -52,7 +52,6 @@ void print(ostream& os, const Value& value)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -77,7 +76,6 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TotalRaysTraced: " << this->GetTotalRaysTraced() << "\n";
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetFocalPoint(double x, double y, double z)
 {
   const double point[3] = { x, y, z };
@@ -89,7 +87,6 @@ void vtkSchlierenFilter::SetFocalPoint(double x, double y, double z)
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::ClearFocalPoint()
 {
   if (this->HasFocalPoint)
@@ -100,7 +97,6 @@ void vtkSchlierenFilter::ClearFocalPoint()
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetGradedFilter(vtkPiecewiseFunction* function)
 {
   if (this->GradedFilter != function)
@@ -110,17 +106,14 @@ void vtkSchlierenFilter::SetGradedFilter(vtkPiecewiseFunction* function)
   }
 }
 
-//------------------------------------------------------------------------------
 vtkPiecewiseFunction* vtkSchlierenFilter::GetGradedFilter() const { return this->GradedFilter; }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetWavelength(double wavelength)
 {
   this->SchlierenSettings::Wavelength = wavelength;
   this->Superclass::SetWavelength(wavelength);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetCutoff(int cutoff)
 {
   cutoff = std::clamp(cutoff, 0, static_cast<int>(schlieren::techniques.size()) - 1);
@@ -131,34 +124,27 @@ void vtkSchlierenFilter::SetCutoff(int cutoff)
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::CutoffHasK(int cutoff) { return techniqueOf(cutoff).hasK(); }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::CutoffHasEdge(int cutoff) { return techniqueOf(cutoff).hasEdge; }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::CutoffHasFringes(int cutoff) { return techniqueOf(cutoff).hasFringes; }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::CutoffHasScreen(int cutoff)
 {
   return techniqueOf(cutoff).plane == schlieren::RecordedPlane::Screen;
 }
 
-//------------------------------------------------------------------------------
 double vtkSchlierenFilter::CutoffWhite(int cutoff)
 {
   return CutoffHasScreen(cutoff) || cutoff == PHASE_CONTRAST ? 2 : 1;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::CutoffHasBackground(int cutoff)
 {
   return techniqueOf(cutoff).plane == schlieren::RecordedPlane::Background;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::CutoffHasColor(int cutoff, bool whiteLight, int backgroundPattern)
 {
   switch (techniqueOf(cutoff).coloring)
@@ -175,7 +161,6 @@ bool vtkSchlierenFilter::CutoffHasColor(int cutoff, bool whiteLight, int backgro
   return false;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetBackgroundScene(vtkImageData* image, double distance)
 {
   BackgroundScene& scene = this->Inside->Scene;
@@ -207,7 +192,6 @@ void vtkSchlierenFilter::SetBackgroundScene(vtkImageData* image, double distance
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetPupil(double diameter, double focusDistance)
 {
   schlieren::Lens& pupil = this->Inside->Pupil;
@@ -219,13 +203,11 @@ void vtkSchlierenFilter::SetPupil(double diameter, double focusDistance)
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::HasOwnColor() const
 {
   return CutoffHasColor(this->Cutoff, this->WhiteLight, this->BackgroundPattern);
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetQuality(int quality)
 {
   if (quality < INTERACTIVE || quality >= CUSTOM)
@@ -245,7 +227,6 @@ void vtkSchlierenFilter::SetQuality(int quality)
   }
 }
 
-//------------------------------------------------------------------------------
 int vtkSchlierenFilter::GetQuality()
 {
   int quality = INTERACTIVE;
@@ -259,14 +240,12 @@ int vtkSchlierenFilter::GetQuality()
   return quality;
 }
 
-//------------------------------------------------------------------------------
 const char* vtkSchlierenFilter::GetQualitySetting(int number)
 {
   const auto index = static_cast<std::size_t>(number);
   return index < qualitySettings.size() ? qualitySettings[index].Property : nullptr;
 }
 
-//------------------------------------------------------------------------------
 double vtkSchlierenFilter::GetQualityValue(int quality, int number)
 {
   const auto index = static_cast<std::size_t>(number);
@@ -275,7 +254,6 @@ double vtkSchlierenFilter::GetQualityValue(int quality, int number)
     : 0;
 }
 
-//------------------------------------------------------------------------------
 double vtkSchlierenFilter::GetQualityError(int quality, int cutoff)
 {
   const QualityError error = errorOf(quality);
@@ -285,10 +263,8 @@ double vtkSchlierenFilter::GetQualityError(int quality, int cutoff)
                                                               : error.Light;
 }
 
-//------------------------------------------------------------------------------
 double vtkSchlierenFilter::GetQualityTime(int quality) { return errorOf(quality).Time; }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetPrecision(int precision)
 {
   precision = std::clamp<int>(precision, SINGLE, DOUBLE);
@@ -300,40 +276,34 @@ void vtkSchlierenFilter::SetPrecision(int precision)
   }
 }
 
-//------------------------------------------------------------------------------
 const char* vtkSchlierenFilter::GetGrid() const
 {
   const MadeRefractivity& made = *this->Inside->Refractivity;
   return made.Source ? this->Inside->Grid.c_str() : made.Grid.c_str();
 }
 
-//------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetMediumBuilds()
 {
   return this->Inside->Images.GetWork().mediumBuilds;
 }
 
-//------------------------------------------------------------------------------
 vtkTypeInt64 vtkSchlierenFilter::GetTotalRaysTraced()
 {
   return this->Inside->Images.GetWork().raysTraced;
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetProbedPlace(double right, double up)
 {
   this->ProbedPlace[0] = right;
   this->ProbedPlace[1] = up;
 }
 
-//------------------------------------------------------------------------------
 const char* vtkSchlierenFilter::GetProbedPlace()
 {
   this->Probed = pixelInWords(this->GetOutput(), this->ProbedPlace[0], this->ProbedPlace[1]);
   return this->Probed.c_str();
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetLockedK(double k)
 {
   if (k != this->GetLockedK())
@@ -343,17 +313,14 @@ void vtkSchlierenFilter::SetLockedK(double k)
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::FitK()
 {
   this->Inside->KLock.Drop();
   this->Modified();
 }
 
-//------------------------------------------------------------------------------
 double vtkSchlierenFilter::GetLockedK() const { return this->Inside->KLock.GetKept().value_or(0); }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::SetLockedAmbient(double ambient)
 {
   if (ambient != this->GetLockedAmbient())
@@ -363,7 +330,6 @@ void vtkSchlierenFilter::SetLockedAmbient(double ambient)
   }
 }
 
-//------------------------------------------------------------------------------
 double vtkSchlierenFilter::GetLockedAmbient() const
 {
   return this->Inside->AmbientLock.GetKept().value_or(0);

@@ -35,7 +35,6 @@ void addBodies(std::vector<double>& description, vtkAlgorithm* filter, vtkDataOb
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtkDataObject* bodies)
 {
   InputsOfRanks& ranks = this->Inside->Ranks;
@@ -48,7 +47,6 @@ std::vector<double> vtkSchlierenFilter::DescribeInputs(vtkDataObject* input, vtk
   return description;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::IsLargeImage(vtkDataObject* input) const
 {
   auto* image = vtkImageData::SafeDownCast(input);
@@ -58,7 +56,6 @@ bool vtkSchlierenFilter::IsLargeImage(vtkDataObject* input) const
   return bytes > static_cast<double>(this->MediumMemory) * (1 << 20);
 }
 
-//------------------------------------------------------------------------------
 std::vector<double> vtkSchlierenFilter::DescribePieces(vtkDataObject* input, vtkDataObject* bodies)
 {
   // Rank 0 may have none of the data.
@@ -72,7 +69,6 @@ std::vector<double> vtkSchlierenFilter::DescribePieces(vtkDataObject* input, vtk
   return description;
 }
 
-//------------------------------------------------------------------------------
 const Choice& vtkSchlierenFilter::Chosen(vtkDataObject* input)
 {
   std::optional<Choice>& chosen = this->Inside->Chosen;
@@ -83,7 +79,6 @@ const Choice& vtkSchlierenFilter::Chosen(vtkDataObject* input)
   return *chosen;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
@@ -114,13 +109,11 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   return true;
 }
 
-//------------------------------------------------------------------------------
 bool vtkSchlierenFilter::UseOwnRanks()
 {
   return this->Inside->Ranks.use(this->Inside->Refractivity->Source.get());
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivity(
   vtkDataObject* input, vtkDataObject* bodies, const std::vector<double>& description)
 {
@@ -147,7 +140,6 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   return made;
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   vtkDataObject* input, vtkDataObject* bodies)
 {
@@ -192,7 +184,6 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
 {
   Internals& inside = *this->Inside;

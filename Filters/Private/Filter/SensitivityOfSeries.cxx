@@ -35,7 +35,6 @@ std::vector<double> spread(const std::vector<double>& times, std::size_t most)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void vtkSchlierenFilter::FitKOverSeries()
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;

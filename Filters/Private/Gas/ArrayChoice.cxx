@@ -92,7 +92,6 @@ std::string inWords(const MediumSettings& settings)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void KnownArrays::Note(std::vector<FlowArray> arrays)
 {
   if (!this->AreAll)
@@ -101,14 +100,12 @@ void KnownArrays::Note(std::vector<FlowArray> arrays)
   }
 }
 
-//------------------------------------------------------------------------------
 void KnownArrays::SetOfRanks(std::vector<FlowArray> arrays)
 {
   this->Arrays = std::move(arrays);
   this->AreAll = true;
 }
 
-//------------------------------------------------------------------------------
 void addArrays(std::vector<FlowArray>& all, const std::vector<FlowArray>& more)
 {
   for (const FlowArray& array : more)
@@ -127,7 +124,6 @@ void addArrays(std::vector<FlowArray>& all, const std::vector<FlowArray>& more)
   }
 }
 
-//------------------------------------------------------------------------------
 std::vector<FlowArray> flowArraysOf(const std::vector<vtkDataSet*>& data, bool hasRanges)
 {
   std::vector<FlowArray> all;
@@ -158,7 +154,6 @@ std::vector<FlowArray> flowArraysOf(const std::vector<vtkDataSet*>& data, bool h
   return all;
 }
 
-//------------------------------------------------------------------------------
 void putArrays(const std::vector<FlowArray>& arrays, std::vector<char>& message)
 {
   put(static_cast<std::uint64_t>(arrays.size()), message);
@@ -171,7 +166,6 @@ void putArrays(const std::vector<FlowArray>& arrays, std::vector<char>& message)
   }
 }
 
-//------------------------------------------------------------------------------
 std::vector<FlowArray> getArrays(Reader& message)
 {
   std::vector<FlowArray> arrays;
@@ -187,7 +181,6 @@ std::vector<FlowArray> getArrays(Reader& message)
   return arrays;
 }
 
-//------------------------------------------------------------------------------
 std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
 {
   switch (kindOf(settings.IndexModel).arrays)
@@ -212,14 +205,12 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
   return { S::DensityArray };
 }
 
-//------------------------------------------------------------------------------
 double kelvinsOf(const MediumSettings& settings)
 {
   const double byUnit = scaleByUnit("Temperature", settings.Arrays[S::TemperatureArray].name);
   return byUnit != 0 ? byUnit : 1;
 }
 
-//------------------------------------------------------------------------------
 bool isOpen(const MediumSettings& settings)
 {
   return settings.IndexModel == S::AUTO ||
@@ -333,7 +324,6 @@ void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, Med
 
 } // namespace
 
-//------------------------------------------------------------------------------
 MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>& known)
 {
   MediumChoice choice;

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 
 namespace filters
 {
@@ -67,20 +68,16 @@ std::string joined(const std::vector<std::string>& words)
   return all;
 }
 
+constexpr const char* digits = "0123456789";
+
 bool isNumber(const std::string& word)
 {
-  return !word.empty() &&
-    std::all_of(
-      word.begin(), word.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; });
+  return !word.empty() && word.find_first_not_of(digits) == std::string::npos;
 }
 
 std::string withoutDigits(std::string word)
 {
-  while (!word.empty() && std::isdigit(static_cast<unsigned char>(word.back())))
-  {
-    word.pop_back();
-  }
-  return word;
+  return word.erase(word.find_last_not_of(digits) + 1);
 }
 
 /// Densities in several languages; dens: FLASH, Athena++; ro: CFL3D.
@@ -252,6 +249,12 @@ Understood understood(const std::vector<std::string>& words, const Names& names)
   return found == 1 ? how : Understood::Not;
 }
 
+bool anyIs(const std::vector<std::string>& words, const Names& names)
+{
+  return std::any_of(words.begin(), words.end(),
+    [&](const std::string& word) { return names.count(lowered(word)) > 0; });
+}
+
 /// Returns whether a bracket has words instead of a unit: "density (gas)".
 bool areWords(const std::string& bracket)
 {
@@ -267,7 +270,6 @@ bool areWords(const std::string& bracket)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string lowered(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -276,7 +278,6 @@ std::string lowered(std::string text)
   return text;
 }
 
-//------------------------------------------------------------------------------
 double scaleOfUnit(Quantity quantity, const std::string& text)
 {
   const std::string unit = plainUnit(text);
@@ -293,7 +294,6 @@ double scaleOfUnit(Quantity quantity, const std::string& text)
   return found == units.end() ? 0 : found->second;
 }
 
-//------------------------------------------------------------------------------
 ArrayName::ArrayName(const std::string& written)
 {
   std::string text = written;
@@ -317,17 +317,13 @@ ArrayName::ArrayName(const std::string& written)
   this->Words = wordsOf(text);
 }
 
-//------------------------------------------------------------------------------
 std::string ArrayName::Joined() const { return joined(this->Words); }
 
-//------------------------------------------------------------------------------
 bool ArrayName::Is(const std::set<std::string>& names) const
 {
-  const Understood how = understood(this->Words, names);
-  return how <= Understood::AsMean;
+  return understood(this->Words, names) <= Understood::AsMean;
 }
 
-//------------------------------------------------------------------------------
 ArrayName::Parsed ArrayName::Of(Quantity quantity) const
 {
   Parsed parsed{ this->Words, this->Bracket };
@@ -336,11 +332,7 @@ ArrayName::Parsed ArrayName::Of(Quantity quantity) const
        --count)
   {
     const auto begin = this->Words.end() - static_cast<std::ptrdiff_t>(count);
-    std::string unit;
-    for (auto word = begin; word != this->Words.end(); ++word)
-    {
-      unit += *word;
-    }
+    const std::string unit = std::accumulate(begin, this->Words.end(), std::string());
     const std::vector<std::string> rest(this->Words.begin(), begin);
     const bool isUnit = scaleOfUnit(quantity, unit) != 0 ||
       (quantity == Quantity::Temperature && degrees.count(lowered(unit)));
@@ -352,51 +344,37 @@ ArrayName::Parsed ArrayName::Of(Quantity quantity) const
   return parsed;
 }
 
-//------------------------------------------------------------------------------
 Understood ArrayName::As(Quantity quantity) const
 {
   return understood(this->Of(quantity).words, namesOf(quantity));
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::HasUnit(Quantity quantity) const { return !this->Of(quantity).unit.empty(); }
 
-//------------------------------------------------------------------------------
 double ArrayName::Scale(Quantity quantity) const
 {
   return scaleOfUnit(quantity, this->Of(quantity).unit);
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::IsInDegrees() const
 {
   return degrees.count(plainUnit(this->Of(Quantity::Temperature).unit)) > 0;
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::IsGauge() const
 {
   return gauges.count(plainUnit(this->Bracket)) > 0 || gauges.count(this->Joined()) > 0 ||
-    std::any_of(this->All.begin(), this->All.end(),
-      [](const std::string& word) { return gauges.count(lowered(word)) > 0; });
+    anyIs(this->All, gauges);
 }
 
-//------------------------------------------------------------------------------
 bool ArrayName::IsOfGas() const
 {
   static const Names phases = { "air", "carrier", "gas", "gasphase" };
-  return std::any_of(this->All.begin(), this->All.end(),
-    [](const std::string& word) { return phases.count(lowered(word)) > 0; });
+  return anyIs(this->All, phases);
 }
 
-//------------------------------------------------------------------------------
-bool ArrayName::IsOfLiquid() const
-{
-  return std::any_of(this->All.begin(), this->All.end(),
-    [](const std::string& word) { return others.count(lowered(word)) > 0; });
-}
+bool ArrayName::IsOfLiquid() const { return anyIs(this->All, others); }
 
-//------------------------------------------------------------------------------
 bool ArrayName::IsSomethingElse() const
 {
   static const Names elsewhere = { "alpha", "angle", "area", "block", "blocks", "cfl", "charge",

@@ -29,9 +29,14 @@ std::string gasOf(const std::string& word)
   return schlieren::findGas(word) ? word : schlieren::findGas(name) ? name : std::string();
 }
 
+/// Returns the unit of a quantity's values.
+std::string unitInWords(double scale, const std::string& unit)
+{
+  return scale == 1 ? " in " + unit : ", " + textOf(scale) + " " + unit + " each";
+}
+
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isFraction(const FlowArray& array, Fraction& fraction)
 {
   // Solvers undershoot 0 and overshoot 1 a little.
@@ -82,34 +87,28 @@ bool isFraction(const FlowArray& array, Fraction& fraction)
   return !fraction.gas.empty();
 }
 
-//------------------------------------------------------------------------------
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
-//------------------------------------------------------------------------------
 std::string rangeInWords(const FlowArray& array)
 {
   return textOf(array.range[0]) + " to " + textOf(array.range[1]);
 }
 
-//------------------------------------------------------------------------------
 bool isScalar(const FlowArray& array)
 {
   return array.components == 1 && array.range[0] <= array.range[1];
 }
 
-//------------------------------------------------------------------------------
 FlowChooser::FlowChooser(const std::vector<FlowArray>& all)
 {
   std::copy_if(all.begin(), all.end(), std::back_inserter(this->Arrays), isScalar);
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::choose()
 {
   return this->refractivity() || this->refractiveIndex() || this->density(true) || this->moistAir();
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::choose(MediumSettings::IndexModels model)
 {
   this->Result.indexModel = model;
@@ -129,14 +128,12 @@ bool FlowChooser::choose(MediumSettings::IndexModels model)
   return false;
 }
 
-//------------------------------------------------------------------------------
 void FlowChooser::chooseSpecies(FlowArray::Association association)
 {
   this->Result.association = association;
   this->species();
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::has(Quantity quantity) const
 {
   return std::any_of(this->Arrays.begin(), this->Arrays.end(),
@@ -144,7 +141,6 @@ bool FlowChooser::has(Quantity quantity) const
     { return array.components == 1 && ArrayName(array.name).As(quantity) != Understood::Not; });
 }
 
-//------------------------------------------------------------------------------
 FlowChooser::Found FlowChooser::find(Quantity quantity, FlowArray::Association association)
 {
   Understood best = Understood::Not;
@@ -191,7 +187,6 @@ FlowChooser::Found FlowChooser::find(Quantity quantity, FlowArray::Association a
   return found;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::isOfAnother(const ArrayName& name, Quantity quantity)
 {
   for (const Quantity other : { Quantity::Density, Quantity::Temperature, Quantity::Pressure })
@@ -204,7 +199,6 @@ bool FlowChooser::isOfAnother(const ArrayName& name, Quantity quantity)
   return false;
 }
 
-//------------------------------------------------------------------------------
 const FlowArray* FlowChooser::find(const std::set<std::string>& names) const
 {
   for (const FlowArray::Association association : associations)
@@ -220,7 +214,6 @@ const FlowArray* FlowChooser::find(const std::set<std::string>& names) const
   return nullptr;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::refractivity()
 {
   const FlowArray* array = this->find(refractivities);
@@ -233,7 +226,6 @@ bool FlowChooser::refractivity()
   return true;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::refractiveIndex()
 {
   const FlowArray* array = this->find(indexNames);
@@ -247,7 +239,6 @@ bool FlowChooser::refractiveIndex()
   return true;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::density(bool ofSpecies)
 {
   Found found;
@@ -271,15 +262,11 @@ bool FlowChooser::density(bool ofSpecies)
   }
   this->take(
     this->Result.indexModel, found.array->association, { { "Density", found.array->name } });
-  this->Result.message = "Density: " + quoted(found.array->name);
-  if (found.scale == 1)
-  {
-    this->Result.message += " in kg/m\xc2\xb3";
-  }
-  else
+  this->Result.message =
+    "Density: " + quoted(found.array->name) + unitInWords(found.scale, "kg/m\xc2\xb3");
+  if (found.scale != 1)
   {
     this->Result.scales = { { "DensityScale", found.scale } };
-    this->Result.message += ", " + textOf(found.scale) + " kg/m\xc2\xb3 each";
   }
   if (ofSpecies)
   {
@@ -289,7 +276,6 @@ bool FlowChooser::density(bool ofSpecies)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void FlowChooser::species()
 {
   std::vector<Fraction> found;
@@ -325,20 +311,12 @@ void FlowChooser::species()
   this->Result.message += " fractions: " + list;
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::moistAir()
 {
-  for (const FlowArray::Association association : associations)
-  {
-    if (this->moistAir(association))
-    {
-      return true;
-    }
-  }
-  return false;
+  return std::any_of(std::begin(associations), std::end(associations),
+    [this](FlowArray::Association association) { return this->moistAir(association); });
 }
 
-//------------------------------------------------------------------------------
 bool FlowChooser::moistAir(FlowArray::Association association)
 {
   const Found temperature = this->find(Quantity::Temperature, association);
@@ -381,31 +359,18 @@ bool FlowChooser::moistAir(FlowArray::Association association)
   }
   this->take(MediumSettings::CIDDOR, association,
     { { "Temperature", temperature.array->name }, { "Pressure", pressure.array->name } });
-  this->Result.message = "Air; temperature: " + quoted(temperature.array->name);
-  if (kelvins == 1)
-  {
-    this->Result.message += " in K";
-  }
-  else
-  {
-    this->Result.message += ", " + textOf(kelvins) + " K each";
-  }
-  this->Result.message += "; pressure: " + quoted(pressure.array->name);
-  if (pascals == 1)
-  {
-    this->Result.message += " in Pa";
-  }
-  else
+  this->Result.message = "Air; temperature: " + quoted(temperature.array->name) +
+    unitInWords(kelvins, "K") + "; pressure: " + quoted(pressure.array->name) +
+    unitInWords(pascals, "Pa");
+  if (pascals != 1)
   {
     this->Result.scales.emplace_back("PressureScale", pascals);
-    this->Result.message += ", " + textOf(pascals) + " Pa each";
   }
   this->humidity(association);
   this->Result.message += ".";
   return true;
 }
 
-//------------------------------------------------------------------------------
 void FlowChooser::humidity(FlowArray::Association association)
 {
   constexpr double most = 1.05;
@@ -421,7 +386,6 @@ void FlowChooser::humidity(FlowArray::Association association)
   }
 }
 
-//------------------------------------------------------------------------------
 void FlowChooser::take(MediumSettings::IndexModels model, FlowArray::Association association,
   std::vector<std::pair<std::string, std::string>> arrays)
 {

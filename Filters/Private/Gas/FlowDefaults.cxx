@@ -57,7 +57,6 @@ FlowDefaults resultOf(FlowChooser& chooser, bool isFound, const std::vector<Flow
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isNoDensity(const FlowArray& array)
 {
   const ArrayName name(array.name);
@@ -80,7 +79,6 @@ bool isNoDensity(const FlowArray& array)
     (!contains("rho") && !contains("dens") && array.range[0] >= 200 && array.range[1] <= 3000);
 }
 
-//------------------------------------------------------------------------------
 FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
 {
   FlowChooser chooser(arrays);
@@ -128,13 +126,11 @@ bool replaceConstant(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<FlowArray> withUniformPressure(std::vector<FlowArray> arrays, double pascals)
 {
   return withConstant(std::move(arrays), uniformPressure, pascals);
 }
 
-//------------------------------------------------------------------------------
 FlowDefaults flowDefaultsAt(const std::vector<FlowArray>& arrays, double pascals)
 {
   FlowDefaults defaults = flowDefaults(withUniformPressure(arrays, pascals));
@@ -145,13 +141,11 @@ FlowDefaults flowDefaultsAt(const std::vector<FlowArray>& arrays, double pascals
   return defaults;
 }
 
-//------------------------------------------------------------------------------
 std::vector<FlowArray> withStagnation(std::vector<FlowArray> arrays, double kelvins)
 {
   return withConstant(std::move(arrays), stagnationTemperature, kelvins);
 }
 
-//------------------------------------------------------------------------------
 FlowDefaults flowDefaultsFromRest(const std::vector<FlowArray>& arrays, double kelvins)
 {
   FlowDefaults defaults = flowDefaults(withStagnation(arrays, kelvins));
@@ -163,7 +157,6 @@ FlowDefaults flowDefaultsFromRest(const std::vector<FlowArray>& arrays, double k
   return defaults;
 }
 
-//------------------------------------------------------------------------------
 FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays, MediumSettings::IndexModels model)
 {
   FlowChooser chooser(arrays);
@@ -174,7 +167,6 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays, MediumSettings::
   return result;
 }
 
-//------------------------------------------------------------------------------
 FlowDefaults flowSpecies(const std::vector<FlowArray>& arrays, FlowArray::Association association)
 {
   FlowChooser chooser(arrays);
@@ -182,7 +174,6 @@ FlowDefaults flowSpecies(const std::vector<FlowArray>& arrays, FlowArray::Associ
   return chooser.Result;
 }
 
-//------------------------------------------------------------------------------
 MaskDefault flowMask(const std::vector<FlowArray>& arrays)
 {
   const auto found = std::find_if(arrays.begin(), arrays.end(),
@@ -196,10 +187,8 @@ MaskDefault flowMask(const std::vector<FlowArray>& arrays)
   return found == arrays.end() ? MaskDefault() : MaskDefault{ found->name, found->association };
 }
 
-//------------------------------------------------------------------------------
 bool marksGas(const std::string& array) { return gases.count(ArrayName(array).Joined()) > 0; }
 
-//------------------------------------------------------------------------------
 bool dependsOnRange(const std::string& text)
 {
   const ArrayName name(text);
@@ -211,7 +200,6 @@ bool dependsOnRange(const std::string& text)
     isFraction({ text, FlowArray::Points, 1, { 0, 1 } }, fraction);
 }
 
-//------------------------------------------------------------------------------
 double scaleByUnit(const std::string& property, const std::string& array)
 {
   return ArrayName(array).Scale(property == "Density" ? Quantity::Density
@@ -219,7 +207,6 @@ double scaleByUnit(const std::string& property, const std::string& array)
                                                       : Quantity::Pressure);
 }
 
-//------------------------------------------------------------------------------
 std::string arraysInWords(const std::vector<FlowArray>& arrays)
 {
   std::string text;

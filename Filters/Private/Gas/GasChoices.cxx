@@ -106,10 +106,8 @@ int readNumbers(const std::string& text, schlieren::Component& component)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool isCustom(const std::string& name) { return name.empty() || name == "Custom"; }
 
-//------------------------------------------------------------------------------
 const schlieren::Gas* gasFrom(const std::string& property, const std::string& name)
 {
   const schlieren::Gas* gas = schlieren::findGas(name);
@@ -121,7 +119,6 @@ const schlieren::Gas* gasFrom(const std::string& property, const std::string& na
   return gas;
 }
 
-//------------------------------------------------------------------------------
 schlieren::Component componentFrom(
   const std::string& property, const std::string& text, const MediumSettings& settings)
 {
@@ -153,7 +150,6 @@ schlieren::Component componentFrom(
   return component;
 }
 
-//------------------------------------------------------------------------------
 double wavelengthOfGases(const MediumSettings& settings)
 {
   if (!std::isfinite(settings.Wavelength) || settings.Wavelength <= 0)
@@ -164,7 +160,6 @@ double wavelengthOfGases(const MediumSettings& settings)
   return 1e-9 * settings.Wavelength;
 }
 
-//------------------------------------------------------------------------------
 bool usesWavelength(const MediumSettings& settings)
 {
   const std::vector<std::string> names = namesUsed(settings);
@@ -172,7 +167,6 @@ bool usesWavelength(const MediumSettings& settings)
     std::any_of(names.begin(), names.end(), schlieren::findGas);
 }
 
-//------------------------------------------------------------------------------
 std::function<double(double)> dispersionOfGases(const MediumSettings& settings, double reference)
 {
   if (kindOf(settings.IndexModel).gases == IndexGases::MoistAir)
@@ -190,7 +184,6 @@ std::function<double(double)> dispersionOfGases(const MediumSettings& settings, 
   { return gas->constantAt(wavelength) / whole; };
 }
 
-//------------------------------------------------------------------------------
 std::string noteOnGases(const MediumSettings& settings)
 {
   std::string notes;

@@ -155,7 +155,6 @@ Implausible ofMoistAir(const FlowInUse& flow)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Implausible implausible(const FlowInUse& flow)
 {
   for (const FlowArray& array : flow.arrays)

@@ -225,7 +225,6 @@ constexpr IndexModelKind kinds[] = {
 
 } // namespace
 
-//------------------------------------------------------------------------------
 const IndexModelKind& kindOf(int indexModel)
 {
   const auto found = std::find_if(std::begin(kinds), std::end(kinds),
@@ -238,7 +237,6 @@ const IndexModelKind& kindOf(int indexModel)
   return *found;
 }
 
-//------------------------------------------------------------------------------
 FieldMean fieldMeanFrom(const MediumSettings& settings)
 {
   const bool isModel = settings.IndexModel == MediumSettings::TRANSFER_FUNCTIONS;
@@ -272,13 +270,11 @@ FieldMean fieldMeanFrom(const MediumSettings& settings)
   return model;
 }
 
-//------------------------------------------------------------------------------
 Selection selectionOf(const MediumSettings& settings, std::size_t index)
 {
   return { MediumSettings::arrayProperties[index], settings.Arrays[index] };
 }
 
-//------------------------------------------------------------------------------
 std::vector<Selection> selectionsFrom(const MediumSettings& settings)
 {
   const IndexModelKind& kind = kindOf(settings.IndexModel);
@@ -311,7 +307,6 @@ std::vector<Selection> selectionsFrom(const MediumSettings& settings)
   return selections;
 }
 
-//------------------------------------------------------------------------------
 Tally& Tally::operator+=(const Tally& other)
 {
   this->all += other.all;

@@ -88,7 +88,6 @@ std::array<double, 2> rangeOf(vtkDataArray* array, vtkUnsignedCharArray* used)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 FieldCurve::FieldCurve(const TransferCurve& curve, double low, double high)
   : Low(low)
   , High(high)
@@ -135,7 +134,6 @@ double FieldCurve::at(double x) const
   return (1 - f) * this->Table[i] + f * this->Table[i + 1];
 }
 
-//------------------------------------------------------------------------------
 double FieldMean::refractivity(const double* values) const
 {
   double sum = 0;

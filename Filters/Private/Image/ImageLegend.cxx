@@ -95,7 +95,6 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void addLegend(vtkImageData* output, const SchlierenSettings& settings,
   const schlieren::Scene& scene, const schlieren::Image& image, bool isKept, ColorScale colors)
 {

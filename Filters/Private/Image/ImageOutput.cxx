@@ -124,7 +124,6 @@ float srgbFromLinear(float light)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 double largestLength(const schlieren::PixelArray<float>& pairs)
 {
   double largestSquare = 0;
@@ -136,7 +135,6 @@ double largestLength(const schlieren::PixelArray<float>& pairs)
   return std::sqrt(largestSquare);
 }
 
-//------------------------------------------------------------------------------
 void dropIdleBounds(schlieren::Image& image)
 {
   constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -146,7 +144,6 @@ void dropIdleBounds(schlieren::Image& image)
   }
 }
 
-//------------------------------------------------------------------------------
 void setOutput(vtkImageData* output, schlieren::Image& image)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
@@ -208,7 +205,6 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
   }
 }
 
-//------------------------------------------------------------------------------
 void addRecorded(vtkImageData* output, const schlieren::Sensor& sensor, int threads)
 {
   constexpr int bitsOfBytes = 8;
@@ -244,7 +240,6 @@ void addRecorded(vtkImageData* output, const schlieren::Sensor& sensor, int thre
   }
 }
 
-//------------------------------------------------------------------------------
 unsigned char byteOf(float light, ColorScale scale)
 {
   const float white = scale == ColorScale::LinearToTwice ? 2 : 1;
@@ -253,7 +248,6 @@ unsigned char byteOf(float light, ColorScale scale)
     (scale == ColorScale::Srgb ? srgbFromLinear(fraction) : fraction) * 255.f + 0.5f);
 }
 
-//------------------------------------------------------------------------------
 void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale)
 {
   vtkNew<vtkUnsignedCharArray> array;
@@ -266,13 +260,11 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
   output->GetPointData()->SetActiveScalars("Color");
 }
 
-//------------------------------------------------------------------------------
 void addFringeSpacing(vtkImageData* output, double spacing)
 {
   addWithUnit(output, "FringeSpacing", spacing, dataUnits);
 }
 
-//------------------------------------------------------------------------------
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)
 {
   addFieldValues<vtkIntArray>(
@@ -286,7 +278,6 @@ void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)
   addFieldValue<vtkDoubleArray>(output, "MediumError", medium.estimatedError);
 }
 
-//------------------------------------------------------------------------------
 std::string mediumInWords(const schlieren::MediumStatistics& medium)
 {
   std::ostringstream text;
@@ -299,13 +290,11 @@ std::string mediumInWords(const schlieren::MediumStatistics& medium)
   return text.str();
 }
 
-//------------------------------------------------------------------------------
 void addGrid(vtkImageData* output, const char* grid)
 {
   addFieldValue<vtkStringArray>(output, "Grid", std::string(grid));
 }
 
-//------------------------------------------------------------------------------
 void setHistogram(vtkImageData* output, const schlieren::Histogram& histogram)
 {
   if (histogram.rays.empty())

@@ -75,7 +75,6 @@ std::string accuracyInWords(const schlieren::Image& image, const schlieren::Scen
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string limitInWords(const schlieren::Accuracy& accuracy)
 {
   switch (accuracy.limit)
@@ -94,7 +93,6 @@ std::string limitInWords(const schlieren::Accuracy& accuracy)
   return "nothing";
 }
 
-//------------------------------------------------------------------------------
 std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::Scene& scene)
 {
   const schlieren::Technique& technique = schlieren::techniqueOf(scene.cutoff);
@@ -106,7 +104,6 @@ std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::S
     unit + " (target " + textOf(accuracy.target, 2) + ")";
 }
 
-//------------------------------------------------------------------------------
 std::string wavesInWords(const schlieren::Image& image)
 {
   const schlieren::WaveReport& waves = image.waves;
@@ -130,7 +127,6 @@ std::string wavesInWords(const schlieren::Image& image)
                                             : "waves, but rays would suffice: " + widths;
 }
 
-//------------------------------------------------------------------------------
 std::string statusInWords(
   const schlieren::Image& image, const schlieren::Scene& scene, double raysPerSecond)
 {

@@ -11,19 +11,14 @@
 namespace filters
 {
 
-//------------------------------------------------------------------------------
 bool LastImage::IsThere() const { return this->Image->GetNumberOfPoints() > 0; }
 
-//------------------------------------------------------------------------------
 bool LastImage::HasColor() const { return this->Image->GetPointData()->HasArray("Color") != 0; }
 
-//------------------------------------------------------------------------------
 void LastImage::Keep(vtkImageData* output) { this->Image->ShallowCopy(output); }
 
-//------------------------------------------------------------------------------
 void LastImage::Drop() { this->Image->Initialize(); }
 
-//------------------------------------------------------------------------------
 void LastImage::Show(vtkImageData* output, const int promised[6])
 {
   output->ShallowCopy(this->Image);

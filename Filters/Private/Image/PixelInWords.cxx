@@ -63,7 +63,6 @@ std::string axisName(vtkImageData* image, const char* direction, const char* oth
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::string pixelInWords(vtkImageData* image, double right, double up)
 {
   const int* size = image->GetDimensions();

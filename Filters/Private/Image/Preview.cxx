@@ -12,13 +12,11 @@
 namespace filters
 {
 
-//------------------------------------------------------------------------------
 int previewPixels(int pixels, int reduction)
 {
   return std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels) / reduction)));
 }
 
-//------------------------------------------------------------------------------
 schlieren::View previewView(
   const schlieren::View& view, const schlieren::Frame& frame, int reduction)
 {
@@ -36,14 +34,12 @@ schlieren::View previewView(
   return preview;
 }
 
-//------------------------------------------------------------------------------
 int reductionAtFirst(const schlieren::View& view)
 {
   constexpr int pixels = 64;
   return std::max(2, (std::max(view.width, view.height) + pixels - 1) / pixels);
 }
 
-//------------------------------------------------------------------------------
 void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int reduction)
 {
   constexpr double fewestPerPeriod = 4; // finer periods fade to grey

@@ -52,10 +52,8 @@ const schlieren::Technique& techniqueOf(const SchlierenSettings& optics)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool usesK(const SchlierenSettings& optics) { return techniqueOf(optics).hasK(); }
 
-//------------------------------------------------------------------------------
 bool choosesK(const SchlierenSettings& optics)
 {
   return usesK(optics) &&
@@ -63,7 +61,6 @@ bool choosesK(const SchlierenSettings& optics)
       optics.KMode == SchlierenSettings::K_AUTOMATIC_KEPT);
 }
 
-//------------------------------------------------------------------------------
 double kOfOptics(const SchlierenSettings& optics)
 {
   return optics.FocalLength > 0 && optics.SourceWidth > 0
@@ -71,14 +68,12 @@ double kOfOptics(const SchlierenSettings& optics)
     : std::numeric_limits<double>::quiet_NaN();
 }
 
-//------------------------------------------------------------------------------
 double offsetOfOptics(const SchlierenSettings& optics)
 {
   return optics.SourceWidth > 0 ? optics.CutoffPosition / optics.SourceWidth
                                 : std::numeric_limits<double>::quiet_NaN();
 }
 
-//------------------------------------------------------------------------------
 void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
 {
   scene.cutoffOffset = optics.CutoffOffset;
@@ -100,7 +95,6 @@ void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
   }
 }
 
-//------------------------------------------------------------------------------
 schlieren::PhasePlate phasePlateFrom(const SchlierenSettings& optics)
 {
   schlieren::PhasePlate plate;
@@ -114,13 +108,11 @@ schlieren::PhasePlate phasePlateFrom(const SchlierenSettings& optics)
   return plate;
 }
 
-//------------------------------------------------------------------------------
 std::string kInWords(double k, bool isKept)
 {
   return (isKept ? "k locked at " : "k = ") + textOf(k, 4);
 }
 
-//------------------------------------------------------------------------------
 std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool isKept)
 {
   if (techniqueOf(settings).hasFringes)
@@ -152,7 +144,6 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
   return words;
 }
 
-//------------------------------------------------------------------------------
 schlieren::LightSource lightSourceFrom(const SchlierenSettings& optics)
 {
   schlieren::LightSource source;
@@ -175,7 +166,6 @@ schlieren::LightSource lightSourceFrom(const SchlierenSettings& optics)
   return source;
 }
 
-//------------------------------------------------------------------------------
 schlieren::Lens lensFrom(const SchlierenSettings& settings)
 {
   schlieren::Lens lens;
@@ -195,7 +185,6 @@ schlieren::Lens lensFrom(const SchlierenSettings& settings)
   return lens;
 }
 
-//------------------------------------------------------------------------------
 double viewAngleFrom(
   const SchlierenSettings& settings, const schlieren::View& view, const schlieren::Grid& grid)
 {
@@ -245,7 +234,6 @@ double viewAngleFrom(
   return angleOf(most);
 }
 
-//------------------------------------------------------------------------------
 schlieren::Sensor sensorFrom(const SchlierenSettings& settings)
 {
   requirePositive("FullWell", settings.FullWell, "electrons", "the sensor, or to 0 for none");
@@ -260,7 +248,6 @@ schlieren::Sensor sensorFrom(const SchlierenSettings& settings)
     settings.BitDepth };
 }
 
-//------------------------------------------------------------------------------
 double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
 {
   return settings.FringeSpacing < 0

@@ -123,7 +123,6 @@ std::shared_ptr<const schlieren::RgbImage> decoded(
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::RgbImage> RgbImageReader::read(
   const std::string& property, const std::string& text)
 {
@@ -142,7 +141,6 @@ std::shared_ptr<const schlieren::RgbImage> RgbImageReader::read(
   return this->Image;
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::RgbImage> readRgbImage(
   const std::string& property, const std::string& text)
 {

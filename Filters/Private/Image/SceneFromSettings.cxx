@@ -128,7 +128,6 @@ bool looksAlong(const ViewSettings& settings, int flatAxis)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 SchlierenSettings facing(SchlierenSettings settings, int flatAxis)
 {
   if (looksAlong(settings, flatAxis))
@@ -146,7 +145,6 @@ SchlierenSettings facing(SchlierenSettings settings, int flatAxis)
   return settings;
 }
 
-//------------------------------------------------------------------------------
 std::string noteOnView(const SchlierenSettings& settings, int flatAxis)
 {
   return looksAlong(settings, flatAxis)
@@ -155,7 +153,6 @@ std::string noteOnView(const SchlierenSettings& settings, int flatAxis)
     : "";
 }
 
-//------------------------------------------------------------------------------
 schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
 {
   const schlieren::View view = viewFrom(settings, grid);
@@ -164,7 +161,6 @@ schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::G
   return reduction > 1 ? schlieren::frameOf(grid, previewView(view, frame, reduction)) : frame;
 }
 
-//------------------------------------------------------------------------------
 schlieren::Scene sceneFrom(
   const SchlierenSettings& settings, const schlieren::Grid& grid, RgbImageReader& images)
 {
@@ -248,7 +244,6 @@ schlieren::Scene sceneFrom(
   return scene;
 }
 
-//------------------------------------------------------------------------------
 void addObjects(
   schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumMaker& medium)
 {
@@ -262,7 +257,6 @@ void addObjects(
   }
 }
 
-//------------------------------------------------------------------------------
 void addBackground(
   schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background)
 {

@@ -30,7 +30,6 @@ bool isSame(const ImageCircumstances& a, const ImageCircumstances& b)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<double> settingsOfRays(const SchlierenSettings& settings)
 {
   std::vector<double> values;
@@ -60,7 +59,6 @@ std::vector<double> settingsOfRays(const SchlierenSettings& settings)
   return values;
 }
 
-//------------------------------------------------------------------------------
 std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& now)
 {
   // Ignores the camera at other times than that of k, because an animation may move it before or
@@ -78,14 +76,12 @@ std::optional<double> SensitivityLock::For(int mode, const ImageCircumstances& n
   return this->K;
 }
 
-//------------------------------------------------------------------------------
 void SensitivityLock::Found(double k)
 {
   this->K = k;
   this->FoundAt = this->Origin = this->Last;
 }
 
-//------------------------------------------------------------------------------
 void SensitivityLock::Give(std::optional<double> k)
 {
   this->K = k;
@@ -94,7 +90,6 @@ void SensitivityLock::Give(std::optional<double> k)
   this->Last.reset();
 }
 
-//------------------------------------------------------------------------------
 std::optional<double> SensitivityLock::GetKept() const
 {
   const bool isFound = this->FoundAt && this->Last && isSame(*this->FoundAt, *this->Last);

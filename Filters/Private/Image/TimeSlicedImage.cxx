@@ -41,10 +41,8 @@ schlieren::Monitor limited(const schlieren::Monitor& monitor, double seconds)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TimeSlicedImage::TimeSlicedImage() { this->Bench.setMedia(mediaOfProcess()); }
 
-//------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,
   const schlieren::Scene& scene, double seconds, const schlieren::Monitor& monitor)
 {
@@ -53,19 +51,16 @@ schlieren::Image TimeSlicedImage::Begin(const schlieren::Field& field,
   return this->Noted(this->Bench.render(field, scene, limited(monitor, seconds)));
 }
 
-//------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Resume(double seconds, const schlieren::Monitor& monitor)
 {
   return this->Noted(this->Bench.resume(limited(monitor, seconds)));
 }
 
-//------------------------------------------------------------------------------
 void TimeSlicedImage::SetProcesses(schlieren::Processes* processes)
 {
   this->Bench.setProcesses(processes);
 }
 
-//------------------------------------------------------------------------------
 schlieren::Image TimeSlicedImage::Noted(schlieren::Image image)
 {
   const std::int64_t rays = this->GetWork().raysTraced - this->RaysBefore;
@@ -76,7 +71,6 @@ schlieren::Image TimeSlicedImage::Noted(schlieren::Image image)
   return image;
 }
 
-//------------------------------------------------------------------------------
 std::string TimeSlicedImage::GetStatus(const schlieren::Image& image) const
 {
   return statusInWords(image, this->Scene, this->RaysPerSecond);
@@ -158,7 +152,6 @@ std::string exitInWords(const schlieren::Image& image, const schlieren::Scene& s
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& image)
 {
   const std::array<std::string, std::tuple_size_v<decltype(this->WarnedOf)>> warnings{

@@ -333,7 +333,6 @@ vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& pieces)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 std::vector<vtkSmartPointer<vtkDataSet>> joined(
   const std::vector<vtkSmartPointer<vtkDataSet>>& pieces)
 {
@@ -356,7 +355,6 @@ std::vector<vtkSmartPointer<vtkDataSet>> joined(
   return whole ? std::vector<vtkSmartPointer<vtkDataSet>>{ whole } : pieces;
 }
 
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkDataObject> gatheredData(const std::vector<std::vector<char>>& ofRanks)
 {
   std::map<Slot, std::vector<vtkSmartPointer<vtkDataSet>>> slots;

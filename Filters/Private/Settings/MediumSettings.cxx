@@ -33,7 +33,6 @@ void write(std::ostream& out, const TransferCurve& curve)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 bool MediumSettings::operator==(const MediumSettings& other) const
 {
   bool areEqual = true;
@@ -54,7 +53,6 @@ bool MediumSettings::operator==(const MediumSettings& other) const
   return areEqual;
 }
 
-//------------------------------------------------------------------------------
 void print(std::ostream& out, int indent, const MediumSettings& settings)
 {
   MediumSettings::visit(

@@ -57,7 +57,6 @@ const std::array<QualityError, 3> qualityErrors{ {
 } };
 // clang-format on
 
-//------------------------------------------------------------------------------
 double interactiveStepSize()
 {
   const auto* setting = std::find_if(qualitySettings.begin(), qualitySettings.end(),

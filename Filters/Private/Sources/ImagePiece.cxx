@@ -234,16 +234,11 @@ BoundaryFaces ImagePiece::faces() const
     corner, { { this->Spacing, this->Whole } },
     [&](std::size_t, const Counts& point)
     {
-      switch (this->kindOf(
-        { point[0] - this->First[0], point[1] - this->First[1], point[2] - this->First[2] }))
-      {
-        case schlieren::Place::Gas:
-          return CellState::Gas;
-        case schlieren::Place::Wall:
-          return CellState::Solid;
-        default:
-          return CellState::None;
-      }
+      const schlieren::Place place = this->kindOf(
+        { point[0] - this->First[0], point[1] - this->First[1], point[2] - this->First[2] });
+      return place == schlieren::Place::Gas ? CellState::Gas
+        : place == schlieren::Place::Wall   ? CellState::Solid
+                                            : CellState::None;
     },
     Extent::Volume);
   if (!this->Kinds.empty())

@@ -90,20 +90,17 @@ std::string noteOnWedge(const Flow& flow)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 MediumMaker::MediumMaker(Progress progress)
   : Report(std::move(progress))
 {
 }
 
-//------------------------------------------------------------------------------
 int MediumMaker::threads() const
 {
   const int given = threadsFrom(this->numberOfThreads);
   return given > 0 ? given : schlieren::coresOfProcess();
 }
 
-//------------------------------------------------------------------------------
 std::string noGas(const std::string& label)
 {
   return "There is no valid value in the " + label +
@@ -111,28 +108,23 @@ std::string noGas(const std::string& label)
     "to cross. Choose another array or check the data.";
 }
 
-//------------------------------------------------------------------------------
 void addText(std::string& text, const std::string& more)
 {
   text += (text.empty() || more.empty() ? "" : " ") + more;
 }
 
-//------------------------------------------------------------------------------
 MediumChoice MediumMaker::choice() const { return choiceOf(this->settings, this->Known.Get()); }
 
-//------------------------------------------------------------------------------
 MediumChoice MediumMaker::choiceFor(vtkDataObject* input)
 {
   return filters::choiceFor(this->settings, this->Known, dataSetsOf(input));
 }
 
-//------------------------------------------------------------------------------
 WorkProgress MediumMaker::progressOf(double from, double to) const
 {
   return WorkProgress(this->Report).part(from, to);
 }
 
-//------------------------------------------------------------------------------
 Choice MediumMaker::choose(vtkDataObject* input)
 {
   Choice choice{ input, chooseFlow(this->settings, this->Known, input), {}, -1 };
@@ -151,10 +143,8 @@ Choice MediumMaker::choose(vtkDataObject* input)
   return choice;
 }
 
-//------------------------------------------------------------------------------
 void MediumMaker::forgetLast() { leave(this->Mesh); }
 
-//------------------------------------------------------------------------------
 std::string MediumMaker::warningOf(const Flow& flow, const Tally& tally, bool bodiesMissed)
 {
   std::string warning = warningFrom(flow.model, tally);
@@ -180,7 +170,6 @@ std::string MediumMaker::warningOf(const Flow& flow, const Tally& tally, bool bo
   return warning;
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<MadeRefractivity> MediumMaker::make(
   const Choice& choice, vtkDataObject* bodies, bool withFields, bool isLarge)
 {
@@ -209,7 +198,6 @@ std::shared_ptr<MadeRefractivity> MediumMaker::make(
   return made;
 }
 
-//------------------------------------------------------------------------------
 void MediumMaker::makeImage(const Choice& choice, MadeRefractivity& made)
 {
   this->progressOf(0, 1).reach(0.05);
@@ -233,7 +221,6 @@ void MediumMaker::makeImage(const Choice& choice, MadeRefractivity& made)
     std::to_string(points[2]) + " points: the data's own";
 }
 
-//------------------------------------------------------------------------------
 std::unique_ptr<ImagePiece> pieceOfImage(const MediumMaker& maker, vtkImageData* refractivity,
   const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input, bool withFields,
   const std::vector<FieldMean::Range>& ranges)
@@ -249,7 +236,6 @@ std::unique_ptr<ImagePiece> pieceOfImage(const MediumMaker& maker, vtkImageData*
   return piece;
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfImage(const Choice& choice,
   vtkImageData* refractivity, vtkDataObject* bodies, bool withFields, std::string& warning)
 {
@@ -269,7 +255,6 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfImage(const 
   return made;
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const PieceSource> MediumMaker::makeOf(
   Flow flow, std::vector<Flow> fields, int flat, double depth, vtkDataObject* bodies, Tally& tally)
 {
@@ -302,7 +287,6 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(
     outside);
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfCells(
   const Choice& choice, vtkDataObject* bodies, bool withFields, std::string& warning)
 {

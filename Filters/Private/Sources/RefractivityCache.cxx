@@ -34,19 +34,15 @@ Entries& entries()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 MadeRefractivity::MadeRefractivity() = default;
 
-//------------------------------------------------------------------------------
 MadeRefractivity::~MadeRefractivity() = default;
 
-//------------------------------------------------------------------------------
 bool MadeRefractivity::IsThere() const
 {
   return this->Source || this->Image->GetNumberOfPoints() > 0;
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& key)
 {
   const std::lock_guard<std::mutex> lock(entries().Mutex);
@@ -56,7 +52,6 @@ std::shared_ptr<const MadeRefractivity> findRefractivity(const RefractivityKey& 
   return found != all.end() ? found->Made.lock() : nullptr;
 }
 
-//------------------------------------------------------------------------------
 void cacheRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefractivity>& made)
 {
   const std::lock_guard<std::mutex> lock(entries().Mutex);
@@ -67,7 +62,6 @@ void cacheRefractivity(RefractivityKey key, const std::shared_ptr<const MadeRefr
   all.push_back({ std::move(key), made });
 }
 
-//------------------------------------------------------------------------------
 std::shared_ptr<schlieren::SharedMedia> mediaOfProcess()
 {
   // Never deleted, like entries().

@@ -55,7 +55,6 @@ schlieren::Lattice latticeFor(const schlieren::Box& box, const Choice& choice)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 void sampleRevolved(const schlieren::MediumSource& source, const Choice& choice,
   const WorkProgress& progress, vtkImageData* image)
 {

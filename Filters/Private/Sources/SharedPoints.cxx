@@ -12,7 +12,6 @@
 #include "vtkStructuredGrid.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -29,100 +28,93 @@ using Leaves = std::vector<vtkSmartPointer<vtkDataSet>>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the smallest distance of a cell's points, of the first ones in large cells.
-double smallestEdge(const MeshArrays& mesh, vtkIdType cell)
+/// Returns the smallest edge of the visible cells of each point; -1 without any. Edges are the
+/// distances of a cell's points, of the first ones in large cells.
+std::vector<double> smallestEdges(const MeshArrays& mesh)
 {
   constexpr double roundedAway = 1e-14;
   constexpr std::size_t most = 64;
-  std::array<Point, most> x;
-  std::size_t count = 0;
-  mesh.forPoints(cell,
-    [&](vtkIdType point)
-    {
-      if (count < most)
-      {
-        mesh.coordinates(point, x[count++].data());
-      }
-    });
-  double smallest = infinity;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    for (std::size_t k = i + 1; k < count; ++k)
-    {
-      const Point edge = x[i] - x[k];
-      const double squared = dot(edge, edge);
-      if (squared > roundedAway * dot(x[i], x[i]) * roundedAway)
-      {
-        smallest = std::min(smallest, squared);
-      }
-    }
-  }
-  return std::sqrt(smallest);
-}
-
-/// Returns the smallest edge of the visible cells of each point; -1 without any.
-std::vector<double> smallestEdges(const MeshArrays& mesh)
-{
   std::vector<std::atomic<double>> sizes(static_cast<std::size_t>(mesh.points()));
   std::fill(sizes.begin(), sizes.end(), -1);
+  const auto measure = [&](vtkIdType cell, std::vector<Point>& known)
+  {
+    double smallest = infinity;
+    known.clear();
+    mesh.forPoints(cell,
+      [&](vtkIdType point)
+      {
+        Point x;
+        mesh.coordinates(point, x.data());
+        for (const Point& other : known)
+        {
+          const double squared = dot(other - x, other - x);
+          const bool isEdge = squared > roundedAway * dot(other, other) * roundedAway;
+          smallest = isEdge ? std::min(smallest, squared) : smallest;
+        }
+        known.resize(std::min(known.size() + 1, most), x);
+      });
+    const double edge = std::sqrt(smallest);
+    mesh.forPoints(cell,
+      [&](vtkIdType point)
+      {
+        std::atomic<double>& size = sizes[static_cast<std::size_t>(point)];
+        double before = size.load(std::memory_order_relaxed);
+        while ((before < 0 || edge < before) &&
+          !size.compare_exchange_weak(before, edge, std::memory_order_relaxed))
+        {
+        }
+      });
+  };
   forChunks(mesh.cells(), WorkProgress(),
     [&](vtkIdType begin, vtkIdType end)
     {
+      std::vector<Point> known;
       for (vtkIdType cell = begin; cell < end; ++cell)
       {
-        if (!mesh.isVisible(cell))
+        if (mesh.isVisible(cell))
         {
-          continue;
+          measure(cell, known);
         }
-        const double edge = smallestEdge(mesh, cell);
-        mesh.forPoints(cell,
-          [&](vtkIdType point)
-          {
-            std::atomic<double>& size = sizes[static_cast<std::size_t>(point)];
-            double known = size.load(std::memory_order_relaxed);
-            while ((known < 0 || edge < known) &&
-              !size.compare_exchange_weak(known, edge, std::memory_order_relaxed))
-            {
-            }
-          });
       }
     });
   return { sizes.begin(), sizes.end() };
 }
 
-/// Points that may coincide with others, leaf by leaf in their order.
+/// Points of visible cells, which may coincide with others, leaf by leaf in their order.
 struct Candidates
 {
+  explicit Candidates(const Leaves& datasets)
+  {
+    for (std::size_t leaf = 0; leaf < datasets.size(); ++leaf)
+    {
+      const MeshArrays mesh(datasets[leaf]);
+      const std::vector<double> edges = smallestEdges(mesh);
+      const bool areOfCells = datasets[leaf]->GetCellData()->GetScalars() != nullptr;
+      for (vtkIdType point = 0; point < mesh.points(); ++point)
+      {
+        Point x;
+        mesh.coordinates(point, x.data());
+        const double size = edges[static_cast<std::size_t>(point)];
+        if (size >= 0 && std::isfinite(x[0] + x[1] + x[2]))
+        {
+          this->leaves.push_back(static_cast<std::uint32_t>(leaf));
+          this->points.push_back(point);
+          this->places.push_back(x);
+          this->sizes.push_back(size);
+          this->values.push_back(areOfCells ? std::nan("") : mesh.values()[point]);
+        }
+      }
+      this->starts.push_back(this->points.size());
+    }
+  }
+  std::size_t size() const { return this->points.size(); }
+
   std::vector<std::uint32_t> leaves;
   std::vector<vtkIdType> points;
   std::vector<Point> places;
-  std::vector<double> sizes;
-  std::vector<double> values; // of points; NaN: values belong to cells
-
-  std::size_t size() const { return this->points.size(); }
+  std::vector<double> sizes, values;    // values of points; NaN: values belong to cells
+  std::vector<std::size_t> starts{ 0 }; // of the leaves
 };
-
-/// Adds the points of visible cells.
-void addCandidates(
-  const Leaves& leaves, std::size_t number, const MeshArrays& mesh, Candidates& all)
-{
-  const std::vector<double> sizes = smallestEdges(mesh);
-  const bool areOfCells = leaves[number]->GetCellData()->GetScalars() != nullptr;
-  for (vtkIdType point = 0; point < mesh.points(); ++point)
-  {
-    Point x;
-    mesh.coordinates(point, x.data());
-    const double size = sizes[static_cast<std::size_t>(point)];
-    if (size >= 0 && std::isfinite(x[0] + x[1] + x[2]))
-    {
-      all.leaves.push_back(static_cast<std::uint32_t>(number));
-      all.points.push_back(point);
-      all.places.push_back(x);
-      all.sizes.push_back(size);
-      all.values.push_back(areOfCells ? std::nan("") : mesh.values()[point]);
-    }
-  }
-}
 
 /// Returns the difference of values, of each leaf, beyond which its points at the same place are the
 /// sides of a wall; infinite without such walls. Across the seam of an O-grid, the wake cut of a
@@ -137,12 +129,12 @@ std::vector<double> jumpsAtWalls(
   constexpr double mostDoubles = 0.25;                    // of a mesh of continuous elements
   std::vector<std::size_t> last(all.size(), all.size());  // at each place
   std::vector<double> result(leaves.size(), infinity);
-  for (std::size_t i = 0; i < all.size();)
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
   {
-    const std::size_t leaf = all.leaves[i], begin = i;
+    const std::size_t begin = all.starts[leaf], end = all.starts[leaf + 1];
     std::vector<double> jumps;
     double lowest = infinity, highest = -infinity;
-    for (; i < all.size() && all.leaves[i] == leaf; ++i)
+    for (std::size_t i = begin; i < end; ++i)
     {
       std::size_t& before = last[static_cast<std::size_t>(firsts[i])];
       if (before >= begin && before < i)
@@ -154,7 +146,8 @@ std::vector<double> jumpsAtWalls(
       highest = std::max(highest, all.values[i]);
     }
     const double range = highest - lowest;
-    const auto doubles = static_cast<double>(jumps.size()), points = static_cast<double>(i - begin);
+    const auto doubles = static_cast<double>(jumps.size()),
+               points = static_cast<double>(end - begin);
     if ((doubles > mostDoubles * points && !isGrid(leaves[leaf])) ||
       !(range > smallestRange * std::max(std::abs(lowest), std::abs(highest))))
     {
@@ -209,13 +202,7 @@ SharedPoints::SharedPoints(const Leaves& leaves, const std::vector<std::vector<b
   {
     return;
   }
-  Candidates all;
-  std::vector<std::size_t> starts{ 0 }; // of the leaves' candidates
-  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
-  {
-    addCandidates(leaves, leaf, MeshArrays(leaves[leaf]), all);
-    starts.push_back(all.size());
-  }
+  const Candidates all(leaves);
   if (all.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
   {
     return; // too many to be numbered
@@ -249,7 +236,7 @@ SharedPoints::SharedPoints(const Leaves& leaves, const std::vector<std::vector<b
     {
       std::vector<std::int32_t>& numbers =
         group.points.emplace_back(static_cast<std::size_t>(leaves[leaf]->GetNumberOfPoints()), -1);
-      for (std::size_t i = starts[leaf]; i < starts[leaf + 1]; ++i)
+      for (std::size_t i = all.starts[leaf]; i < all.starts[leaf + 1]; ++i)
       {
         const auto first = static_cast<std::size_t>(firsts[i]);
         std::int32_t& ofFirst = known[first];

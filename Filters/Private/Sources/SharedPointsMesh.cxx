@@ -36,28 +36,27 @@ namespace
 using Leaves = std::vector<vtkSmartPointer<vtkDataSet>>;
 using Numbers = std::vector<std::vector<std::int32_t>>;
 
-/// Numbers the cells but those whose points are all merged and the same as another's: of such cells
-/// it keeps a visible one if there is any, or else a copy. Returns how many are left.
-std::int32_t numberCells(const std::vector<MeshArrays>& meshes, const Numbers& points,
-  std::size_t numberOfPoints, Numbers& cells)
+/// Leaves out cells (-1) whose points are all merged and the same as another's: of such cells it
+/// keeps a visible one if there is any, or else a copy.
+Numbers withoutDoubles(
+  const std::vector<MeshArrays>& meshes, const Numbers& points, std::size_t numberOfPoints)
 {
-  std::vector<unsigned char> isUsed(numberOfPoints, 0), isMerged(numberOfPoints, 0);
+  std::vector<unsigned char> uses(numberOfPoints, 0); // none, one or more
   for (const std::vector<std::int32_t>& numbers : points)
   {
     for (const std::int32_t number : numbers)
     {
-      const auto at = static_cast<std::size_t>(number);
-      isMerged[at] = isUsed[at];
-      isUsed[at] = 1;
+      unsigned char& of = uses[static_cast<std::size_t>(number)];
+      of = of > 0 ? 2 : 1;
     }
   }
+  Numbers cells(meshes.size());
   std::unordered_set<std::uint64_t> known;
   for (const int rank : { 2, 1, 0 }) // visible, a copy, hidden
   {
     for (std::size_t i = 0; i < meshes.size(); ++i)
     {
       const MeshArrays& mesh = meshes[i];
-      cells.resize(meshes.size());
       cells[i].resize(static_cast<std::size_t>(mesh.cells()), 0);
       for (vtkIdType cell = 0; cell < mesh.cells(); ++cell)
       {
@@ -71,7 +70,7 @@ std::int32_t numberCells(const std::vector<MeshArrays>& meshes, const Numbers& p
           [&](vtkIdType point)
           {
             const std::int32_t number = points[i][static_cast<std::size_t>(point)];
-            areMerged = areMerged && isMerged[static_cast<std::size_t>(number)] != 0;
+            areMerged = areMerged && uses[static_cast<std::size_t>(number)] > 1;
             hash += hashOfPoint(static_cast<std::uint64_t>(number));
           });
         if (areMerged && !known.insert(hash).second)
@@ -81,26 +80,19 @@ std::int32_t numberCells(const std::vector<MeshArrays>& meshes, const Numbers& p
       }
     }
   }
-  std::int32_t count = 0;
-  for (std::vector<std::int32_t>& numbers : cells)
-  {
-    for (std::int32_t& number : numbers)
-    {
-      number = number < 0 ? -1 : count++;
-    }
-  }
-  return count;
+  return cells;
 }
 
-/// Adds a leaf's cells with the mesh's points.
+/// Adds a leaf's cells with the mesh's points, and numbers them.
 void addCells(vtkDataSet* leaf, const MeshArrays& from, const std::vector<std::int32_t>& points,
-  const std::vector<std::int32_t>& cells, vtkUnstructuredGrid* mesh)
+  std::vector<std::int32_t>& cells, vtkUnstructuredGrid* mesh)
 {
   const auto numberOf = [&](vtkIdType point) { return points[static_cast<std::size_t>(point)]; };
   vtkNew<vtkIdList> ids;
   for (vtkIdType cell = 0; cell < from.cells(); ++cell)
   {
-    if (cells[static_cast<std::size_t>(cell)] < 0)
+    std::int32_t& number = cells[static_cast<std::size_t>(cell)];
+    if (number < 0)
     {
       continue;
     }
@@ -123,7 +115,7 @@ void addCells(vtkDataSet* leaf, const MeshArrays& from, const std::vector<std::i
     {
       from.forPoints(cell, [&](vtkIdType point) { ids->InsertNextId(numberOf(point)); });
     }
-    mesh->InsertNextCell(from.type(cell), ids);
+    number = static_cast<std::int32_t>(mesh->InsertNextCell(from.type(cell), ids));
   }
 }
 
@@ -132,11 +124,13 @@ void addCells(vtkDataSet* leaf, const MeshArrays& from, const std::vector<std::i
 void SharedPoints::makeMesh(const Leaves& leaves, std::size_t points, Group& group)
 {
   std::vector<MeshArrays> meshes;
+  vtkIdType cells = 0;
   for (const std::size_t leaf : group.leaves)
   {
     meshes.emplace_back(leaves[leaf]);
+    cells += meshes.back().cells();
   }
-  const std::int32_t cells = numberCells(meshes, group.points, points, group.cells);
+  group.cells = withoutDoubles(meshes, group.points, points);
   group.mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
   vtkNew<vtkPoints> places;
   places->SetDataTypeToDouble();

@@ -36,7 +36,6 @@ void LatticeSampling::add(Kind kind, const Triangles& surface, std::int32_t tria
   near.normal = unit(cross(near.corners[1] - near.corners[0], near.corners[2] - near.corners[0]));
   const auto number = static_cast<std::int32_t>(this->Nearby.size());
   this->Nearby.push_back(near);
-  this->Numbers[kind].push_back(number);
   std::unique_ptr<LatticeDistances>& field = this->Fields[kind];
   if (!field)
   {

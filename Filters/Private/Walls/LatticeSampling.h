@@ -5,7 +5,6 @@
 #include "Common/Triangles.h"
 #include "Walls/LatticeDistances.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -14,14 +13,6 @@
 
 namespace filters
 {
-
-/// Joins the sides of two corners of a voxel under the lower number.
-inline void joinSides(std::array<int, 8>& sides, std::size_t a, std::size_t b)
-{
-  // Copies the values, because std::replace reads them while it changes the array.
-  const int high = std::max(sides[a], sides[b]), low = std::min(sides[a], sides[b]);
-  std::replace(sides.begin(), sides.end(), high, low);
-}
 
 /// Classifies the points of a lattice, with distances to the gas's boundary; see
 /// GasBoundary::sample().
@@ -78,16 +69,10 @@ private:
   void findKinds(const std::function<Place(const Point&)>& kindAt);
   void findGaps();
   void spread(std::vector<Index>& known);
-  void findSides();
   void thickenPlates();
-  void findSolidsOfRows();
-  static bool areOnBothSides(
-    const Near& near, const std::array<Point, 8>& places, std::size_t count);
-  static double separationOf(
-    const std::vector<const Near*>& walls, const Point& from, const Point& to);
+  static bool isOver(const Near& near, const Point& place, double slack);
   void separate(const Index& low);
-  void separate(const Index& low, const std::array<std::size_t, 8>& numbers,
-    const std::array<Point, 8>& places, std::size_t count);
+  Point sideOf(std::size_t p, const Point& place) const;
   bool isThin(const Index& at) const;
 
   template <class Visit>
@@ -110,14 +95,11 @@ private:
   {
     return { static_cast<double>(at.i), static_cast<double>(at.j), static_cast<double>(at.k) };
   }
-  std::size_t rowOf(const Index& at) const
-  {
-    return static_cast<std::size_t>(at.k) * static_cast<std::size_t>(this->Lattice.points[1]) +
-      static_cast<std::size_t>(at.j);
-  }
   std::size_t numberOf(const Index& at) const
   {
-    return this->rowOf(at) * static_cast<std::size_t>(this->Lattice.points[0]) +
+    return (static_cast<std::size_t>(at.k) * static_cast<std::size_t>(this->Lattice.points[1]) +
+             static_cast<std::size_t>(at.j)) *
+      static_cast<std::size_t>(this->Lattice.points[0]) +
       static_cast<std::size_t>(at.i);
   }
   bool holds(const Index& at) const
@@ -130,19 +112,12 @@ private:
   LatticeMetric Metric;
   std::vector<Near> Nearby;
   std::array<std::unique_ptr<LatticeDistances>, 3> Fields; // by kind; null: none within reach
-  std::array<std::vector<std::int32_t>, 3> Numbers;        // by kind
-  // Walls and bodies by rows of voxels, from SolidsOfRows[StartsOfRows[row]] to the next row's.
-  std::vector<std::size_t> StartsOfRows; // empty: not computed
-  std::vector<std::int32_t> SolidsOfRows;
 
   std::vector<unsigned char> States;
   std::vector<float> Distances;
   std::vector<float> SquaredToSolid;      // to walls and bodies
   std::vector<std::int32_t> NearestSolid; // -1: none within reach
-  std::vector<std::array<float, 3>>
-    Sides;                             // normals, turned to the point, of gas near a solid; else 0
-  std::vector<unsigned char> IsBeside; // whether it has such a normal
-  std::vector<unsigned char> Marked;   // will become walls
+  std::vector<unsigned char> Marked;      // will become walls
 };
 
 } // namespace filters

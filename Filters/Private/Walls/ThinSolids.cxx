@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace filters
 {
@@ -15,265 +14,124 @@ namespace
 
 constexpr float depthOfThin = 0.5f;
 constexpr float squaredDiagonal = 3.001f; // of a voxel
-constexpr float cosineOfPlane = 0.9f;
-constexpr double besideVoxel = 0.01; // distance at which walls count as meeting it
+constexpr double cosineOfThin = -0.1;     // of the sides of a thin solid
+constexpr double cosineOfPlane = 0.9;     // of a nearly plane wall
+constexpr double besideThin = 0.5;        // voxels
 constexpr float onSurface =
   1e-3f; // distance to a surface below which points count to the side of its normal
 
-/// Returns the fraction of a line at which a triangle crosses it; negative: nowhere.
-double crossingOf(
-  const std::array<Point, 3>& t, const Point& normal, const Point& from, const Point& to)
-{
-  constexpr double slack = 1e-9; // closes the gap between two triangles
-  const Point line = to - from;
-  const double fraction = dot(normal, t[0] - from) / dot(normal, line);
-  if (!(fraction >= -slack && fraction <= 1 + slack)) // NaN, too
-  {
-    return -1;
-  }
-  const Point at = from + fraction * line;
-  double size = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const Point edge = t[(i + 1) % 3] - t[i];
-    size = std::max(size, dot(edge, edge));
-  }
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    if (dot(cross(t[(i + 1) % 3] - t[i], at - t[i]), normal) < -slack * size)
-    {
-      return -1;
-    }
-  }
-  return std::clamp(fraction, 0., 1.);
-}
-
 } // namespace
 
-/// Finds the side of the nearest solid for each point that is nearer to it than to its neighbours.
-void LatticeSampling::findSides()
+/// Returns the normal of the nearest solid, turned to a point with gas beside it; else 0.
+Point LatticeSampling::sideOf(std::size_t p, const Point& place) const
 {
-  this->IsBeside.assign(this->States.size(), 0);
-  this->Sides.assign(this->States.size(), { 0, 0, 0 });
-  this->forPoints(
-    [&](const Index& at)
-    {
-      const std::size_t p = this->numberOf(at);
-      if (this->States[p] != InGas || this->SquaredToSolid[p] > squaredDiagonal)
-      {
-        return;
-      }
-      this->IsBeside[p] = 1;
-      const Near& near = this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
-      const bool isBehind = dot(near.normal, placeOf(at) - near.corners[0]) < 0 &&
-        this->SquaredToSolid[p] > onSurface * onSurface;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        this->Sides[p][axis] =
-          static_cast<float>(isBehind ? -near.normal[axis] : near.normal[axis]);
-      }
-    });
+  if (this->States[p] != InGas || this->SquaredToSolid[p] > squaredDiagonal)
+  {
+    return Point{};
+  }
+  const Near& near = this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
+  const bool isBehind = dot(near.normal, place - near.corners[0]) < 0 &&
+    this->SquaredToSolid[p] > onSurface * onSurface;
+  return isBehind ? -1. * near.normal : near.normal;
 }
 
-/// Lists the walls and bodies of each row of voxels along x; coarse lattices may have many.
-void LatticeSampling::findSolidsOfRows()
+/// Returns whether a place is over a triangle, or no farther beside it than `slack` voxels.
+bool LatticeSampling::isOver(const Near& near, const Point& place, double slack)
 {
-  const auto& points = this->Lattice.points;
-  std::vector<std::size_t>& starts = this->StartsOfRows;
-  starts.assign(static_cast<std::size_t>(points[1]) * static_cast<std::size_t>(points[2]) + 1, 0);
-  const auto forRowsOf = [&](std::int32_t number, const auto& visit)
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    const Near& near = this->Nearby[static_cast<std::size_t>(number)];
-    int first[3], last[3];
-    for (std::size_t axis = 1; axis < 3; ++axis)
+    const Point edge = unit(near.corners[(i + 1) % 3] - near.corners[i]);
+    if (dot(cross(edge, place - near.corners[i]), near.normal) < -slack)
     {
-      const auto [least, most] =
-        std::minmax({ near.corners[0][axis], near.corners[1][axis], near.corners[2][axis] });
-      const double end = points[axis] - 1;
-      first[axis] = static_cast<int>(std::clamp(std::ceil(least - 1 - besideVoxel), 0., end));
-      last[axis] = static_cast<int>(std::clamp(std::floor(most + besideVoxel), -1., end));
-    }
-    for (int k = first[2]; k <= last[2]; ++k)
-    {
-      for (int j = first[1]; j <= last[1]; ++j)
-      {
-        visit(this->rowOf({ 0, j, k }));
-      }
-    }
-  };
-  const auto forSolids = [&](const auto& visit)
-  {
-    for (const Kind kind : { Wall, Body })
-    {
-      std::for_each(this->Numbers[kind].begin(), this->Numbers[kind].end(), visit);
-    }
-  };
-  forSolids(
-    [&](std::int32_t number) { forRowsOf(number, [&](std::size_t row) { ++starts[row + 1]; }); });
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  this->SolidsOfRows.resize(starts.back());
-  std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
-  forSolids([&](std::int32_t number)
-    { forRowsOf(number, [&](std::size_t row) { this->SolidsOfRows[next[row]++] = number; }); });
-}
-
-/// Returns whether some of the places are in front of a triangle's plane and others behind it.
-bool LatticeSampling::areOnBothSides(
-  const Near& near, const std::array<Point, 8>& places, std::size_t count)
-{
-  bool isInFront = false, isBehind = false;
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    const bool isFront = dot(near.normal, places[n] - near.corners[0]) >= 0;
-    isInFront = isInFront || isFront;
-    isBehind = isBehind || !isFront;
-  }
-  return isInFront && isBehind;
-}
-
-/// Returns where walls separate two places, the mean of the first and the last of their crossings;
-/// negative: nowhere. A line that only cuts off a bulge of a nearly plane wall begins and ends on the
-/// same side of it.
-double LatticeSampling::separationOf(
-  const std::vector<const Near*>& walls, const Point& from, const Point& to)
-{
-  double first = 2, last = -1;
-  const Near *wallOfFirst = nullptr, *wallOfLast = nullptr;
-  for (const Near* wall : walls)
-  {
-    const double fraction = crossingOf(wall->corners, wall->normal, from, to);
-    if (fraction >= 0 && fraction < first)
-    {
-      first = fraction;
-      wallOfFirst = wall;
-    }
-    if (fraction > last)
-    {
-      last = fraction;
-      wallOfLast = wall;
+      return false;
     }
   }
-  if (last < 0)
-  {
-    return -1;
-  }
-  // Turns the normals to the places.
-  const Point line = to - from;
-  const double turns =
-    (dot(wallOfFirst->normal, line) < 0 ? 1 : -1) * (dot(wallOfLast->normal, line) < 0 ? -1 : 1);
-  const bool isBulge =
-    turns * dot(wallOfFirst->normal, wallOfLast->normal) > double{ cosineOfPlane };
-  return isBulge ? -1 : 0.5 * (first + last);
+  return true;
 }
 
 /// Marks points, so that no wall separates corners with gas of the voxel from `low` to low + (1, 1,
 /// 1).
 void LatticeSampling::separate(const Index& low)
 {
-  std::array<std::size_t, 8> numbers; // of the corners with gas
-  std::array<Point, 8> places;
+  struct Corner // with gas beside a solid
+  {
+    std::size_t number;
+    Point place, side;
+    const Near* near;
+    bool isOver; // else beyond an edge
+    double heightOf(const Point& other) const { return dot(side, other - near->corners[0]); }
+    Point foot() const { return place - heightOf(place) * side; }
+  };
+  std::array<Corner, 8> corners;
   std::size_t count = 0;
-  const std::array<float, 3>* side = nullptr;
-  std::array<const Near*, 8> nearest; // of the corners beside a wall
-  std::size_t countNearest = 0;
-  bool mayBeCrossed = false;
-  const int corners = this->Lattice.points[2] > 1 ? 8 : 4;
-  for (int c = 0; c < corners; ++c)
+  for (int c = 0; c < (this->Lattice.points[2] > 1 ? 8 : 4); ++c)
   {
     const Index at{ low.i + (c & 1), low.j + (c >> 1 & 1), low.k + (c >> 2) };
     const std::size_t p = this->numberOf(at);
-    if (this->States[p] != InGas)
+    const Point side = this->sideOf(p, placeOf(at));
+    if (dot(side, side) > 0)
     {
-      continue;
-    }
-    numbers[count] = p;
-    places[count] = placeOf(at);
-    if (this->IsBeside[p])
-    {
-      const Near* of = &this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
-      if (countNearest == 0 || nearest[countNearest - 1] != of)
-      {
-        nearest[countNearest++] = of;
-      }
-      const std::array<float, 3>& own = this->Sides[p];
-      side = side ? side : &own;
-      mayBeCrossed = mayBeCrossed ||
-        (*side)[0] * own[0] + (*side)[1] * own[1] + (*side)[2] * own[2] < cosineOfPlane;
-      if (this->SquaredToSolid[p] <= onSurface * onSurface)
-      {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          places[count][axis] += double{ onSurface } * own[axis];
-        }
-      }
-    }
-    ++count;
-  }
-  // Skips corners on one side of a nearly plane wall. Normals alone do not show that: the sides of
-  // a narrow fold have nearly the same one, too.
-  for (std::size_t n = 0; n < countNearest && !mayBeCrossed; ++n)
-  {
-    mayBeCrossed = areOnBothSides(*nearest[n], places, count);
-  }
-  if (!mayBeCrossed)
-  {
-    return;
-  }
-  this->separate(low, numbers, places, count);
-}
-
-/// Marks those of some corners that a wall separates from others.
-void LatticeSampling::separate(const Index& low, const std::array<std::size_t, 8>& numbers,
-  const std::array<Point, 8>& places, std::size_t count)
-{
-  if (this->StartsOfRows.empty())
-  {
-    this->findSolidsOfRows();
-  }
-
-  // Lists the walls that meet the voxel.
-  std::vector<const Near*> walls;
-  const std::size_t row = this->rowOf(low);
-  for (std::size_t n = this->StartsOfRows[row]; n < this->StartsOfRows[row + 1]; ++n)
-  {
-    const Near& near = this->Nearby[static_cast<std::size_t>(this->SolidsOfRows[n])];
-    const auto [least, most] =
-      std::minmax({ near.corners[0][0], near.corners[1][0], near.corners[2][0] });
-    if (least <= low.i + 1 + besideVoxel && most >= low.i - besideVoxel)
-    {
-      walls.push_back(&near);
+      const Near& near = this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
+      corners[count++] = { p, placeOf(at), side, &near, isOver(near, placeOf(at), besideThin) };
     }
   }
-  if (walls.empty())
-  {
-    return;
-  }
-  std::array<int, 8> sides{ 0, 1, 2, 3, 4, 5, 6, 7 }; // equal number: not separated
-  double crossing[8][8];
+  // Finds which corners are behind the walls that others are in front of.
+  double heights[8][8]; // over the wall of the first, of the second
   for (std::size_t a = 0; a < count; ++a)
   {
-    for (std::size_t b = a + 1; b < count; ++b)
+    for (std::size_t b = 0; b < count; ++b)
     {
-      crossing[a][b] = separationOf(walls, places[a], places[b]);
-      if (crossing[a][b] < 0)
-      {
-        joinSides(sides, a, b);
-      }
+      heights[a][b] = corners[a].heightOf(corners[b].place);
+    }
+  }
+  // Whether a line from one to the other enters the one's wall before it leaves the other's.
+  const auto areApart = [&](std::size_t a, std::size_t b, double cosine)
+  {
+    return heights[a][b] < onSurface && heights[b][a] < onSurface &&
+      heights[a][a] * heights[b][b] <= heights[a][b] * heights[b][a] + onSurface &&
+      dot(corners[a].side, corners[b].side) < cosine;
+  };
+  std::array<unsigned, 8> together{}; // bits of the others that each corner is not apart from
+  for (std::size_t a = 0; a < count; ++a)
+  {
+    for (std::size_t b = 0; b < a; ++b)
+    {
+      const bool are = !areApart(a, b, cosineOfPlane);
+      together[a] |= are ? 1u << b : 0;
+      together[b] |= are ? 1u << a : 0;
     }
   }
   for (std::size_t a = 0; a < count; ++a)
   {
-    for (std::size_t b = a + 1; b < count; ++b)
+    for (std::size_t b = 0; b < count; ++b)
     {
-      if (sides[a] != sides[b])
+      const Corner &one = corners[a], &other = corners[b];
+      // Around an edge a third corner sees both.
+      const bool areOpposite = a != b && ((together[a] >> b) & 1) == 0 &&
+        ((together[a] & together[b]) == 0 || areApart(a, b, cosineOfThin));
+      // Either is behind what the other is in front of, or one is between two walls.
+      const bool areSeparated = one.isOver && other.isOver &&
+        (areOpposite ? a < b : heights[a][b] < -onSurface && isOver(*one.near, other.place, 0));
+      if (!areSeparated)
       {
-        if (crossing[a][b] < 0.5 + 1e-3)
+        continue;
+      }
+      // The plane halfway between the walls, or the wall, separates other corners, too.
+      const Point across = areOpposite ? unit(one.side - other.side) : one.side;
+      const Point on = areOpposite ? 0.5 * (one.foot() + other.foot()) : one.foot();
+      double front = 0, behind = 0;
+      for (std::size_t n = 0; n < count; ++n)
+      {
+        const double over = dot(across, corners[n].place - on);
+        front = std::max(front, corners[n].isOver ? over : 0);
+        behind = std::max(behind, corners[n].isOver ? -over : 0);
+      }
+      for (std::size_t n = 0; n < count; ++n)
+      {
+        const double over = dot(across, corners[n].place - on);
+        if (corners[n].isOver && std::abs(over) <= (over >= 0 ? behind : front) + onSurface)
         {
-          this->Marked[numbers[a]] = 1;
-        }
-        if (crossing[a][b] > 0.5 - 1e-3)
-        {
-          this->Marked[numbers[b]] = 1;
+          this->Marked[corners[n].number] = 1;
         }
       }
     }
@@ -287,14 +145,11 @@ bool LatticeSampling::isThin(const Index& at) const
   {
     const int i = axis == 0 ? 1 : 0, j = axis == 1 ? 1 : 0, k = axis == 2 ? 1 : 0;
     const Index one{ at.i - i, at.j - j, at.k - k }, other{ at.i + i, at.j + j, at.k + k };
-    if (this->holds(one) && this->holds(other))
+    if (this->holds(one) && this->holds(other) &&
+      dot(this->sideOf(this->numberOf(one), placeOf(one)),
+        this->sideOf(this->numberOf(other), placeOf(other))) < -0.5)
     {
-      const std::array<float, 3>&a = this->Sides[this->numberOf(one)],
-                              &b = this->Sides[this->numberOf(other)];
-      if (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < -0.5f)
-      {
-        return true;
-      }
+      return true;
     }
   }
   return false;
@@ -302,38 +157,32 @@ bool LatticeSampling::isThin(const Index& at) const
 
 void LatticeSampling::thickenPlates()
 {
-  this->findSides();
   this->Marked.assign(this->States.size(), 0);
+  std::vector<unsigned char> isBeside(this->States.size());
+  for (std::size_t p = 0; p < isBeside.size(); ++p)
+  {
+    isBeside[p] = this->States[p] == InGas && this->SquaredToSolid[p] <= squaredDiagonal ? 1 : 0;
+  }
   const auto& points = this->Lattice.points;
   // Allows for flat lattices, whose voxels are squares.
-  const int layers = std::max(1, points[2] - 1);
-  const int up = points[2] > 1 ? 1 : 0;
-  for (int k = 0; k < layers; ++k)
-  {
-    for (int j = 0; j + 1 < points[1]; ++j)
-    {
-      const unsigned char* rows[4] = { &this->IsBeside[this->numberOf({ 0, j, k })],
-        &this->IsBeside[this->numberOf({ 0, j + 1, k })],
-        &this->IsBeside[this->numberOf({ 0, j, k + up })],
-        &this->IsBeside[this->numberOf({ 0, j + 1, k + up })] };
-      for (int i = 0; i + 1 < points[0]; ++i)
-      {
-        int beside = 0;
-        for (const unsigned char* row : rows)
-        {
-          beside += row[i] + row[i + 1];
-        }
-        if (beside > 1)
-        {
-          this->separate({ i, j, k });
-        }
-      }
-    }
-  }
+  const auto row = static_cast<std::size_t>(points[0]);
+  const std::size_t layer = points[2] > 1 ? row * static_cast<std::size_t>(points[1]) : 0;
   this->forPoints(
     [&](const Index& at)
     {
       const std::size_t p = this->numberOf(at);
+      if (at.i + 1 < points[0] && at.j + 1 < points[1] && (at.k + 1 < points[2] || layer == 0))
+      {
+        int beside = 0;
+        for (const std::size_t corner : { p, p + row, p + layer, p + layer + row })
+        {
+          beside += isBeside[corner] + isBeside[corner + 1];
+        }
+        if (beside > 1)
+        {
+          this->separate(at);
+        }
+      }
       if (this->States[p] == InWall && this->Distances[p] > -depthOfThin && this->isThin(at))
       {
         this->Marked[p] = 1;

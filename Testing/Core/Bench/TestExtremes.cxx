@@ -139,38 +139,6 @@ TEST_P(Extremes, SingleAgreesWithDouble)
   }
 }
 
-TEST_P(Extremes, MirroredDataGivesTheMirroredImage)
-{
-  Scene scene = smallScene(GetParam());
-  scene.view.viewDirection = { 0, 0, -1 };
-  scene.samplesPerPixel = 1;
-  scene.kScale = 500;
-  const SampledField<double> plain(
-    cube(33, 1), [](double x, double y, double z) { return 1e-4 * blob(x, y, z); });
-  const SampledField<double> mirrored(
-    cube(33, 1), [](double x, double y, double z) { return 1e-4 * blob(-x, y, z); });
-  const Image a = Bench().render(plain.field, scene);
-  scene.invertCutoff = true;
-  const Image b = Bench().render(mirrored.field, scene);
-  double deflection = 0, intensity = 0;
-  for (int row = 0; row < a.height; ++row)
-  {
-    for (int column = 0; column < a.width; ++column)
-    {
-      const std::size_t at = pixelOf(a, column, row);
-      const std::size_t mirror = pixelOf(a, a.width - 1 - column, row);
-      deflection =
-        std::max<double>(deflection, std::abs(a.deflection[2 * at] + b.deflection[2 * mirror]));
-      deflection = std::max<double>(
-        deflection, std::abs(a.deflection[2 * at + 1] - b.deflection[2 * mirror + 1]));
-      intensity = std::max<double>(intensity, std::abs(a.intensity[at] - b.intensity[mirror]));
-    }
-  }
-  EXPECT_LT(deflection, 1e-9);
-  EXPECT_LT(intensity, 1e-6);
-  EXPECT_GT(largest(a.deflection), 1e-4);
-}
-
 TEST_P(Extremes, VeryUnequalSpacings)
 {
   // A column along y, sampled 1000 times more coarsely along y than along x and z.

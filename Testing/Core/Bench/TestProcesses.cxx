@@ -185,39 +185,6 @@ TEST(Processes, SendsLargeArraysInPieces)
   EXPECT_EQ(others.arrays, 2);
 }
 
-/// Pieces of an array, as a worker gets them.
-std::vector<std::vector<char>> piecesOf(const std::vector<char>& array, std::uint64_t version)
-{
-  std::vector<std::vector<char>> pieces;
-  sendPieces({ RayWorker::Array, 0, version }, array.data(), array.size(),
-    [&](std::vector<char> piece) { pieces.push_back(std::move(piece)); });
-  return pieces;
-}
-
-TEST(Processes, PiecesOfAnArrayAreAllOfIt)
-{
-  for (const std::size_t bytes :
-    { std::size_t{ 0 }, std::size_t{ 5 }, bytesOfArrayPiece, 2 * bytesOfArrayPiece + 3 })
-  {
-    std::vector<char> array(bytes), together;
-    for (std::size_t i = 0; i < bytes; ++i)
-    {
-      array[i] = static_cast<char>(i % 127);
-    }
-    for (const std::vector<char>& piece : piecesOf(array, 3))
-    {
-      ArrayMessage head;
-      ASSERT_TRUE(read(piece, head));
-      EXPECT_EQ(head.version, 3u);
-      EXPECT_EQ(head.bytes, bytes);
-      EXPECT_EQ(head.first, together.size());
-      EXPECT_LE(piece.size(), sizeof(head) + bytesOfArrayPiece);
-      together.insert(together.end(), piece.begin() + sizeof(head), piece.end());
-    }
-    EXPECT_EQ(together, array);
-  }
-}
-
 TEST(Processes, RefusesRequestsThatMakeNoSense)
 {
   RayWorker worker(1, 2);
@@ -227,84 +194,6 @@ TEST(Processes, RefusesRequestsThatMakeNoSense)
     const std::uint32_t kind = RayWorker::Trace;
     std::memcpy(request.data(), &kind, sizeof(kind));
     EXPECT_THROW(worker.answer(request, 1), Error);
-  }
-}
-
-TEST(Processes, EachTileIsOfOneProcess)
-{
-  for (const std::int64_t processes : { 1, 2, 3, 7 })
-  {
-    for (const auto& [first, end] :
-      { std::pair<std::int64_t, std::int64_t>{ 0, 20 }, { 5, 6 }, { 13, 40 } })
-    {
-      std::vector<int> count(static_cast<std::size_t>(end), 0);
-      for (std::int64_t process = 0; process < processes; ++process)
-      {
-        const Tiles tiles = tilesOfProcess(first, end, process, processes);
-        std::int64_t tilesOfThis = 0;
-        for (std::int64_t tile = tiles.first; tile < tiles.end; tile += tiles.step, ++tilesOfThis)
-        {
-          EXPECT_EQ(tile % processes, process);
-          ++count[static_cast<std::size_t>(tile)];
-        }
-        EXPECT_EQ(tiles.count(), tilesOfThis);
-      }
-      for (std::int64_t tile = 0; tile < end; ++tile)
-      {
-        EXPECT_EQ(count[static_cast<std::size_t>(tile)], tile < first ? 0 : 1);
-      }
-    }
-  }
-}
-
-// Tiles and bands of several passes have all of their rays once, and bands in their order.
-TEST(Processes, DividePasses)
-{
-  const Pass first{ -3, 2, 40, 17, { 0.1, 0.2 } }, second{ 5, 5, 1, 1, { 0, 0 } },
-    third{ 0, 0, 16, 33, { -0.3, 0 } };
-  const Passes passes(std::vector<Pass>{ first, second, third });
-  EXPECT_EQ(passes.rays(), 40u * 17 + 1 + 16 * 33);
-  EXPECT_EQ(passes.tiles(), 3 * 2 + 1 + 3);
-  EXPECT_EQ(passes.bands(), 3 + 1 + 5);
-  EXPECT_EQ(passes.columns(), 40);
-  std::vector<int> count(passes.rays(), 0);
-  for (std::int64_t process = 0; process < 3; ++process)
-  {
-    const Tiles tiles = tilesOfProcess(0, passes.tiles(), process, 3);
-    std::size_t rays = 0;
-    forRowsOf(passes, tiles,
-      [&](std::size_t from, std::size_t some)
-      {
-        rays += some;
-        for (std::size_t ray = from; ray < from + some; ++ray)
-        {
-          ++count[ray];
-        }
-      });
-    EXPECT_EQ(rays, passes.raysOf(tiles));
-  }
-  EXPECT_EQ(count, std::vector<int>(passes.rays(), 1));
-  const auto startsOf = [](const Passes& of)
-  {
-    std::vector<double> starts;
-    for (const PlacedPass& placed : of.all())
-    {
-      for (std::int64_t ray = 0; ray < placed.pass.columns * placed.pass.rows; ++ray)
-      {
-        starts.insert(starts.end(), { placed.pass.columnOf(ray), placed.pass.rowOf(ray) });
-      }
-    }
-    return starts;
-  };
-  const std::vector<double> all = startsOf(passes);
-  for (std::int64_t begin = 0; begin <= passes.bands(); ++begin)
-  {
-    for (std::int64_t end = begin; end <= passes.bands(); ++end)
-    {
-      const auto at = [&](std::int64_t band)
-      { return all.begin() + 2 * static_cast<std::ptrdiff_t>(passes.raysBefore(band)); };
-      EXPECT_EQ(startsOf(passes.ofBands({ begin, end })), std::vector<double>(at(begin), at(end)));
-    }
   }
 }
 

@@ -117,28 +117,6 @@ TEST(Estimators, LightIsEvenUpToTheSidesOfTheMedium)
   }
 }
 
-TEST(Estimators, ImagesDoNotDependOnThreads)
-{
-  Bodies bodies(1e-3, true);
-  Scene& scene = bodies.scene;
-  scene.view.height = 150;
-  for (const double distance : { 0., 300., 1e6 })
-  {
-    scene.screenDistance = distance;
-    scene.threads = 1;
-    const Image one = Bench().render(bodies.gas.field, scene);
-    for (const int threads : { 2, 3, 7 })
-    {
-      scene.threads = threads;
-      const Image image = Bench().render(bodies.gas.field, scene);
-      EXPECT_EQ(image.intensity, one.intensity);
-      EXPECT_EQ(image.light.emitted, one.light.emitted);
-      EXPECT_EQ(image.light.onFilm, one.light.onFilm);
-      EXPECT_EQ(image.light.outside, one.light.outside);
-    }
-  }
-}
-
 /// Rays that are not cached are traced again, for the same image.
 TEST(Estimators, ImagesDoNotDependOnTheMemoryBudget)
 {
@@ -173,32 +151,6 @@ TEST(Estimators, ImagesDoNotDependOnTheMemoryBudget)
       EXPECT_GT(bench.work().raysTraced, traced);
       EXPECT_LT(bench.work().raysTraced, 2 * traced);
     }
-  }
-}
-
-TEST(Estimators, MoreSamplesAddPassesToThoseCached)
-{
-  Bodies bodies(1e-3, true);
-  Scene& scene = bodies.scene;
-  Bench bench;
-  std::int64_t ofOne = 0;
-  for (const int samples : { 1, 2, 5, 9 })
-  {
-    scene.samplesPerPixel = samples;
-    const Image raised = bench.render(bodies.gas.field, scene);
-    Bench fresh;
-    const Image atOnce = fresh.render(bodies.gas.field, scene);
-    EXPECT_EQ(raised.intensity, atOnce.intensity);
-    EXPECT_EQ(raised.deflection, atOnce.deflection);
-    EXPECT_EQ(raised.opticalPathDifference, atOnce.opticalPathDifference);
-    EXPECT_EQ(raised.light.outside, atOnce.light.outside);
-    EXPECT_EQ(bench.work().raysTraced, fresh.work().raysTraced);
-    if (samples == 1)
-    {
-      ofOne = bench.work().raysTraced;
-    }
-    EXPECT_NEAR(static_cast<double>(bench.work().raysTraced), static_cast<double>(samples * ofOne),
-      0.1 * static_cast<double>(samples * ofOne));
   }
 }
 

@@ -91,39 +91,6 @@ void forCubes(const HomogeneityMap<Real>& map, const Visit& visit)
   }
 }
 
-/// A single sample shows in those cubes in which rays can feel it, and in no others.
-TEST(HomogeneityMap, BoundsExactlyTheSamplesThatARayCanFeel)
-{
-  for (const Interpolation interpolation : allInterpolations)
-  {
-    for (const Dimensions& dimensions : { Dimensions{ 2, 2, 2 }, { 6, 2, 4 }, { 5, 9, 6 } })
-    {
-      Medium<double> medium =
-        mediumOf<double>(dimensions, interpolation, [](double, double, double) { return 0; });
-      for (std::size_t spike = 0; spike < medium.volume.samples.size(); ++spike)
-      {
-        medium.volume.samples[spike] = spike % 2 == 0 ? 1 : -1;
-        const HomogeneityMap<double> map =
-          buildHomogeneityMap<double>(medium, interpolation, 0., 1);
-        forCubes(map,
-          [&](int level, const Dimensions& low, std::int64_t edge, const NuRange<double>& range)
-          {
-            bool isFelt = false;
-            forPositions(dimensions, low, edge,
-              [&](const Vec3<double>& position)
-              {
-                const Sample<double> sample = sampleAt(medium, interpolation, position);
-                isFelt |= sample.value != 0;
-              });
-            EXPECT_EQ(range.highest - range.lowest, isFelt ? 1 : 0)
-              << "sample " << spike << ", level " << level;
-          });
-        medium.volume.samples[spike] = 0;
-      }
-    }
-  }
-}
-
 template <class Real>
 void expectBounds(const Dimensions& dimensions, Interpolation interpolation,
   const std::function<double(double, double, double)>& refractivity)
@@ -227,80 +194,6 @@ TEST(HomogeneityMap, BoundsWhatIsMissedAlongSegments)
   }
 }
 
-/// A step across y that is turned round about the middle of x: as much as the bounds allow is missed there.
-TEST(HomogeneityMap, WorstMediumMissesAsMuchAlongASegmentAsItsBoundsSay)
-{
-  const Dimensions dimensions{ 257, 9, 9 };
-  for (const Interpolation interpolation : allInterpolations)
-  {
-    Medium<double> medium =
-      mediumOf<double>(dimensions, interpolation, [](double, double, double) { return 0; });
-    for (std::int64_t k = -1; k <= dimensions[2]; ++k)
-    {
-      for (std::int64_t j = -1; j <= dimensions[1]; ++j)
-      {
-        for (std::int64_t i = -1; i <= dimensions[0]; ++i)
-        {
-          medium.volume.at(i, j, k) = (j < 4) == (i > 125 && i < 131) ? 0 : 1;
-        }
-      }
-    }
-    const NuRange<double> range =
-      buildHomogeneityMap<double>(medium, interpolation, 0, 1).ranges.back();
-    EXPECT_EQ(range.highest - range.lowest, 1);
-    const auto missed = [&](double y)
-    {
-      const Sample<double> mean = meanAlong(medium, interpolation, { 0, y, 4 }, { 256, y, 4 });
-      const Sample<double> middle = sampleAt<double>(medium, interpolation, { 128, y, 4 });
-      return std::array<double, 3>{ std::abs(mean.gradient.y),
-        std::abs(mean.gradient.y - middle.gradient.y), std::abs(mean.value - middle.value) };
-    };
-    const double s = steepestOf(interpolation);
-    constexpr double most = 1 + 1e-12, nearlyAll = 0.95;
-    EXPECT_LE(missed(3.5)[0], most * s);
-    EXPECT_GT(missed(3.5)[0], nearlyAll * s);
-    EXPECT_LE(missed(3.5)[1], most * 2 * s);
-    EXPECT_GT(missed(3.5)[1], nearlyAll * 2 * s);
-    EXPECT_LE(missed(7)[2], most);
-    EXPECT_GT(missed(7)[2], nearlyAll);
-  }
-}
-
-/// Whether the points in a cube are gas, and the samples that have weight there differ by no more than
-/// the tolerance.
-bool isHomogeneous(
-  const Medium<double>& medium, double tolerance, const Dimensions& low, std::int64_t edge)
-{
-  constexpr std::int64_t reach = 1;
-  double lowest = anyTolerance, highest = -anyTolerance;
-  Dimensions end{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    end[axis] = std::min(low[axis] + edge, medium.volume.dimensions[axis] - 1);
-  }
-  for (std::int64_t k = low[2] - reach; k <= end[2] + reach; ++k)
-  {
-    for (std::int64_t j = low[1] - reach; j <= end[1] + reach; ++j)
-    {
-      for (std::int64_t i = low[0] - reach; i <= end[0] + reach; ++i)
-      {
-        const double sample =
-          medium.volume.samples[static_cast<std::size_t>(medium.volume.index(i, j, k))];
-        lowest = std::min(lowest, sample);
-        highest = std::max(highest, sample);
-        const bool isInside =
-          i >= low[0] && i <= end[0] && j >= low[1] && j <= end[1] && k >= low[2] && k <= end[2];
-        const Vec3<double> point = static_cast<Vec3<double>>(Vec3<std::int64_t>{ i, j, k });
-        if (isInside && !medium.solid.empty() && isSolid(medium.view(), point))
-        {
-          return false;
-        }
-      }
-    }
-  }
-  return highest - lowest <= tolerance;
-}
-
 /// Smooth in one half, so that there are cubes of all sizes; with a solid point and a solid wall.
 Medium<double> mediumWithSolids(
   const Dimensions& dimensions, Interpolation interpolation, double noise)
@@ -318,79 +211,6 @@ Medium<double> mediumWithSolids(
   field.field.valid = valid.data();
   field.field.ambient = 0;
   return buildMedium<double>(field.field, interpolation, 1);
-}
-
-TEST(HomogeneityMap, GivesTheLargestHomogeneousCube)
-{
-  constexpr double noise = 1e-5;
-  for (const Dimensions& dimensions :
-    { Dimensions{ 2, 2, 2 }, { 9, 3, 6 }, { 33, 17, 22 }, { 70, 5, 12 } })
-  {
-    for (const Interpolation interpolation : allInterpolations)
-    {
-      const Medium<double> medium = mediumWithSolids(dimensions, interpolation, noise);
-      HomogeneityMap<double> map = buildHomogeneityMap(medium, interpolation, 0., 2);
-      std::int64_t largest = 0;
-      for (const double tolerance : { 0., 0.3 * noise, noise, 3 * noise, anyTolerance })
-      {
-        SCOPED_TRACE(tolerance);
-        map.setTolerance(tolerance, 1);
-        EXPECT_EQ(map.levels, buildHomogeneityMap(medium, interpolation, tolerance, 1).levels);
-        for (std::int64_t n = 0; n < map.pyramid.size(0); ++n)
-        {
-          const BrickPyramid::Place at = map.pyramid.place(n, 0);
-          const auto middle = [&](std::int64_t brick, std::size_t axis)
-          {
-            return std::min((static_cast<double>(brick) + 0.5) * brickEdge,
-              static_cast<double>(dimensions[axis] - 1));
-          };
-          const HomogeneousCube<double> cube = homogeneousCube<double>(
-            map.view(), { middle(at.x, 0), middle(at.y, 1), middle(at.z, 2) });
-          const auto edge = static_cast<std::int64_t>(cube.edge);
-          const auto cubeAround = [&](std::int64_t size)
-          {
-            const auto low = [size](std::int64_t brick) { return brick * brickEdge / size * size; };
-            return Dimensions{ low(at.x), low(at.y), low(at.z) };
-          };
-          if (edge > 0)
-          {
-            const Dimensions low = cubeAround(edge);
-            EXPECT_EQ(cube.low.x, static_cast<double>(low[0]));
-            EXPECT_EQ(cube.low.y, static_cast<double>(low[1]));
-            EXPECT_EQ(cube.low.z, static_cast<double>(low[2]));
-            EXPECT_TRUE(isHomogeneous(medium, tolerance, low, edge));
-            forPositions(dimensions, low, edge,
-              [&](const Vec3<double>& position)
-              { EXPECT_FALSE(medium.solid.empty() || isSolid(medium.view(), position)); });
-          }
-          const std::int64_t next = edge > 0 ? 2 * edge : brickEdge;
-          EXPECT_FALSE(isHomogeneous(medium, tolerance, cubeAround(next), next));
-          largest = std::max(largest, edge);
-        }
-      }
-      EXPECT_TRUE(dimensions[0] < 33 || largest > brickEdge);
-    }
-  }
-}
-
-TEST(HomogeneityMap, UniformGasIsOneCube)
-{
-  for (const Dimensions& dimensions : someDimensions)
-  {
-    for (const Interpolation interpolation : allInterpolations)
-    {
-      SampledField<float> field(gridOf(dimensions), [](double, double, double) { return 2.7e-4; });
-      const Medium<float> medium = buildMedium<float>(field.field, interpolation, 1);
-      const HomogeneityMap<float> map = buildHomogeneityMap(medium, interpolation, 0.f, 1);
-      const Vec3<float> last = medium.view().leafHigh;
-      for (const Vec3<float>& position : { Vec3<float>{ 0, 0, 0 }, 0.5f * last, last })
-      {
-        const HomogeneousCube<float> cube = homogeneousCube(map.view(), position);
-        EXPECT_EQ(length(cube.low), 0);
-        EXPECT_GE(cube.edge, std::max({ last.x, last.y, last.z }));
-      }
-    }
-  }
 }
 
 TEST(HomogeneityMap, NoToleranceSkipsASolid)
@@ -420,34 +240,6 @@ TEST(HomogeneityMap, NothingIsWithinANegativeOrMissingTolerance)
   {
     const auto map = buildHomogeneityMap(medium, Interpolation::Quadratic, tolerance, 1);
     EXPECT_EQ(homogeneousCube<double>(map.view(), { 4, 4, 4 }).edge, 0);
-  }
-}
-
-/// Grids that no memory holds, so only the numbers of their cubes.
-TEST(HomogeneityMap, NumbersHugeGrids)
-{
-  for (const Dimensions& dimensions : { Dimensions{ 50001, 40000, 60000 },
-         { std::int64_t{ 1 } << 30, 3, 2 }, { 2, std::int64_t{ 1 } << 30, 1 << 20 } })
-  {
-    const BrickPyramid pyramid = pyramidOver(dimensions);
-    EXPECT_EQ(pyramid.size(pyramid.levels - 1), 1);
-    EXPECT_LT(pyramid.levels, 255);
-    std::int64_t all = 0;
-    for (int level = 0; level < pyramid.levels; ++level)
-    {
-      EXPECT_EQ(pyramid.first(level), all);
-      all += pyramid.size(level);
-      const BrickPyramid::Place end{ pyramid.along(0, level) - 1, pyramid.along(1, level) - 1,
-        pyramid.along(2, level) - 1 };
-      EXPECT_EQ(pyramid.number(end, level), pyramid.size(level) - 1);
-      const BrickPyramid::Place place = pyramid.place(pyramid.size(level) - 1, level);
-      EXPECT_EQ(place.x, end.x);
-      EXPECT_EQ(place.y, end.y);
-      EXPECT_EQ(place.z, end.z);
-    }
-    const double cells = static_cast<double>(dimensions[0] - 1) *
-      static_cast<double>(dimensions[1] - 1) * static_cast<double>(dimensions[2] - 1);
-    EXPECT_GE(static_cast<double>(pyramid.size(0)), cells / (brickEdge * brickEdge * brickEdge));
   }
 }
 

@@ -20,51 +20,6 @@ namespace schlieren
 namespace
 {
 
-TEST(MediumTree, RootCellsFillTheBox)
-{
-  const auto gridOf = [](const std::array<double, 3>& edges, const std::array<double, 3>& shape)
-  { return Tree(std::make_shared<BoxSource>(edges, shape), 0, {}).grid(); };
-  const Grid cubes = gridOf({ 4, 2, 1 }, { 1, 1, 1 });
-  EXPECT_EQ(cubes.dimensions, (std::array<std::int64_t, 3>{ 65, 33, 17 }));
-  EXPECT_EQ(cubes.origin, (Vector{ 1, 2, 3 }));
-  const Grid flat = gridOf({ 4, 2, 1 }, { 1, 0.25, 1 });
-  EXPECT_EQ(flat.dimensions, (std::array<std::int64_t, 3>{ 65, 129, 17 }));
-  const Grid odd = gridOf({ 1, 0.3, 0.6 }, { 1, 1, 1 });
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double edges[3] = { 1, 0.3, 0.6 };
-    EXPECT_NEAR(
-      odd.spacing[axis] * static_cast<double>(odd.dimensions[axis] - 1), edges[axis], 1e-14);
-    EXPECT_EQ((odd.dimensions[axis] - 1) % Tree::brickEdge, 0);
-  }
-  const Grid tunnel = gridOf({ 10, 1, 1 }, { 1, 1, 1 });
-  EXPECT_EQ(tunnel.dimensions, (std::array<std::int64_t, 3>{ 161, 17, 17 }));
-}
-
-TEST(MediumTree, LeavesLieWhereTheirPlacesSay)
-{
-  const auto source = std::make_shared<BallsSource>(threeBalls(1e-4));
-  Tree tree(source, 0, settingsOf(1e-2));
-  tree.refine(everything());
-  std::set<std::int32_t> found;
-  const double last = static_cast<double>(tree.grid().dimensions[0] - 1);
-  for (std::size_t n = 0; n < tree.leaves().size(); ++n)
-  {
-    const Leaf<float>& leaf = tree.leaves()[n];
-    // All corners of the leaf, a little within.
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      double at[3];
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        at[axis] = leaf.first[axis] + ((corner >> axis & 1) != 0 ? 15.49 : -0.49) / leaf.perIndex;
-        ASSERT_TRUE(at[axis] > 0 && at[axis] < last);
-      }
-      ASSERT_EQ(tree.finder().at({ at[0], at[1], at[2] }), static_cast<std::int32_t>(n));
-    }
-  }
-}
-
 class EachScheme : public testing::TestWithParam<Interpolation>
 {
 };

@@ -259,40 +259,6 @@ private:
   mutable std::set<std::tuple<Place3, Place3, std::array<int, 3>>> lattices_;
 };
 
-TEST(MediumTree, BricksArriveAsTheyWereSent)
-{
-  const auto source = std::make_shared<SphereSource>();
-  const Tree tree(source, 0, settingsOf(1e-2));
-  const BrickMaker<float> maker(*source, { tree.grid(), 0, 1e-4, Interpolation::Quadratic });
-  int mixed = 0;
-  for (std::int32_t at = 0; at < 8; ++at)
-  {
-    const Brick<float> brick = maker.make({ { 1, { at, 3, 4 } }, { 0 } });
-    mixed += brick.gasDistances.empty() ? 0 : 1;
-    const std::vector<char> bytes = brick.toBytes();
-    const auto samples = static_cast<std::size_t>(maker.samplesPerBrick());
-    const auto arrived = Brick<float>::fromBytes(bytes, samples, 0);
-    EXPECT_EQ(arrived.kind, brick.kind);
-    EXPECT_EQ(arrived.offset, brick.offset);
-    EXPECT_EQ(arrived.samples, brick.samples);
-    EXPECT_EQ(arrived.gasDistances, brick.gasDistances);
-    EXPECT_EQ(std::memcmp(&arrived.facts, &brick.facts, sizeof(brick.facts)), 0);
-    EXPECT_EQ(arrived.toBytes(), bytes);
-    for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 97)
-    {
-      EXPECT_THROW(
-        Brick<float>::fromBytes(
-          { bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size) }, samples, 0),
-        Error);
-    }
-    if (!brick.samples.empty())
-    {
-      EXPECT_THROW(Brick<float>::fromBytes(bytes, samples - 1, 0), Error);
-    }
-  }
-  EXPECT_GT(mixed, 0);
-}
-
 TEST(MediumTree, SeveralProcessesMakeManyBricksAtOnce)
 {
   const Column column = around(0, 0, 1.5, 0.02);

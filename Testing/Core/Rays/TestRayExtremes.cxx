@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays in media, in grids and at places at the ends of the possible.
 #include "ClosedForms.h"
-#include "Rays/March/Marcher.h"
-
-#include <limits>
-#include <random>
 
 namespace schlieren
 {
@@ -742,30 +738,5 @@ TEST_P(RayExtremes, DenormalValues)
 INSTANTIATE_TEST_SUITE_P(, RayExtremes, bothDevices(), deviceName);
 
 } // namespace
-
-template <class Number>
-class StepsAsIntegers : public testing::Test
-{
-};
-using Numbers = testing::Types<float, double>;
-TYPED_TEST_SUITE(StepsAsIntegers, Numbers);
-
-TYPED_TEST(StepsAsIntegers, HoldNumbersOfAnySize)
-{
-  using Number = TypeParam;
-  constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-  constexpr Number infinite = std::numeric_limits<Number>::infinity();
-  EXPECT_EQ(wholeSteps(Number(3.7), most), 3);
-  EXPECT_EQ(wholeSteps(Number(3.7), 2), 2);
-  EXPECT_EQ(wholeSteps(Number(0), most), 0);
-  EXPECT_EQ(wholeSteps(Number(-0.5), most), 0);
-  for (const Number large : { static_cast<Number>(most), Number(3e9), Number(1e30), infinite })
-  {
-    EXPECT_EQ(wholeSteps(large, most), most) << large;
-    EXPECT_EQ(wholeSteps(large, 7), 7) << large;
-    EXPECT_EQ(wholeSteps(-large, most), 0) << large;
-  }
-  EXPECT_EQ(wholeSteps(std::numeric_limits<Number>::quiet_NaN(), most), 0);
-}
 
 } // namespace schlieren

@@ -490,32 +490,3 @@ TEST(CellSampler, AllInstructionsGiveTheSame)
   }
   EXPECT_GT(inside, 8 * static_cast<int>(all.size()));
 }
-
-// On the same mesh with other values; and what is wrong is noticed.
-TEST(CellSampler, SamplesAgainWhatItHasFound)
-{
-  for (const CellKind& kind : linearKinds())
-  {
-    SCOPED_TRACE(kind.name);
-    const Mesh mesh = meshOf(kind.type, 4, kind.cells, 0.1, false);
-    setN(mesh, linear);
-    const Lattice lattice{ { -0.1, 0.2, 0.1 }, { 0.06, 0.05, 0.04 }, { 17, 11, 13 } };
-    const auto size = static_cast<std::size_t>(lattice.size());
-    const CellTree first({ mesh });
-    Found found{ std::vector<double>(size, -1), std::vector<unsigned char>(size, 9) };
-    filters::CellsOfLattice cells;
-    CellSampler(first).sample(lattice, found.values.data(), found.found.data(), &cells);
-    EXPECT_EQ(static_cast<std::ptrdiff_t>(cells.points.size()),
-      std::count(found.found.begin(), found.found.end(), 1));
-    EXPECT_LT(cells.points.size(), size); // the lattice reaches out of the mesh
-
-    setN(mesh, rough);
-    const CellTree second({ mesh }, first.mesh());
-    Found again = found;
-    EXPECT_TRUE(CellSampler(second).sample(lattice, cells, again.values.data()));
-    EXPECT_EQ(difference(again, sampled({ mesh }, lattice)), 0);
-
-    std::rotate(cells.cells.begin(), cells.cells.begin() + 7, cells.cells.end());
-    EXPECT_FALSE(CellSampler(second).sample(lattice, cells, again.values.data()));
-  }
-}

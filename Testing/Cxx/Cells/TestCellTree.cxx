@@ -30,15 +30,6 @@ Mesh hexahedra(int n, double by)
   return mesh;
 }
 
-/// Numbers of the cells in the order in which the tree has them.
-std::vector<CellTree::Number> orderOf(const CellTree& tree)
-{
-  std::vector<CellTree::Number> order;
-  tree.walk([](const CellTree::Steps&) { return true; },
-    [&](std::size_t place) { order.push_back(tree.number(place)); });
-  return order;
-}
-
 std::vector<CellTree::Bounds> someBoxes(int count, double low, double high)
 {
   std::mt19937 random(1);
@@ -118,25 +109,6 @@ vtkSmartPointer<vtkStructuredGrid> turnedBoxes(const Vec& size, double degrees)
 
 } // namespace
 
-TEST(CellTree, HasAllCellsOnce)
-{
-  for (const int n : { 1, 2, 7 })
-  {
-    const Mesh mesh = hexahedra(n, 0.1), other = hexahedra(2, 0);
-    const CellTree tree({ mesh, other });
-    std::vector<CellTree::Number> order = orderOf(tree);
-    EXPECT_EQ(tree.size(), order.size());
-    std::sort(order.begin(), order.end());
-    ASSERT_EQ(order.size(), static_cast<std::size_t>(n * n * n + 8));
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-      EXPECT_EQ(order[i], i);
-    }
-    EXPECT_EQ(tree.cell(order.back()).block->data(), other);
-    EXPECT_EQ(tree.cell(order.back()).id, 7);
-  }
-}
-
 TEST(CellTree, NeedsLittleMemory)
 {
   const auto grid = turnedBoxes({ 1, 1, 1 }, 30);
@@ -146,26 +118,6 @@ TEST(CellTree, NeedsLittleMemory)
     const CellTree tree({ grid }, reconstruction);
     EXPECT_LT(tree.bytes(), most * tree.size());
     EXPECT_GT(tree.bytes(), 28 * tree.size());
-  }
-}
-
-TEST(CellTree, IsEmptyWhereNoCellIs)
-{
-  const Mesh mesh = hexahedra(2, 0);
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfValues(8);
-  ghosts->FillValue(vtkDataSetAttributes::HIDDENCELL);
-  mesh->GetCellData()->AddArray(ghosts);
-  for (const std::vector<vtkDataSet*>& blocks : { std::vector<vtkDataSet*>{}, { mesh } })
-  {
-    const CellTree tree(blocks);
-    const CellTree::Content content = tree.content({ { 0, 0, 0 }, { 1, 1, 1 } });
-    EXPECT_EQ(tree.size(), 0u);
-    EXPECT_GT(content.lowest, content.highest);
-    EXPECT_EQ(content.cellSize[0], HUGE_VAL);
-    EXPECT_GT(tree.bounds().low[0], tree.bounds().high[0]);
-    EXPECT_EQ(tree.voxelShape(), (Vec{ 1, 1, 1 }));
   }
 }
 
@@ -247,62 +199,6 @@ TEST(CellTree, MeasuresTheSameCellsInParts)
   EXPECT_EQ(CellTree::voxelShapeOf(cells), tree.voxelShape());
   // A tenth of the cells are smaller: their sizes are (i + 1)^2 - i^2, ..., in units of the grid.
   EXPECT_NEAR(tree.voxelShape()[0], (2 * 6 + 1) / 60., 2.1 / 60);
-}
-
-TEST(CellTree, VisitsTheCellsInABox)
-{
-  const Mesh mesh = hexahedra(9, 0.1);
-  const CellTree tree({ mesh });
-  for (const CellTree::Bounds& box : someBoxes(100, -0.2, 1.2))
-  {
-    std::vector<vtkIdType> visited, expected;
-    tree.visit(box, [&](CellTree::Number number) { visited.push_back(number); });
-    std::sort(visited.begin(), visited.end());
-    for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
-    {
-      if (meet(box, mesh, i, 0))
-      {
-        expected.push_back(i);
-      }
-    }
-    EXPECT_EQ(visited, expected);
-  }
-}
-
-// A thin cell needs thin voxels along each axis that its normal has a part of.
-TEST(CellTree, KnowsTheSizeOfTurnedCells)
-{
-  const auto sizeAt = [](double degrees)
-  {
-    const auto grid = turnedBoxes({ 0.01, 0.06, 0.08 }, degrees);
-    return CellTree({ grid }).content({ { -1, -1, -1 }, { 1, 1, 1 } }).cellSize;
-  };
-  const Vec straight = sizeAt(0), turned = sizeAt(45), across = sizeAt(90), nearly = sizeAt(1);
-  const Vec expected[4] = { { 0.01, 0.06, 0.08 },
-    { 0.01 * std::sqrt(2), 0.01 * std::sqrt(2), 0.08 }, { 0.06, 0.01, 0.08 },
-    { 0.01, 0.06, 0.08 } };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    EXPECT_NEAR(straight[axis], expected[0][axis], 1e-8);
-    EXPECT_NEAR(turned[axis], expected[1][axis], 1e-8);
-    EXPECT_NEAR(across[axis], expected[2][axis], 1e-8);
-    EXPECT_NEAR(nearly[axis], expected[3][axis], 1e-4);
-  }
-}
-
-TEST(CellTree, KnowsTheSizeOfTetrahedraAndWedges)
-{
-  for (const auto& [type, frames] : { std::pair(VTK_TETRA, &kuhn), std::pair(VTK_WEDGE, &prisms) })
-  {
-    const Mesh mesh =
-      meshOf(type, 4, cut(unitCell(type, type == VTK_TETRA ? 4 : 6), *frames), 0, false);
-    setN(mesh, rough);
-    const CellTree tree({ mesh });
-    for (const double size : tree.content(tree.bounds()).cellSize)
-    {
-      EXPECT_NEAR(size, 0.25, 1e-6);
-    }
-  }
 }
 
 TEST(CellTree, ProposesVoxelsOfTheCellsShape)

@@ -190,13 +190,6 @@ TEST(SharedPoints, PointsAreOneHoweverLargeOthersToleranceIs)
   EXPECT_EQ(numbers, (std::vector<std::int32_t>{ 0, 1, 1, 0, 1, 5 }));
 }
 
-TEST(SharedPoints, SidesOfAPlateAreJoinedAsAWhole)
-{
-  std::array<int, 8> sides{ 0, 1, 1, 1, 0, 5, 6, 7 };
-  filters::joinSides(sides, 2, 4);
-  EXPECT_EQ(sides, (std::array<int, 8>{ 0, 0, 0, 0, 0, 5, 6, 7 }));
-}
-
 TEST(SharedPoints, BlocksHaveNoSeams)
 {
   const auto whole = gridOf({ -1, -1, -1 }, { 1, 1, 1 }, { 12, 12, 6 });

@@ -152,23 +152,6 @@ TEST(MixtureByName, OfMasses)
     constantOf(filter), fraction * helium + 0.5 * 5e-4 + (0.5 - fraction) * air, rounding * 1e-4);
 }
 
-// K = sum K_i M_i X_i / sum M_i X_i.
-TEST(MixtureByName, OfVolumes)
-{
-  const double helium = vtkGasTable::GetConstant("helium", 632.8);
-  const double air = vtkGasTable::GetConstant("air", 632.8);
-  auto filter = mixtureOf({ "helium", "5e-4 0.044" });
-  filter->SetFractionType(Index::VOLUME);
-  const double masses[] = { 0.25 * 4.002602e-3, 0.5 * 0.044, 0.25 * 28.9641e-3 };
-  EXPECT_NEAR(constantOf(filter),
-    (masses[0] * helium + masses[1] * 5e-4 + masses[2] * air) / (masses[0] + masses[1] + masses[2]),
-    1e-9);
-  filter = mixtureOf({ "helium" });
-  filter->SetFractionType(Index::VOLUME);
-  EXPECT_NEAR(constantOf(filter),
-    (masses[0] * helium + 3 * masses[2] * air) / (masses[0] + 3 * masses[2]), 1e-9);
-}
-
 // A decimal point is one also where a program has set a language with commas.
 TEST(MixtureByName, NumbersDependOnNoLocale)
 {

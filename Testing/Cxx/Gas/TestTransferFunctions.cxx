@@ -274,24 +274,6 @@ TEST(TransferFunctions, AFunctionWithoutPointsIsAStraightLine)
   EXPECT_LT(largestError(filter, [](const Vec& x) { return scale * (1 + x[0]) / 2; }), 1e-14);
 }
 
-TEST(TransferFunctions, MovingAPointCountsAsAChange)
-{
-  auto filter = combining<vtkSchlierenFilter>(fiveFields(), { "A" });
-  auto function = curve({ { 0, 0 }, { 1, 1 } });
-  filter->AddTransferFunction(function);
-  filter->SetViewDirection(0, 0, -1);
-  filter->SetImageSize(16, 16);
-  filter->Update();
-  const std::vector<double> before = valuesOf(filter, "Deflection");
-  EXPECT_EQ(filter->GetMediumBuilds(), 1);
-  filter->Update();
-  EXPECT_EQ(filter->GetMediumBuilds(), 1);
-  function->AddPoint(1, 2);
-  filter->Update();
-  EXPECT_EQ(filter->GetMediumBuilds(), 2);
-  EXPECT_GT(largest(valuesOf(filter, "Deflection")), 1.9 * largest(before));
-}
-
 TEST(TransferFunctions, AreReferencedAndReleased)
 {
   vtkWeakPointer<vtkPiecewiseFunction> watched;

@@ -465,22 +465,6 @@ TEST(ColorByField, TheMediumIsFinished)
   EXPECT_GT(*std::max_element(colors.begin(), colors.end()), 100);
 }
 
-TEST(ColorByField, ColoursTraceNothing)
-{
-  auto filter = tinted(flow());
-  filter->Update();
-  const vtkTypeInt64 rays = filter->GetTotalRaysTraced();
-  filter->ClearFieldColors();
-  filter->Update();
-  filter->ColorByFieldOff();
-  filter->Update();
-  filter->ColorByFieldOn();
-  filter->SetKnifeEdgeAngle(90);
-  filter->Update();
-  EXPECT_EQ(filter->GetTotalRaysTraced(), rays);
-  EXPECT_EQ(filter->GetMediumBuilds(), 1);
-}
-
 TEST(ColorByField, Mistakes)
 {
   const auto off = [](vtkSchlierenFilter* self) { self->ColorByFieldOff(); };

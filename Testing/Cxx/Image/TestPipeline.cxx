@@ -268,42 +268,6 @@ TEST(Pipeline, AnotherWavelengthConvertsOnlyWhatDependsOnIt)
     vtkGasTable::GetConstant("helium", 400) / vtkGasTable::GetConstant("helium", 600), 1e-5);
 }
 
-TEST(Pipeline, APropertyOfTheMediumIsPassedOn)
-{
-  auto image = columnImage(24);
-  addPointArray(image, "M", [](const Vec& x) { return 2 * GaussianColumn()(x); });
-  auto filter = bench(image, 16);
-  filter->Update();
-  const double once = largest(valuesOf(filter, "OpticalPathDifference"));
-  filter->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "M");
-  filter->Update();
-  EXPECT_NEAR(largest(valuesOf(filter, "OpticalPathDifference")) / once, 2, 1e-3);
-}
-
-TEST(Pipeline, AnyNumberOfThreadsGivesTheSameImage)
-{
-  const auto image = columnImage(40);
-  std::vector<double> intensity, deflection, opticalPath;
-  for (const int threads : { 1, 2, 7 })
-  {
-    auto filter = bench(image, 50);
-    filter->SetSamplesPerPixel(3);
-    filter->SetNumberOfThreads(threads);
-    filter->SetCutoff(vtkSchlierenFilter::SHADOWGRAPH);
-    filter->Update();
-    if (threads == 1)
-    {
-      intensity = valuesOf(filter, "Intensity");
-      deflection = valuesOf(filter, "Deflection");
-      opticalPath = valuesOf(filter, "OpticalPathDifference");
-    }
-    EXPECT_EQ(valuesOf(filter, "Intensity"), intensity) << threads << " threads";
-    EXPECT_EQ(valuesOf(filter, "Deflection"), deflection) << threads << " threads";
-    EXPECT_EQ(valuesOf(filter, "OpticalPathDifference"), opticalPath) << threads << " threads";
-  }
-}
-
 TEST(Pipeline, ProgressRunsFromZeroToOne)
 {
   auto filter = bench(columnImage(64), 128);

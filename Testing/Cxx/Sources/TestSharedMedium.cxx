@@ -5,7 +5,6 @@
 // and when it goes. The truth is the image of a filter that is alone with its data.
 #include "CellMeshes.h"
 
-#include "vtkPiecewiseFunction.h"
 #include "vtkTrivialProducer.h"
 #include "vtkWeakPointer.h"
 
@@ -40,13 +39,6 @@ vtkSmartPointer<vtkImageData> blobImage(int points = 16)
   const auto blob = [](const Vec& x) { return 1e-4 * std::exp(-3 * dot(x, x) + x[0]); };
   addPointArray(image, "N", blob);
   addPointArray(image, "rho", [&](const Vec& x) { return 1 + 1e4 * blob(x); });
-  addPointArray(image, "other", [&](const Vec& x) { return 1.2 + 1e4 * blob(x) * x[1]; });
-  addPointArray(image, "T", [&](const Vec& x) { return 290 + 10 * x[0] * x[1]; });
-  addPointArray(image, "p", [&](const Vec& x) { return 1e5 + 1e4 * x[2]; });
-  addPointArray(image, "Y", [](const Vec& x) { return 0.3 + 0.2 * x[1]; });
-  addPointArray(image, "Z", [](const Vec& x) { return 0.3 + 0.2 * x[0]; });
-  addPointArray(image, "mask", [](const Vec& x) { return x[1]; });
-  addCellArray(image, "N", [](const Vec& x) { return 1e-4 * x[0] * x[1]; });
   return image;
 }
 
@@ -80,28 +72,6 @@ void density(vtkSchlierenFilter* filter)
 {
   filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE);
   array(filter, vtkRefractiveIndex::DENSITY, "rho");
-}
-
-void moistAir(vtkSchlierenFilter* filter)
-{
-  filter->SetIndexModel(vtkRefractiveIndex::CIDDOR);
-  array(filter, vtkRefractiveIndex::TEMPERATURE, "T");
-  array(filter, vtkRefractiveIndex::PRESSURE, "p");
-}
-
-vtkSmartPointer<vtkPiecewiseFunction> ramp(double end)
-{
-  auto function = vtkSmartPointer<vtkPiecewiseFunction>::New();
-  function->AddPoint(0, 0);
-  function->AddPoint(1, end);
-  return function;
-}
-
-void fields(vtkSchlierenFilter* filter)
-{
-  filter->SetIndexModel(vtkRefractiveIndex::TRANSFER_FUNCTIONS);
-  filter->AddField("rho");
-  filter->AddTransferFunction(ramp(1));
 }
 
 } // namespace
@@ -236,132 +206,4 @@ TEST(SharedMedium, WhatCannotBeMadeIsNotShared)
     filter->Update();
     EXPECT_EQ(complaints->Errors.size(), 1u);
   }
-}
-
-// Every property of the medium, from a state in which it matters.
-TEST(SharedMedium, EveryPropertyMakesAnother)
-{
-  using F = vtkSchlierenFilter;
-  using R = vtkRefractiveIndex;
-  const auto mixture = [](F* f)
-  {
-    density(f);
-    f->SetIndexModel(R::GLADSTONE_DALE_MIXTURE);
-    f->AddMixtureArray("Y");
-    f->AddMixtureGas("1e-4 0.004");
-  };
-  const auto isentropicAir = [](F* f)
-  {
-    moistAir(f);
-    f->SetStagnationTemperature(300);
-  };
-  const auto twoFields = [](F* f)
-  {
-    fields(f);
-    f->AddFieldRange(0);
-    f->AddFieldRange(2);
-  };
-  const auto revolvedPlane = [](F* f) { f->SetSymmetry(R::AXISYMMETRIC); };
-  const auto flatImage = []
-  {
-    auto image = cube(9);
-    image->SetDimensions(9, 9, 1);
-    image->SetOrigin(0, 0, 0);
-    addPointArray(
-      image, "N", [](const Vec& x) { return 1e-4 * std::exp(-x[0] * x[0]) + 1e-5 * x[1]; });
-    return image;
-  };
-  const struct
-  {
-    const char* name;
-    Change from, to;
-  } changes[] = {
-    { "IndexModel", density, [](F* f) { f->SetIndexModel(R::REFRACTIVITY); } },
-    { "IndexArray", nullptr, [](F* f) { array(f, R::INDEX_ARRAY, "rho"); } },
-    { "association", [](F* f) { f->SetInputArrayToProcess(R::INDEX_ARRAY, 0, 0, 0, "N"); },
-      [](F* f) { f->SetInputArrayToProcess(R::INDEX_ARRAY, 0, 0, 1, "N"); } },
-    { "Humidity", moistAir, [](F* f) { array(f, R::HUMIDITY, "Y"); } },
-    { "Density", density, [](F* f) { array(f, R::DENSITY, "other"); } },
-    { "Gas", density, [](F* f) { f->SetGas("helium"); } },
-    { "GladstoneDaleConstant", density,
-      [](F* f) { f->SetGladstoneDaleConstant(2.26e-4 * (1 + 1e-14)); } },
-    { "DensityScale", density, [](F* f) { f->SetDensityScale(2); } },
-    { "MixtureArrays", mixture,
-      [](F* f)
-      {
-        f->ClearMixtureArrays();
-        f->AddMixtureArray("Z");
-      } },
-    { "MixtureGases", mixture,
-      [](F* f)
-      {
-        f->ClearMixtureGases();
-        f->AddMixtureGas("argon");
-      } },
-    { "BackgroundGas", mixture, [](F* f) { f->SetBackgroundGas("helium"); } },
-    { "FractionType", mixture, [](F* f) { f->SetFractionType(R::VOLUME); } },
-    { "Temperature", moistAir, [](F* f) { array(f, R::TEMPERATURE, "p"); } },
-    { "PressureScale", moistAir, [](F* f) { f->SetPressureScale(1.1); } },
-    { "UniformPressure", moistAir, [](F* f) { f->SetUniformPressure(9e4); } },
-    { "StagnationTemperature", moistAir, [](F* f) { f->SetStagnationTemperature(300); } },
-    { "StagnationPressure", isentropicAir, [](F* f) { f->SetStagnationPressure(9e4); } },
-    { "RelativeHumidity", moistAir, [](F* f) { f->SetRelativeHumidity(0.5); } },
-    { "Wavelength", moistAir, [](F* f) { f->SetWavelength(450); } },
-    { "Fields", fields,
-      [](F* f)
-      {
-        f->ClearFields();
-        f->AddField("other");
-      } },
-    { "TransferFunctions", fields,
-      [](F* f)
-      {
-        f->ClearTransferFunctions();
-        f->AddTransferFunction(ramp(0.5));
-      } },
-    { "FieldRanges", twoFields,
-      [](F* f)
-      {
-        f->ClearFieldRanges();
-        f->AddFieldRange(0);
-        f->AddFieldRange(3);
-      } },
-    { "RefractivityScale", fields, [](F* f) { f->SetRefractivityScale(1e-4); } },
-    { "Mask", nullptr, [](F* f) { array(f, R::MASK, "mask"); } },
-    { "MaskedSide", [](F* f) { array(f, R::MASK, "mask"); },
-      [](F* f) { f->SetMaskedSide(R::MASKED_BELOW); } },
-    { "Depth", nullptr, [](F* f) { f->SetDepth(0.3); } },
-    { "Symmetry", nullptr, [](F* f) { f->SetSymmetry(R::AXISYMMETRIC); } },
-    { "SymmetryAxis", revolvedPlane, [](F* f) { f->SetSymmetryAxis(R::Y_AXIS); } },
-    { "SymmetryOrigin", revolvedPlane, [](F* f) { f->SetSymmetryOrigin(0, 0.5, 0); } },
-    { "Outside", nullptr, [](F* f) { f->SetOutside(R::OUTSIDE_BLOCKS); } },
-    { "DoublePrecision", nullptr, [](F* f) { f->SetPrecision(F::DOUBLE); } },
-  };
-  for (const auto& [name, from, to] : changes)
-  {
-    SCOPED_TRACE(name);
-    const auto input = [&flatImage, isFlat = std::string(name).rfind("Symmetry", 0) == 0]
-    { return isFlat ? flatImage() : blobImage(); };
-    const Producer producer = producerOf(input());
-    const Filter first = filterOf(producer, from), second = filterOf(producer, from);
-    imageOf(first);
-    imageOf(second);
-    EXPECT_EQ(second->GetMediumBuilds(), 0);
-    to(second);
-    const std::vector<double> beside = imageOf(second);
-    EXPECT_EQ(second->GetMediumBuilds(), 1);
-
-    const Filter alone = filterOf(producerOf(input()), from);
-    to(alone);
-    EXPECT_EQ(beside, imageOf(alone));
-  }
-  // No property without a line above, but the choice of arrays, which has several.
-  MediumSettings::visit(
-    [&](const std::string& name, auto)
-    {
-      const bool isKnown = name == "Arrays" ||
-        std::any_of(std::begin(changes), std::end(changes),
-          [&](const auto& change) { return name == change.name; });
-      EXPECT_TRUE(isKnown) << name;
-    });
 }

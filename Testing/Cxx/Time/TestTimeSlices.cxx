@@ -74,21 +74,6 @@ void expectSameImage(vtkSchlierenFilter* a, vtkSchlierenFilter* b)
   }
 }
 
-/// Compares slices with a whole image of a filter that is set up alike.
-template <class SetUp>
-void expectSameInSlices(vtkDataObject* input, const SetUp& setUp)
-{
-  auto whole = smallBench(input);
-  setUp(whole);
-  whole->Update();
-  auto sliced = smallBench(input);
-  setUp(sliced);
-  sliced->SetNumberOfThreads(2);
-  EXPECT_GT(updateInSlices(sliced), 1);
-  expectSameImage(sliced, whole);
-  EXPECT_EQ(sliced->GetMediumBuilds(), 1);
-}
-
 /// Progress of an update.
 std::vector<double> progressOf(vtkSchlierenFilter* filter)
 {
@@ -98,30 +83,6 @@ std::vector<double> progressOf(vtkSchlierenFilter* filter)
 }
 
 } // namespace
-
-TEST(TimeSlices, GiveTheBitsOfTheWhole)
-{
-  const auto image = columnImage();
-  addPointArray(image, "f", [](const Vec& x) { return x[0] + x[1] * x[1]; });
-  for (int cutoff = vtkSchlierenFilter::KNIFE_EDGE;
-       cutoff <= vtkSchlierenFilter::BACKGROUND_ORIENTED; ++cutoff)
-  {
-    SCOPED_TRACE(cutoff);
-    expectSameInSlices(image, [cutoff](vtkSchlierenFilter* filter) { filter->SetCutoff(cutoff); });
-  }
-  expectSameInSlices(image,
-    [](vtkSchlierenFilter* filter)
-    {
-      filter->SetSmoothingRadius(2);
-      filter->SetPrecision(vtkSchlierenFilter::DOUBLE);
-    });
-  expectSameInSlices(image,
-    [](vtkSchlierenFilter* filter)
-    {
-      filter->AddField("f");
-      filter->SetColorByField(true);
-    });
-}
 
 TEST(TimeSlices, AreNoneWhereTheLimitIsLong)
 {
