@@ -270,11 +270,13 @@ FilmSettings filmSettingsOf(const Scene& scene)
 double sideOnFilm(int raysPerPixel, const Scene& scene, const Light& light)
 {
   constexpr double overlap = 2; // so that no gaps are where light is spread
-  const bool isOfScreen = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen;
-  const bool isOfSource = !isOfCamera(scene.cutoff) && scene.source.shape != SourceShape::Point;
-  return isOfSource || light.pupilTilt > 0
+  const Technique& technique = techniqueOf(scene.cutoff);
+  const bool areAlone =
+    !isOfCamera(scene.cutoff) && (scene.source.shape != SourceShape::Point || light.pupilTilt > 0);
+  const bool isOnScreen = technique.plane == RecordedPlane::Screen;
+  return areAlone || technique.hasFringes
     ? 1
-    : std::min(1., (isOfScreen ? overlap : 1) * sideOf(raysPerPixel));
+    : std::min(1., (isOnScreen ? overlap : 1) * sideOf(raysPerPixel));
 }
 
 void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)

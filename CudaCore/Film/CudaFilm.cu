@@ -259,7 +259,7 @@ __global__ void depositKernel(const ShadedRays<planes> from, const Sums sums)
 }
 
 /// Deposits the light of single rays on the film. All threads of a block come to its end.
-template <int planes, bool isOfPhase>
+template <int planes>
 __global__ void boxKernel(const ShadedRays<planes> from, const Sums sums)
 {
   const RaysOnDevice& rays = from.rays;
@@ -268,7 +268,7 @@ __global__ void boxKernel(const ShadedRays<planes> from, const Sums sums)
   DeviceDeposit<planes> deposit{ sums };
   if (i < rays.columns && j < rays.endRow)
   {
-    RayBox<planes, DeviceDeposit<planes>, 1, isOfPhase>(sums.film, deposit)
+    RayBox<planes, DeviceDeposit<planes>, 1>(sums.film, deposit)
       .add(from.at(i, j), from.at(i - 1, j), from.at(i + 1, j), from.at(i, j - 1),
         from.at(i, j + 1), rays.pass.side);
   }
@@ -318,9 +318,9 @@ template <bool isOfPhase, int planes>
 void deposit(const ShadedRays<planes>& shaded, const Sums& sums)
 {
   const unsigned blocks = shaded.rays.blocks(shaded.rays.endRow - shaded.rays.firstRow);
-  if (shaded.rays.pass.side < 1)
+  if (!isOfPhase && shaded.rays.pass.side < 1)
   {
-    launchKernel(boxKernel<planes, isOfPhase>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
+    launchKernel(boxKernel<planes>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
     return;
   }
   launchKernel(depositKernel<planes, isOfPhase>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);

@@ -63,7 +63,7 @@ bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
     }
   }
   pass.offset = pixelOffset(passes_, settings_.seed);
-  pass.side = exposure_.projection.pupilTilt > 0 ? 1 : sideOf(settings_.samplesPerPixel);
+  pass.side = sideOf(settings_.samplesPerPixel);
   const std::array<double, 2> place = pupilPoint(passes_, settings_.samplesPerPixel);
   for (std::size_t axis = 0; axis < 2; ++axis)
   {

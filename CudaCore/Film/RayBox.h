@@ -6,7 +6,7 @@
 #include "Film/CellLight.h"
 #include "Film/Splat.h"
 #include "Math/HostDevice.h"
-#include "Optics/Interferogram.h"
+#include "Optics/Color.h"
 
 #include <cmath>
 #include <cstdint>
@@ -22,8 +22,8 @@ SCHLIEREN_HD bool areTogether(const FilmRay<planes>& a, const FilmRay<planes>& b
   return a.arrives && b.arrives && a.crossed == b.crossed;
 }
 
-/// Deposit, rowsAtOnce and isOfPhase: see Sheet.
-template <int planes, class Deposit, int rowsAtOnce, bool isOfPhase>
+/// Deposit and rowsAtOnce: see Sheet. Rays have light, not a phase.
+template <int planes, class Deposit, int rowsAtOnce>
 class RayBox
 {
 public:
@@ -51,10 +51,7 @@ public:
     for (int plane = 0; plane < planes; ++plane)
     {
       const double second = along.second[plane] + up.second[plane];
-      light[plane] = film_.fixed(isOfPhase
-          ? fringeLight(here.light[plane],
-              contrastOver(side * along.light[plane]) * contrastOver(side * up.light[plane]))
-          : limited(here.light[plane] - side * side / 24 * second));
+      light[plane] = film_.fixed(limited(here.light[plane] - side * side / 24 * second));
     }
     constexpr double upright = 0.02; // pixels that one side of a box is higher than the other
     const double width = side * fabs(along.x), height = side * fabs(up.y);
@@ -105,8 +102,8 @@ private:
   /// From pixel to pixel along an axis of the pass.
   struct Change
   {
-    double x, y; ///< of the place on the film
-    double light[planes], second[planes];
+    double x, y;           ///< of the place on the film
+    double second[planes]; ///< difference of the light
 
     /// Towards and from neighbours that belong to the ray; if neither does, that of undisturbed light.
     SCHLIEREN_HD static Change of(
@@ -118,10 +115,9 @@ private:
       const double per = hasBefore && hasAfter ? 0.5 : 1;
       const bool isKnown = hasBefore || hasAfter;
       Change change{ isKnown ? per * (last.x - first.x) : x, isKnown ? per * (last.y - first.y) : y,
-        {}, {} };
+        {} };
       for (int plane = 0; plane < planes; ++plane)
       {
-        change.light[plane] = per * (last.light[plane] - first.light[plane]);
         change.second[plane] = hasBefore && hasAfter
           ? (before.light[plane] - here.light[plane]) + (after.light[plane] - here.light[plane])
           : 0;
@@ -129,14 +125,6 @@ private:
       return change;
     }
   };
-
-  /// Of fringes, from one side of a square to the other. That of their mean, more by what the spread of it over the square takes
-  /// away of fringes that are wider than that.
-  SCHLIEREN_HD static double contrastOver(double turns)
-  {
-    const double mean = sincPi(turns);
-    return mean * (2 - mean * mean);
-  }
 
   SCHLIEREN_HD static double beyond(double from, double length)
   {

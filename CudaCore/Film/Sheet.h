@@ -236,11 +236,9 @@ private:
     const double sum = corner + beside + over + opposite;
     if constexpr (isOfPhase)
     {
-      // The mean over a parallelogram.
       return 4 *
-        fringeLight(0.25 * sum,
-          sincPi(0.5 * ((beside - corner) + (opposite - over))) *
-            sincPi(0.5 * ((over - corner) + (opposite - beside))));
+        fringeLight(0.25 * sum, 0.5 * ((beside - corner) + (opposite - over)),
+          0.5 * ((over - corner) + (opposite - beside)));
     }
     return sum;
   }
@@ -371,7 +369,7 @@ private:
       light[plane] =
         film_.fixed(0.25 * (isOfPhase ? fringeLight(ray.light[plane]) : ray.light[plane]));
     }
-    RayBox<planes, Deposit, rowsAtOnce, isOfPhase>(film_, deposit_)
+    RayBox<planes, Deposit, rowsAtOnce>(film_, deposit_)
       .addUpright(ray.x + right, ray.y + up, 0.5, 0.5, light);
   }
 

@@ -42,10 +42,12 @@ struct Carrier
   }
 };
 
-/// The light of two beams of one wavelength, (1 + contrast cos(2 pi turns)) / 2.
-SCHLIEREN_HD double fringeLight(double turns, double contrast = 1)
+/// The light of two beams of one wavelength, (1 + cos(2 pi turns)) / 2, or its mean over a parallelogram in whose middle they
+/// differ by `turns`, and by so many more from one side to the other.
+SCHLIEREN_HD double fringeLight(double turns, double along = 0, double up = 0)
 {
   const double sine = sinPi(fromNearestWhole(turns));
+  const double contrast = along == 0 && up == 0 ? 1 : sincPi(along) * sincPi(up);
   return limited(0.5 + contrast * (0.5 - sine * sine));
 }
 

@@ -60,7 +60,8 @@ struct Pass
   std::int64_t columns, rows;
   PixelOffset offset;        ///< the same in all pixels
   double tilt[2] = { 0, 0 }; ///< of the light of one point of the source: slopes along u and v
-  double side = 1; ///< pixels: each ray has the light of a square of this side, see sideOf()
+  /// Pixels: each ray has the light of a square of this side, see sideOf(). Of fringes it is 1.
+  double side = 1;
 
   /// Where a ray starts, in pixels from the centre of pixel (0, 0).
   SCHLIEREN_HD double columnOf(std::int64_t ray) const
