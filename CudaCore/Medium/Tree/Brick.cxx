@@ -94,7 +94,7 @@ int BrickMaker<Real>::marginOf(bool hasEdges) const
 template <class Real>
 int BrickMaker<Real>::preparedMarginOf(bool hasEdges) const
 {
-  return marginOf(hasEdges) + supportOfFronts - 1;
+  return std::max(marginOf(hasEdges), apron_ + supportOfFronts);
 }
 
 template <class Real>
@@ -262,7 +262,8 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
   const int prepared = preparedMarginOf(hasEdges);
   BrickSamples all =
     valuesAt(place, source_.dependsOnLattice() ? prepared : margin, hasEdges, hasFields);
-  BrickSamples samples = all;
+  const bool isPrepared = all.margin == prepared;
+  BrickSamples samples = isPrepared ? all : std::move(all);
   samples.fill(margin);
   brick.kind = Leaf<Real>::Samples;
   const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible.deflection, brick);
@@ -304,8 +305,7 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
       apron_, axes(), overshoot_ };
     if (!makeCoefficients(samples, rule))
     {
-      samples =
-        all.margin == prepared ? std::move(all) : valuesAt(place, prepared, hasEdges, hasFields);
+      samples = isPrepared ? std::move(all) : valuesAt(place, prepared, hasEdges, hasFields);
       samples.fill(prepared);
       makeCoefficients(samples, rule);
     }
