@@ -267,7 +267,7 @@ TEST(MediumTree, BricksArriveAsTheyWereSent)
   int mixed = 0;
   for (std::int32_t at = 0; at < 8; ++at)
   {
-    const Brick<float> brick = maker.make({ { 1, { at, 3, 4 } }, { 0 } });
+    const Brick<float> brick = maker.make({ { { 1, { at, 3, 4 } }, { 0 } } }).front();
     mixed += brick.gasDistances.empty() ? 0 : 1;
     const std::vector<char> bytes = brick.toBytes();
     const auto samples = static_cast<std::size_t>(maker.samplesPerBrick());
