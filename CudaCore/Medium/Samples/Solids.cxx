@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace schlieren
@@ -14,6 +15,10 @@ namespace schlieren
 
 namespace
 {
+
+/// Layers behind a wall on which splines in the gas depend. The gas ends less than a voxel from its last sample; there
+/// splines, quadratic and cubic, have coefficients up to two voxels from that sample, and these depend on the next one.
+constexpr int layersOfSplines = 3;
 
 /// The n-th words of the rows around (j, k): the points of which a neighbour has a value.
 std::uint64_t besideValues(const PointMask& empty, std::int64_t n, std::int64_t j, std::int64_t k)
@@ -120,15 +125,15 @@ Real valueFromAround(const PaddedVolume<Real>& volume, const PointMask& empty, s
   return static_cast<Real>(mean.first + mean.excess / mean.count);
 }
 
-} // namespace
-
+/// Fills layers, at most so many. Returns the points that are left.
 template <class Real>
-void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads, Continuation continuation)
+PointMask fillLayers(
+  PaddedVolume<Real>& volume, PointMask empty, int threads, Continuation continuation, int most)
 {
   PointMask next = empty; // those left when a layer has been filled
   const std::int64_t ny = volume.dimensions[1];
   std::atomic<bool> isDone{ false };
-  while (!isDone)
+  for (int filled = 0; filled < most && !isDone; ++filled)
   {
     isDone = true;
     parallelFor(volume.dimensions[2], 1, threads,
@@ -158,6 +163,80 @@ void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads, Continu
       });
     std::swap(empty, next);
   }
+  return empty;
+}
+
+/// Gives values to points of a line that have none: between two others they change evenly.
+template <class HasValue, class Set>
+void bridge(int points, const HasValue& hasValueAt, const Set& set)
+{
+  int last = -1;
+  for (int i = 0; i <= points; ++i)
+  {
+    if (i < points && !hasValueAt(i))
+    {
+      continue;
+    }
+    for (int gap = last + 1; gap < i && (last >= 0 || i < points); ++gap)
+    {
+      const int before = last >= 0 ? last : i, behind = i < points ? i : last;
+      set(gap, before, behind, before == behind ? 0 : double(gap - before) / (behind - before));
+    }
+    last = i;
+  }
+}
+
+/// Gives values to the points that are left of a brick, n by n by `layers`, on which nothing depends: along rows, then to
+/// rows that have none, then to layers.
+void fillRest(std::vector<double>& values, int n, int layers, const PointMask& empty)
+{
+  const std::uint64_t all = empty.pointsOf(0);
+  const auto at = [&](int j, int k) { return values.data() + (k * n + j) * std::ptrdiff_t{ n }; };
+  const auto mix = [](double* to, const double* a, const double* b, double share, int count)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      to[i] = a[i] + share * (b[i] - a[i]);
+    }
+  };
+  std::vector<bool> hasRow(static_cast<std::size_t>(n));
+  std::vector<bool> hasLayer(static_cast<std::size_t>(layers), false);
+  for (int k = 0; k < layers; ++k)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      const std::uint64_t* row = empty.row(j, k);
+      const bool hasAny = (*row & all) != all;
+      hasRow[static_cast<std::size_t>(j)] = hasAny;
+      hasLayer[static_cast<std::size_t>(k)] = hasLayer[static_cast<std::size_t>(k)] || hasAny;
+      if (hasAny && (*row & all) != 0)
+      {
+        double* v = at(j, k);
+        bridge(
+          n, [&](int i) { return hasValue(row, i); },
+          [&](int i, int a, int b, double share) { mix(v + i, v + a, v + b, share, 1); });
+      }
+    }
+    bridge(
+      n, [&](int j) { return hasRow[static_cast<std::size_t>(j)]; },
+      [&](int j, int a, int b, double share) { mix(at(j, k), at(a, k), at(b, k), share, n); });
+  }
+  bridge(
+    layers, [&](int k) { return hasLayer[static_cast<std::size_t>(k)]; },
+    [&](int k, int a, int b, double share) { mix(at(0, k), at(0, a), at(0, b), share, n * n); });
+}
+
+} // namespace
+
+template <class Real>
+void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads, Continuation continuation)
+{
+  constexpr int all = std::numeric_limits<int>::max();
+  if (continuation == Continuation::Linear)
+  {
+    empty = fillLayers(volume, std::move(empty), threads, continuation, layersOfSplines);
+  }
+  fillLayers(volume, std::move(empty), threads, Continuation::Constant, all);
 }
 
 void continueValues(
@@ -180,7 +259,7 @@ void continueValues(
       std::copy_n(row, n, &volume.at(0, j, k));
     }
   }
-  fillEmpty(volume, std::move(empty), 1, Continuation::Linear);
+  empty = fillLayers(volume, std::move(empty), 1, Continuation::Linear, layersOfSplines);
   row = values.data();
   for (int k = 0; k < layers; ++k)
   {
@@ -189,6 +268,7 @@ void continueValues(
       std::copy_n(&volume.at(0, j, k), n, row);
     }
   }
+  fillRest(values, n, layers, empty);
 }
 
 template <class Real>

@@ -70,8 +70,8 @@ template <class Real>
 void fillEmpty(PaddedVolume<Real>& volume, PointMask empty, int threads,
   Continuation continuation = Continuation::Constant);
 
-/// Gives values to the points of a brick, n by n by `layers` of them, of which no value is known: they continue linearly.
-/// n is below 64.
+/// Gives values to the points of a brick, n by n by `layers` of them, of which no value is known: they continue linearly
+/// as far as splines in the gas depend on them; farther on they are between those. n is below 64.
 void continueValues(
   std::vector<double>& values, int n, int layers, const std::vector<unsigned char>& isKnown);
 

@@ -18,9 +18,6 @@ namespace schlieren
 namespace
 {
 
-/// Layers around the samples of a brick with edges that continued values may depend on.
-constexpr int marginOfEdges = 2;
-
 /// What coefficients may be beyond samples anyway, of the range of all.
 constexpr double overshootByRange = 1e-3;
 
@@ -80,85 +77,6 @@ Box BrickMaker<Real>::boxWithApron(const NodePlace& place) const
     box.high[axis] = std::min(box.high[axis] + apron_ * voxel[axis], bounds_.high[axis]);
   }
   return box;
-}
-
-/// Points beyond the box.
-template <class Real>
-int BrickMaker<Real>::marginOf(bool hasEdges) const
-{
-  constexpr int support = 1; // of coefficients, and for central differences of fields
-  return apron_ + support + (hasEdges ? marginOfEdges : 0);
-}
-
-/// What of a source with makers is prepared: also what fronts may need.
-template <class Real>
-int BrickMaker<Real>::preparedMarginOf(bool hasEdges) const
-{
-  return marginOf(hasEdges) + supportOfFronts - 1;
-}
-
-template <class Real>
-Lattice BrickMaker<Real>::latticeOf(const NodePlace& place, int margin) const
-{
-  const int n = edge + 2 * margin;
-  Lattice lattice{ {}, voxelOf(place.level), { n, n, layersOf(n) } };
-  if (shape_ == BrickShape::Layer)
-  {
-    lattice.first[2] = 0.5 * (bounds_.low[2] + bounds_.high[2]);
-    lattice.spacing[2] = std::max(lattice.spacing[0], lattice.spacing[1]);
-  }
-  for (std::size_t axis = 0; axis < axes(); ++axis)
-  {
-    const std::int64_t first = std::int64_t{ edge } * place.at[axis] - margin;
-    lattice.first[axis] =
-      rules_.grid.origin[axis] + (static_cast<double>(first) + 0.5) * lattice.spacing[axis];
-  }
-  return lattice;
-}
-
-/// What the source says of a lattice.
-template <class Real>
-BrickSamples BrickMaker<Real>::valuesAt(
-  const NodePlace& place, int margin, bool hasEdges, bool hasFields) const
-{
-  BrickSamples samples;
-  samples.margin = margin;
-  const Lattice lattice = latticeOf(place, samples.margin);
-  samples.n = lattice.points[0];
-  samples.layers = lattice.points[2];
-  samples.begin[2] = 0;
-  samples.end[2] = 1;
-  for (std::size_t axis = 0; axis < axes(); ++axis)
-  {
-    const std::int64_t first = std::int64_t{ edge } * place.at[axis] - samples.margin;
-    const std::int64_t all = (rules_.grid.dimensions[axis] - 1) << place.level;
-    samples.begin[axis] = static_cast<int>(std::max<std::int64_t>(0, -first));
-    samples.end[axis] = static_cast<int>(std::min<std::int64_t>(samples.n, all - first));
-  }
-  const auto points = static_cast<std::size_t>(lattice.size());
-  samples.nu.resize(points);
-  samples.places.resize(points);
-  samples.distances.resize(hasEdges ? points : 0);
-  float* const distances = hasEdges ? samples.distances.data() : nullptr;
-  if (hasFields)
-  {
-    samples.fields.voxel = lattice.spacing;
-    samples.fields.n = samples.n;
-    samples.fields.shape = shape_;
-    samples.fields.margin = samples.margin;
-    samples.fields.values.resize(static_cast<std::size_t>(source_.fields()) * points);
-    source_.sampleWithFields(
-      lattice, samples.nu.data(), samples.places.data(), distances, samples.fields.values.data());
-  }
-  else
-  {
-    source_.sample(lattice, samples.nu.data(), samples.places.data(), distances);
-  }
-  for (double& value : samples.nu)
-  {
-    value = nuOf(value);
-  }
-  return samples;
 }
 
 /// Relative to the brick's offset.
@@ -245,27 +163,19 @@ void BrickMaker<Real>::findBounds(const NodePlace& place, Brick<Real>& brick) co
   }
 }
 
+/// `samplesWith`: those of its lattice that are at most so far beyond the node.
 template <class Real>
-Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
+void BrickMaker<Real>::makeOf(const BrickRequest& request, Outline& outline,
+  const std::function<BrickSamples(int margin)>& samplesWith) const
 {
   const NodePlace& place = request.place;
   const Negligible& negligible = request.negligible;
-  Outline outline = outlineOf(request);
-  Brick<Real> brick = std::move(outline.brick);
-  if (!outline.isSampled)
-  {
-    return brick;
-  }
   const MediumSource::Content& content = outline.content;
-  const bool hasEdges = outline.hasEdges, hasFields = outline.hasFields;
-  const int margin = marginOf(hasEdges);
-  const int prepared = preparedMarginOf(hasEdges);
-  BrickSamples all =
-    valuesAt(place, source_.dependsOnLattice() ? prepared : margin, hasEdges, hasFields);
-  BrickSamples samples = all;
-  samples.fill(margin);
+  Brick<Real>& brick = outline.brick;
+  BrickSamples samples = samplesWith(marginOf(outline.hasEdges));
+  samples.fill();
   brick.kind = Leaf<Real>::Samples;
-  const bool hasEdge = hasEdges && findEdges(place, content, samples, negligible.deflection, brick);
+  const bool hasEdge = outline.hasEdges && findEdges(place, content, samples, brick);
   BrickFacts& facts = brick.facts;
   if (!samples.hasGas())
   {
@@ -277,9 +187,9 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
       facts.ofWindow = facts.besideWindow;
     }
     brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
-    return brick;
+    return;
   }
-  if (hasFields)
+  if (outline.hasFields)
   {
     const auto& spacing = rules_.grid.spacing;
     brick.fields =
@@ -295,7 +205,7 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
     facts.largestNu = std::max(std::abs(samples.lowest), std::abs(samples.highest));
     brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
     brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
-    return brick;
+    return;
   }
   if (brick.kind == Leaf<Real>::Samples || brick.kind == Leaf<Real>::Mixed)
   {
@@ -304,9 +214,8 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
       apron_, axes(), overshoot_ };
     if (!makeCoefficients(samples, rule))
     {
-      samples =
-        all.margin == prepared ? std::move(all) : valuesAt(place, prepared, hasEdges, hasFields);
-      samples.fill(prepared);
+      samples = samplesWith(sampledMarginOf(outline.hasEdges));
+      samples.fill();
       makeCoefficients(samples, rule);
     }
     storeCoefficients(samples, brick);
@@ -316,7 +225,6 @@ Brick<Real> BrickMaker<Real>::make(const BrickRequest& request) const
   {
     facts.difference = 0; // of gas beside it
   }
-  return brick;
 }
 
 template class BrickMaker<float>;

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace schlieren
@@ -104,6 +105,8 @@ struct BrickRequest
   /// Whether it is to be divided, and its children again, where it has walls that are not flat and finer than its
   /// voxels. Then it needs no samples.
   bool dividesAtWalls = false;
+  bool isChild =
+    false; ///< one of those of a node that is divided, which are requested one after the other
 };
 
 /// What bricks depend on besides their source.
@@ -125,7 +128,7 @@ public:
 
   BrickMaker(const MediumSource& source, const BrickRules& rules);
 
-  Brick<Real> make(const BrickRequest& request) const;
+  std::vector<Brick<Real>> make(const std::vector<BrickRequest>& requests) const;
 
   /// Where the source has makers, the bricks that they make; otherwise none.
   std::vector<Brick<Real>> makeTogether(const std::vector<BrickRequest>& requests) const;
@@ -144,16 +147,28 @@ public:
 
 private:
   struct Outline;
+  struct Sampled;
+  struct Values;
 
   Box boxWithApron(const NodePlace& place) const;
   Outline outlineOf(const BrickRequest& request) const;
   bool areEdgesFine(int level, const MediumSource::Content& content) const;
-  Lattice latticeOf(const NodePlace& place, int margin) const;
   int marginOf(bool hasEdges) const;
-  int preparedMarginOf(bool hasEdges) const;
-  BrickSamples valuesAt(const NodePlace& place, int margin, bool hasEdges, bool hasFields) const;
+  int sampledMarginOf(bool hasEdges) const;
+  Lattice latticeOf(
+    const NodePlace& first, const std::array<std::int32_t, 3>& nodes, bool hasEdges) const;
+  Lattice latticeOf(const Sampled& sampled) const;
+  std::vector<Sampled> sampledOf(
+    const std::vector<BrickRequest>& requests, const std::vector<Outline>& outlines) const;
+  Values valuesAt(const Sampled& sampled) const;
+  BrickSamples samplesOf(const Values& values, const Sampled& sampled, const NodePlace& place,
+    const Outline& outline, int margin) const;
+  void makeSampled(const Sampled& sampled, const std::vector<BrickRequest>& requests,
+    std::vector<Outline>& outlines) const;
+  void makeOf(const BrickRequest& request, Outline& outline,
+    const std::function<BrickSamples(int margin)>& samplesWith) const;
   bool findEdges(const NodePlace& place, const MediumSource::Content& content,
-    BrickSamples& samples, double negligible, Brick<Real>& brick) const;
+    BrickSamples& samples, Brick<Real>& brick) const;
   void storeGasDistances(const BrickSamples& samples, Brick<Real>& brick) const;
   void findErrors(const NodePlace& place, const MediumSource::Content& content,
     const BrickSamples& samples, bool hasEdge, BrickFacts& facts) const;

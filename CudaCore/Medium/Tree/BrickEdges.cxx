@@ -25,7 +25,7 @@ constexpr double distanceUnits = 8192;
 /// or a window ends in it.
 template <class Real>
 bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Content& content,
-  BrickSamples& samples, double negligible, Brick<Real>& brick) const
+  BrickSamples& samples, Brick<Real>& brick) const
 {
   bool hasGas = false, hasWall = false, hasWindow = false, hasEdge = false;
   double besideEdge = 0, steepest = 0; // of nu; of its differences, a voxel
@@ -89,12 +89,6 @@ bool BrickMaker<Real>::findEdges(const NodePlace& place, const MediumSource::Con
   facts.edgeError =
     static_cast<double>(bend) * *std::max_element(voxel.begin(), voxel.begin() + axes());
   facts.areEdgesFine = areEdgesFine(place.level, content);
-  if (!facts.hasWallEdge && facts.besideWindow <= negligible && samples.fields.n == 0)
-  {
-    facts.neglected = std::max(facts.neglected, facts.besideWindow);
-    brick.kind = hasGas ? Leaf<Real>::Samples : Leaf<Real>::Constant;
-    return true; // but nothing of it can be seen
-  }
   brick.kind = Leaf<Real>::Mixed;
   storeGasDistances(samples, brick);
   return true;
@@ -141,8 +135,8 @@ void BrickMaker<Real>::storeGasDistances(const BrickSamples& samples, Brick<Real
 }
 
 template bool BrickMaker<float>::findEdges(
-  const NodePlace&, const MediumSource::Content&, BrickSamples&, double, Brick<float>&) const;
+  const NodePlace&, const MediumSource::Content&, BrickSamples&, Brick<float>&) const;
 template bool BrickMaker<double>::findEdges(
-  const NodePlace&, const MediumSource::Content&, BrickSamples&, double, Brick<double>&) const;
+  const NodePlace&, const MediumSource::Content&, BrickSamples&, Brick<double>&) const;
 
 } // namespace schlieren

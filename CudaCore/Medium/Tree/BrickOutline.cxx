@@ -31,7 +31,7 @@ bool BrickMaker<Real>::areEdgesFine(int level, const MediumSource::Content& cont
 template <class Real>
 typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(const BrickRequest& request) const
 {
-  const auto& [place, negligible, dividesAtWalls] = request;
+  const NodePlace& place = request.place;
   Outline outline{ boxWithApron(place), {}, 0, 0, false, false, false, {} };
   Brick<Real>& brick = outline.brick;
   outline.content = source_.contentOf(outline.box);
@@ -45,7 +45,7 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(const BrickReques
   outline.lowest = hasData ? nuOf(content.lowest) : 0;
   outline.highest = hasData ? nuOf(content.highest) : 0;
   const double gathered = hasData ? largestGathered(source_, outline.box) : 0;
-  const Negligible allowed = place.level < 0 ? Negligible{ 0 } : negligible;
+  const Negligible allowed = place.level < 0 ? Negligible{ 0 } : request.negligible;
   outline.hasFields = gathered > allowed.gathered;
   brick.fields.facts.neglected = outline.hasFields ? 0 : gathered;
   if (!content.hasWall && !outline.hasFields)
@@ -61,7 +61,7 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(const BrickReques
       return outline;
     }
   }
-  const bool isDivided = dividesAtWalls && content.hasWall && !content.hasWindow &&
+  const bool isDivided = request.dividesAtWalls && content.hasWall && !content.hasWindow &&
     !content.areWallsFlat && !outline.hasFields && !areEdgesFine(place.level, content);
   if (place.level < 0 || isDivided)
   {
@@ -113,23 +113,32 @@ std::vector<std::vector<char>> BrickMaker<Real>::makeShare(
   source_.prepareContents(boxes);
   std::vector<Outline> outlines(requests.size());
   forEach(requests.size(), [&](std::size_t n) { outlines[n] = outlineOf(requests[n]); });
+  const std::vector<Sampled> sampled = sampledOf(requests, outlines);
   std::vector<Lattice> lattices;
   std::vector<std::size_t> own;
-  for (std::size_t n = 0; n < requests.size(); ++n)
+  for (std::size_t n = 0; n < sampled.size(); ++n)
   {
-    const Outline& outline = outlines[n];
-    if (outline.isSampled ? lattices.size() % processes == process : process == 0)
+    lattices.push_back(latticeOf(sampled[n]));
+    if (n % processes == process)
     {
       own.push_back(n);
-    }
-    if (outline.isSampled)
-    {
-      lattices.push_back(latticeOf(requests[n].place, preparedMarginOf(outline.hasEdges)));
     }
   }
   source_.prepareSamples(lattices);
   std::vector<std::vector<char>> made(requests.size());
-  forEach(own.size(), [&](std::size_t i) { made[own[i]] = make(requests[own[i]]).toBytes(); });
+  for (std::size_t n = 0; n < requests.size() && process == 0; ++n)
+  {
+    made[n] = outlines[n].isSampled ? std::vector<char>() : outlines[n].brick.toBytes();
+  }
+  forEach(own.size(),
+    [&](std::size_t i)
+    {
+      makeSampled(sampled[own[i]], requests, outlines);
+      for (const std::size_t n : sampled[own[i]].bricks)
+      {
+        made[n] = outlines[n].brick.toBytes();
+      }
+    });
   return made;
 }
 

@@ -4,6 +4,11 @@
 
 #include "Medium/Tree/Brick.h"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 namespace schlieren
 {
 
@@ -17,6 +22,27 @@ struct BrickMaker<Real>::Outline
   bool hasEdges, hasFields;
   bool isSampled;    ///< false: `brick` is all there is to it
   Brick<Real> brick; ///< as yet
+};
+
+/// Bricks that are sampled together, with one lattice.
+template <class Real>
+struct BrickMaker<Real>::Sampled
+{
+  NodePlace first;                   ///< the node where the lattice begins
+  std::array<std::int32_t, 3> nodes; ///< along each axis
+  bool hasEdges, hasFields;          ///< any of them
+  std::vector<std::size_t> bricks;   ///< which requests
+};
+
+/// What the source says of their lattice.
+template <class Real>
+struct BrickMaker<Real>::Values
+{
+  Lattice lattice;
+  std::vector<double> nu;
+  std::vector<Place> places;
+  std::vector<float> distances; ///< empty: no edges
+  std::vector<double> fields;   ///< field after field; empty: none
 };
 
 } // namespace schlieren

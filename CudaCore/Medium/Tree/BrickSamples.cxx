@@ -51,50 +51,10 @@ Range rangeOf(const std::vector<double>& values)
 
 } // namespace
 
-void BrickSamples::fill(int wantedMargin)
+void BrickSamples::fill()
 {
-  while (margin > wantedMargin)
-  {
-    takeOffLayer();
-  }
   findGas();
   continueGas();
-}
-
-void BrickSamples::takeOffLayer()
-{
-  const int first = layers > 1 ? 1 : 0;
-  const auto takeOff = [&](auto& values)
-  {
-    const std::size_t all = index(0, 0, layers);
-    auto to = values.begin();
-    for (std::size_t array = 0; array + all <= values.size(); array += all)
-    {
-      for (int k = first; k < layers - first; ++k)
-      {
-        for (int j = 1; j + 1 < n; ++j)
-        {
-          const auto row = values.begin() + static_cast<std::ptrdiff_t>(array + index(1, j, k));
-          to = std::copy(row, row + (n - 2), to);
-        }
-      }
-    }
-    values.erase(to, values.end());
-  };
-  takeOff(nu);
-  takeOff(places);
-  takeOff(distances);
-  takeOff(fields.values);
-  margin -= 1;
-  n -= 2;
-  layers -= 2 * first;
-  fields.n = n;
-  fields.margin = margin;
-  for (std::size_t axis = 0; axis < (first == 1 ? 3u : 2u); ++axis)
-  {
-    begin[axis] = std::max(0, begin[axis] - 1);
-    end[axis] = std::min(n, end[axis] - 1);
-  }
 }
 
 void BrickSamples::findGas()

@@ -102,12 +102,10 @@ struct BrickSamples
     }
   }
 
-  /// Takes off layers down to a margin, and gives values to all points that are left.
-  void fill(int wantedMargin);
+  /// Gives values to all points.
+  void fill();
 
 private:
-  /// The outermost points of the lattice go.
-  void takeOffLayer();
   /// Which points have a value that counts, and the range of these.
   void findGas();
   /// Gives values to the points that have none: within the domain those of the gas around, beyond its faces

@@ -29,10 +29,11 @@ constexpr std::size_t bricksOfMaker = 64;
 template <class Real>
 void MediumTree<Real>::findBricks(const View& view)
 {
-  work_.bricksDone = 0;
+  work_.groupsDone = 0;
   work_.tasksBegun = work_.tasksDone;
   std::vector<BrickRequest> requests;
   work_.boxes.clear();
+  work_.groups.clear();
   const BrickMakers* const makers = source_->makers();
   const std::size_t atOnce = makers
     ? std::min(bricksAtOnce, bricksOfMaker * static_cast<std::size_t>(makers->count()))
@@ -43,46 +44,53 @@ void MediumTree<Real>::findBricks(const View& view)
     const Node& node = nodes_[static_cast<std::size_t>(task.node)];
     const NodePlace& place = node.place;
     const Negligible negligible = view.negligibleTo(node, fieldsOf(task.node), task.divides);
+    work_.groups.push_back(requests.size());
     for (std::int32_t child = 0; child < (task.divides ? childCount() : 1); ++child)
     {
       const NodePlace ofOne = task.divides ? childOf(place, child) : place;
       if (!task.divides || view.sees(ofOne))
       {
-        requests.push_back({ ofOne, negligible, view.dividesAtWalls(ofOne) });
+        requests.push_back({ ofOne, negligible, view.dividesAtWalls(ofOne), task.divides });
         work_.boxes.push_back(task.divides ? task.node : -1);
       }
     }
   }
+  work_.groups.push_back(requests.size());
   work_.bricks = maker_.makeTogether(requests);
   work_.areMade = !work_.bricks.empty();
   work_.bricks.resize(requests.size());
   work_.requests = std::move(requests);
 }
 
-/// A brick with what is wrong with it, also what comparison with its parent shows.
+/// The bricks of a task with what is wrong with them, also what comparison with their parent shows.
 template <class Real>
-void MediumTree<Real>::makeBrick(std::size_t request)
+void MediumTree<Real>::makeBricks(std::size_t group)
 {
-  const NodePlace& place = work_.requests[request].place;
-  Brick<Real>& brick = work_.bricks[request];
+  const std::size_t first = work_.groups[group], end = work_.groups[group + 1];
+  const auto at = [](auto& all, std::size_t n)
+  { return all.begin() + static_cast<std::ptrdiff_t>(n); };
   if (!work_.areMade)
   {
-    brick = maker_.make(work_.requests[request]);
+    std::vector<Brick<Real>> made =
+      maker_.make({ at(work_.requests, first), at(work_.requests, end) });
+    std::move(made.begin(), made.end(), at(work_.bricks, first));
   }
-  if (apron() != 1)
+  for (std::size_t n = first; n < end && apron() == 1; ++n)
   {
-    return;
-  }
-  if (work_.boxes[request] >= 0)
-  {
-    const Node& box = nodes_[static_cast<std::size_t>(work_.boxes[request])];
-    const Real* samples = samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
-    addErrorsByChange(
-      brick, partOf(place, shape()), samples, box.offset, shape(), maker_.voxelOf(place.level));
-  }
-  else if (place.level == 0)
-  {
-    brick.facts.errors.scale(errorByCells);
+    const NodePlace& place = work_.requests[n].place;
+    Brick<Real>& brick = work_.bricks[n];
+    if (work_.boxes[n] >= 0)
+    {
+      const Node& box = nodes_[static_cast<std::size_t>(work_.boxes[n])];
+      const Real* samples =
+        samples_.values().data() + std::int64_t{ box.brick } * samplesPerBrick();
+      addErrorsByChange(
+        brick, partOf(place, shape()), samples, box.offset, shape(), maker_.voxelOf(place.level));
+    }
+    else if (place.level == 0)
+    {
+      brick.facts.errors.scale(errorByCells);
+    }
   }
 }
 
@@ -127,7 +135,7 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
     {
       findBricks(view);
     }
-    const auto count = static_cast<std::int64_t>(work_.requests.size());
+    const auto count = static_cast<std::int64_t>(work_.groups.size()) - 1;
     Monitor ofThese{ {}, monitor.aborted, monitor.paused };
     if (monitor.progress)
     {
@@ -140,17 +148,17 @@ bool MediumTree<Real>::doTasks(const View& view, const Monitor& monitor)
         monitor.progress(work_.progress);
       };
     }
-    work_.bricksDone = parallelFrom(
-      work_.bricksDone, count, 1, settings_.threads,
+    work_.groupsDone = parallelFrom(
+      work_.groupsDone, count, 1, settings_.threads,
       [&](std::int64_t first, std::int64_t last)
       {
         for (std::int64_t n = first; n < last; ++n)
         {
-          makeBrick(static_cast<std::size_t>(n));
+          makeBricks(static_cast<std::size_t>(n));
         }
       },
       ofThese);
-    if (work_.bricksDone < count)
+    if (work_.groupsDone < count)
     {
       return false;
     }

@@ -148,15 +148,16 @@ private:
     std::size_t tasksBegun = 0;
     std::vector<BrickRequest> requests; ///< of the tasks that are begun
     std::vector<std::int32_t> boxes;    ///< likewise; the nodes that are divided, or -1
+    std::vector<std::size_t> groups;    ///< where the requests of each task begin, and the end
     std::vector<Brick<Real>> bricks;    ///< likewise
     bool areMade = false;               ///< by others
-    std::int64_t bricksDone = 0;
+    std::int64_t groupsDone = 0;
   };
   class View;
 
   /// Counts the children of a node that is divided.
   std::int32_t childCount() const { return shape() == BrickShape::Layer ? 4 : 8; }
-  void makeBrick(std::size_t request);
+  void makeBricks(std::size_t group);
   void makeRoots();
   void findBlockedLight();
   void assumeDeflection(const View& view);

@@ -259,6 +259,61 @@ TEST_P(Solids, OnlyTransparentPlacesLetLightPass)
 
 INSTANTIATE_TEST_SUITE_P(, Solids, bothDevices(), deviceName);
 
+/// A plane wall, aslant: three layers behind it, of which splines in the gas have coefficients and what these depend on,
+/// continue what is linear; farther on nothing is beyond them.
+TEST(FillSolids, ContinuesLinearFieldsAsFarAsSplinesReach)
+{
+  constexpr int n = 24, reach = 3;
+  const auto fieldAt = [](int i, int j, int k) { return 1 + 2. * i - 0.5 * j + 0.25 * k; };
+  const auto depthOf = [](int i, int j) { return i + j / 4 - 8; }; // layers behind the wall
+  std::vector<double> values;
+  std::vector<unsigned char> isKnown;
+  double lowest = 1e9, highest = -1e9;
+  for (int at = 0; at < n * n * n; ++at)
+  {
+    const int i = at % n, j = at / n % n, k = at / n / n;
+    isKnown.push_back(depthOf(i, j) <= 0 ? 1 : 0);
+    values.push_back(isKnown.back() ? fieldAt(i, j, k) : std::nan(""));
+    if (depthOf(i, j) <= reach)
+    {
+      lowest = std::min(lowest, fieldAt(i, j, k));
+      highest = std::max(highest, fieldAt(i, j, k));
+    }
+  }
+  continueValues(values, n, n, isKnown);
+  for (int at = 0; at < n * n * n; ++at)
+  {
+    const int i = at % n, j = at / n % n, k = at / n / n;
+    if (depthOf(i, j) <= reach)
+    {
+      EXPECT_NEAR(values[static_cast<std::size_t>(at)], fieldAt(i, j, k), 1e-12);
+    }
+    EXPECT_GE(values[static_cast<std::size_t>(at)], lowest - 1e-9);
+    EXPECT_LE(values[static_cast<std::size_t>(at)], highest + 1e-9);
+  }
+}
+
+/// Rows, and layers, in which nothing is known.
+TEST(FillSolids, GivesValuesToAllOfABrick)
+{
+  constexpr int n = 20;
+  std::vector<double> values(n * n * n, std::nan(""));
+  std::vector<unsigned char> isKnown(values.size(), 0);
+  for (const int known : { 0, (7 * n + 7) * n + 7 })
+  {
+    values[static_cast<std::size_t>(known)] = known > 0 ? 2 : 1;
+    isKnown[static_cast<std::size_t>(known)] = 1;
+  }
+  continueValues(values, n, n, isKnown);
+  for (const double value : values)
+  {
+    EXPECT_GE(value, 1);
+    EXPECT_LE(value, 2);
+  }
+  EXPECT_EQ(values.front(), 1);
+  EXPECT_EQ(values.back(), 2);
+}
+
 /// Point by point, what fillEmpty does word by word.
 std::vector<double> filledPointByPoint(
   const std::array<std::int64_t, 3>& n, std::vector<double> values, std::vector<bool> empty)
