@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where a source is asked for bricks: children of one node together, whose lattices overlap.
+// Where bricks are requested of a source: children of one node together, whose lattices overlap.
 #include "Medium/Tree/BrickCoefficients.h"
 #include "Medium/Tree/BrickOutline.h"
 #include "Medium/Tree/BrickSamples.h"
