@@ -29,8 +29,6 @@ public:
   {
   }
 
-  Device device() const { return device_; }
-
   /// Traces passes, or resumes them. False if aborted or paused: the same call then does the rest. Where they are traced by
   /// CPUs, `traced` has their size. `isWantedOnHost`: or else where it was traced. Throws DeviceError.
   bool trace(const RayTask<Real>& task, const Passes& passes, TracedPass& traced,

@@ -30,15 +30,15 @@ public:
     }
   }
 
-  /// Makes quick what is added `higher` than where rays land.
-  void cover(const RowRange& lands, double higher)
+  /// Makes quick what is added where rays land.
+  void cover(const RowRange& lands)
   {
     if (lands.lowest > lands.highest)
     {
       return;
     }
-    const auto lowest = static_cast<std::int64_t>(std::floor(lands.lowest + higher));
-    const auto highest = static_cast<std::int64_t>(std::floor(lands.highest + higher));
+    const auto lowest = static_cast<std::int64_t>(std::floor(lands.lowest));
+    const auto highest = static_cast<std::int64_t>(std::floor(lands.highest));
     for (const auto& band : bands_)
     {
       band->cover(lowest, highest);
@@ -111,7 +111,7 @@ void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays
         load(row + 1);
         const RowRange& here = lands[slotOf(row)];
         // Boxes are no higher than a pixel unless rays part by more.
-        bands.cover({ here.lowest - 0.5, here.highest + 0.5 }, 0);
+        bands.cover({ here.lowest - 0.5, here.highest + 0.5 });
         const Ray* at = rows[slotOf(row)].data() + 1;
         for (std::size_t i = 0; i < columns; ++i, ++at)
         {
@@ -129,8 +129,7 @@ void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays
       smooth(row + 1, upper);
       const RowRange& below = lands[slotOf(row)];
       const RowRange& above = lands[slotOf(row + 1)];
-      bands.cover(
-        { std::min(below.lowest, above.lowest), std::max(below.highest, above.highest) }, 0);
+      bands.cover({ std::min(below.lowest, above.lowest), std::max(below.highest, above.highest) });
       for (std::size_t i = 0; i + 1 < columns; ++i)
       {
         sheet.addCell(lower[i], lower[i + 1], upper[i], upper[i + 1],
