@@ -5,6 +5,7 @@
 #include "Bench/CutoffMaker.h"
 #include "Math/Units.h"
 #include "Optics/Cutoffs.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <cmath>

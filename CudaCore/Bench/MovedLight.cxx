@@ -4,6 +4,7 @@
 
 #include "Bench/Scouts.h"
 #include "Film/Shading.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <cmath>

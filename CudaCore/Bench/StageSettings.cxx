@@ -3,6 +3,7 @@
 #include "Bench/StageSettings.h"
 
 #include "Medium/Samples/Interpolation.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <cmath>

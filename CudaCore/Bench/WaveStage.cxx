@@ -6,6 +6,7 @@
 #include "Bench/StageSettings.h"
 #include "Bench/WaveScene.h"
 #include "Rays/March/MakeTask.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <chrono>

@@ -3,7 +3,7 @@
 #include "Film/Development.h"
 
 #include "Film/Smoothing.h"
-#include "Rays/Light.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <array>

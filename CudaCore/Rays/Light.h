@@ -118,33 +118,10 @@ double distanceInData(double distance, const Frame& frame, double exitRatio);
 Light lightFrom(const LightSource& source, double film, const Grid& grid, const View& view,
   const Frame& frame, const ExitFaces& faces = noFaces, const Aperture& aperture = {});
 
-/// The place of pass `pass` in an extended source, as slopes along u and v seen from the middle of the data.
-/// Pass 0 is its centre. Later ones follow the sequence of multiples of the golden ratio and of sqrt(2)
-/// (Kronecker), which fills a disc evenly by area. `knifeEdgeAngle`, degrees: across a slit.
-std::array<double, 2> sourcePoint(
-  const LightSource& source, double knifeEdgeAngle, std::int64_t pass, std::uint32_t seed);
-
-/// The place of pass `pass` of `passes` in an aperture of radius 1. They lie on a spiral that fills it most evenly (Vogel
-/// 1979), in an order in which the first ones are all over it. Pass 0 is the centre.
-std::array<double, 2> pupilPoint(std::int64_t pass, std::int64_t passes);
-
 /// Data coordinates of a place in index coordinates.
 Vector placeOf(const Grid& grid, const Vec3<double>& index);
 
 /// Pixels around the image that rays may start from, at most.
 std::int64_t maxMargin(const View& view);
-
-/// Where in its pixel the ray of pass `pass` starts, relative to the centre, in [-1/2, 1/2).
-/// Pass 0 is the centre. Along both axes the first 4, 8, 16 ... 4096 passes are evenly spaced, so that an edge along a pixel's
-/// sides is wrong by one ray at the most. Of 4, 8, 16, 32 and 64 such points these are the ones that cover half-planes of
-/// any angle best, about. Each seed mirrors and exchanges the axes, and begins with another of the first four points.
-/// The offset is the same in all pixels of a pass: a pass is a lattice, and bilinear splats of an undisturbed
-/// lattice add up to an exactly even film, so undisturbed light carries no sampling noise.
-PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed);
-
-/// The side, in pixels, of the square whose light each ray has of so many per pixel. Light that changes within a pixel is
-/// blurred by that side and no more. Squares of 4, 16 or 64 rays cover each column and row of a pixel evenly, as the rays are
-/// evenly spaced.
-double sideOf(std::int64_t raysPerPixel);
 
 } // namespace schlieren

@@ -7,6 +7,7 @@
 #include "Optics/DeflectionHistogram.h"
 #include "Rays/Cpu/CpuTracer.h"
 #include "Rays/Cuda/CudaTracer.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <cstring>

@@ -4,6 +4,7 @@
 // The camera in front of the flow: its lens's aperture, what it is focused on, and its sensor.
 #include "Fields.h"
 #include "Rays/Light.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // How rays become an image: where light goes, how exact it is, and what must not change it.
 #include "Fields.h"
 #include "Film/Exposure.h"
-#include "Rays/Light.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <cmath>

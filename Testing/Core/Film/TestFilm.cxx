@@ -5,7 +5,7 @@
 #include "Film/Film.h"
 #include "Math/Units.h"
 #include "Optics/AutomaticK.h"
-#include "Rays/Light.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <cmath>

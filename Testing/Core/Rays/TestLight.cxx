@@ -6,6 +6,7 @@
 #include "ClosedForms.h"
 #include "Film/Shading.h"
 #include "Rays/Light.h"
+#include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <random>
