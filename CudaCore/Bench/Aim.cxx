@@ -37,10 +37,16 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   {
     pilot.begin(view->tracer, scene, k);
   }
-  const KnownErrors known = knownErrors(pilot, k);
-  const bool isMemoryShort = inUse.medium().tree && inUse.medium().tree->statistics().isMemoryShort;
-  if (refine(known, isMemoryShort, scene))
+  const KnownErrors known = knownErrors(pilot, watch.monitor());
+  ofImage.isPaused = pilot.isPaused();
+  if (watch.isAborted() || ofImage.isPaused)
   {
+    return true;
+  }
+  const bool isMemoryShort = inUse.medium().tree && inUse.medium().tree->statistics().isMemoryShort;
+  if (refine(known, ofImage.errorOfVoxels, isMemoryShort, scene))
+  {
+    ofImage.errorOfVoxels = known.voxels;
     return false;
   }
   AccurateSettings chosen = chooseFor(pilot, known, targets.lastFor(scene), watch.monitor());

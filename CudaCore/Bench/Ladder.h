@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace schlieren
@@ -114,7 +115,8 @@ public:
     }
     if (samples > mostCompared)
     {
-      return ofRays(samples / 4, 0) / leastGain;
+      const double times = static_cast<double>(samples) / mostCompared;
+      return ofRays(mostCompared, 0) / std::pow(leastGain, std::log2(times) / 2);
     }
     if (samples > cheap)
     {

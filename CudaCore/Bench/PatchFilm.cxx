@@ -151,11 +151,12 @@ PatchPixels PatchFilm::develop()
 }
 
 void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& patch, double factor,
-  const Scene& scene, const Projection& projection, Differences& differences)
+  const Scene& scene, const Projection& projection, Differences& differences, Edges edges)
 {
   for (std::size_t pixel = 0; pixel < b.isLit.size(); ++pixel)
   {
-    if (b.hasMet[pixel] && b.isLit[pixel])
+    if (b.hasMet[pixel] && b.isLit[pixel] &&
+      (edges == Edges::Count || !(a.isStopped[pixel] || b.isStopped[pixel])))
     {
       const double difference = differenceAt(pixel, a, b, patch, factor, scene, projection);
       differences.push_back({ difference, patch.weight, pixel });

@@ -45,9 +45,17 @@ private:
   PatchPixels pixels_; ///< what of them the passes have shown
 };
 
+/// Pixels in which a body stops some rays.
+enum class Edges
+{
+  Count,
+  DoNotCount
+};
+
 /// Adds the differences of pixels, times a factor, as the technique's reader sees them: see Scene::targetError.
 void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& patch, double factor,
-  const Scene& scene, const Projection& projection, Differences& differences);
+  const Scene& scene, const Projection& projection, Differences& differences,
+  Edges edges = Edges::Count);
 
 /// Adds what a shift of the light by a pixel would change where edges of bodies are, and nothing elsewhere.
 void addSlopesAtEdges(

@@ -22,6 +22,10 @@ constexpr std::int64_t around = 2; ///< pixels, what the film knows of a pixel's
 constexpr std::size_t patchesElsewhere = 100;
 constexpr std::size_t patchesAtBodies = 32, patchesAtBorders = 32, patchesAtVariations = 32;
 
+/// Of the pixels whose light crosses the data, about, for finer voxels. These take eight times as long to make.
+constexpr double partOfVoxels = 0.015;
+constexpr double fewestOfVoxels = 20; ///< patches
+
 /// Chooses the places of patches.
 class Planner
 {
@@ -64,6 +68,7 @@ private:
   const View& view_;
   std::vector<Quad> quads_;
   PatchLayout layout_;
+  std::size_t everyOfVoxels_ = 1; ///< patches one that is looked at with finer voxels
   std::int64_t lost_ = 0; ///< patches whose light comes from all over the image, or from outside
 };
 
@@ -109,6 +114,15 @@ PatchLayout Planner::layOut(std::int64_t margin, bool wantsAllPixels)
       }
     }
   }
+  constexpr auto edgeWithMargin = static_cast<double>(Patch::edge + 2 * around);
+  const double crossing =
+    static_cast<double>(scouts_.view().crossed) * static_cast<double>(stride * stride);
+  const double ofVoxels =
+    std::max(fewestOfVoxels, partOfVoxels * crossing / (edgeWithMargin * edgeWithMargin));
+  const std::size_t all =
+    patchesElsewhere + patchesAtBodies + patchesAtBorders + patchesAtVariations;
+  everyOfVoxels_ = static_cast<std::size_t>(
+    std::ceil(static_cast<double>(all) / std::min(ofVoxels, static_cast<double>(all))));
   constexpr std::size_t perStrong = 12; // of so many cells one
   Cells sorted = within;
   const auto rank = static_cast<std::ptrdiff_t>(sorted.size() / perStrong);
@@ -244,6 +258,10 @@ void Planner::spread(const Cells& cells, std::size_t most, PatchPlace where)
     Patch patch{ column, row, 2 * perPlace * static_cast<double>(tiles), column, row };
     lost_ += findOrigin(patch) ? 0 : 1;
     layout_.sets[n % 2][static_cast<std::size_t>(where)].push_back(patch);
+    if (n % everyOfVoxels_ == 0)
+    {
+      layout_.ofVoxels[static_cast<std::size_t>(where)].push_back(patch);
+    }
   }
 }
 

@@ -20,7 +20,7 @@ template <class Real>
 Pilot<Real>::Pilot(const ViewSetup<Real>& setup, const Scene& scene)
   : setup_(setup)
   , scene_(scene)
-  , scouts_(taskFor(longestStep), setup_, scene_)
+  , scouts_(taskFor(longestStep, setup.medium.medium), setup_, scene_)
   , layout_(layOutPatches(scouts_, scene_.view, setup_.margin, scene_.estimatesErrors))
 {
   for (std::size_t set = 0; set < 2; ++set)
@@ -28,17 +28,19 @@ Pilot<Real>::Pilot(const ViewSetup<Real>& setup, const Scene& scene)
     for (std::size_t place = 0; place < patchPlaces; ++place)
     {
       groups_[set][place].patches = &layout_.sets[set][place];
+      withVoxels_[set][place].patches = &layout_.ofVoxels[place];
+      withVoxels_[set][place].isOfFiner = set > 0;
     }
   }
 }
 
 template <class Real>
-RayTask<Real> Pilot<Real>::taskFor(double step) const
+RayTask<Real> Pilot<Real>::taskFor(double step, const Medium<Real>& medium) const
 {
   RaySettings settings = setup_.settings;
   settings.stepVoxels = step;
   settings.adaptiveTolerance = adaptiveToleranceFor(step, settings.adaptiveTolerance);
-  return makeTask<Real>(setup_.medium.medium, nullptr, {}, setup_.light, settings);
+  return makeTask<Real>(medium, nullptr, {}, setup_.light, settings);
 }
 
 template <class Real>
@@ -98,8 +100,14 @@ bool Pilot<Real>::trace(Group& group, const PassNumber& first, const Monitor& mo
     together.resize(passes, 0);
     group.keysUnderWay = keys;
   }
-  const bool isTraced = setup_.tracer.trace(
-    taskFor(first.set->step), passes, together, { {}, monitor.aborted, monitor.paused });
+  if (group.isOfFiner && !makeFiner(monitor))
+  {
+    return false;
+  }
+  MediumOnDevices<Real>& medium = group.isOfFiner ? *finer_ : setup_.medium;
+  const Tracer<Real> tracer = group.isOfFiner ? setup_.tracer.in(medium) : setup_.tracer;
+  const bool isTraced = tracer.trace(taskFor(first.set->step, medium.medium), passes, together,
+    { {}, monitor.aborted, monitor.paused });
   isPaused_ = monitor.paused && monitor.paused();
   if (!isTraced)
   {
@@ -263,6 +271,70 @@ Differences Pilot<Real>::slopesAtEdges(
       addSlopesAtEdges((*exposed)[patch], (*group.patches)[patch], scene_, all);
     }
   }
+  return all;
+}
+
+template <class Real>
+bool Pilot<Real>::makeFiner(const Monitor& monitor)
+{
+  if (!finer_)
+  {
+    const Frame& frame = setup_.key.frame;
+    constexpr double mostBent = 4; // pixels, away from straight light
+    const double bent =
+      std::min(mostBent, view().largestDeflection * (frame.exit - frame.entry) / frame.pixelSize);
+    std::vector<Column::Part> parts;
+    for (const PatchList& list : layout_.ofVoxels)
+    {
+      for (const Patch& patch : list)
+      {
+        const std::int64_t from[2] = { patch.fromColumn, patch.fromRow };
+        const std::int64_t size[2] = { patch.columns, patch.rows };
+        Column::Part part{};
+        for (std::size_t axis = 0; axis < 2; ++axis)
+        {
+          const double around = static_cast<double>(patch.margin) + 0.5 + bent;
+          const auto first = static_cast<double>(from[axis]);
+          const auto last = static_cast<double>(from[axis] + size[axis] - 1);
+          part.low[axis] = frame.origin[axis] + (first - around) * frame.pixelSize;
+          part.high[axis] = frame.origin[axis] + (last + around) * frame.pixelSize;
+        }
+        parts.push_back(part);
+      }
+    }
+    finer_ = std::make_unique<MediumOnDevices<Real>>(
+      finerIn(setup_.medium.medium, std::move(parts), { {}, monitor.aborted, {} }));
+    if (monitor.aborted && monitor.aborted())
+    {
+      finer_.reset();
+    }
+  }
+  return finer_ != nullptr;
+}
+
+template <class Real>
+Differences Pilot<Real>::ofVoxels(const PatchSettings& settings, const Monitor& monitor)
+{
+  Differences all;
+  for (std::size_t n = 0; n < patchPlaces; ++n)
+  {
+    const bool isAtBodies = static_cast<PatchPlace>(n) == PatchPlace::Body;
+    const int samples = isAtBodies ? settings.samplesAtBodies : settings.samples;
+    const std::vector<PatchPixels>* here =
+      expose(withVoxels_[0][n], { settings.step, samples }, monitor);
+    const std::vector<PatchPixels>* finer =
+      here ? expose(withVoxels_[1][n], { settings.step, samples }, monitor) : nullptr;
+    if (!finer)
+    {
+      return {};
+    }
+    for (std::size_t patch = 0; patch < finer->size(); ++patch)
+    {
+      addDifferences((*here)[patch], (*finer)[patch], (*withVoxels_[0][n].patches)[patch], 1,
+        scene_, setup_.projection, all, Edges::DoNotCount);
+    }
+  }
+  finer_.reset(); // its rays stay
   return all;
 }
 

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -62,11 +63,14 @@ public:
     cutoff_ = cutoffs_.cutoffOf(scene, k, setup_.pixels);
     resume(tracer);
     scene_ = scene;
-    for (auto& set : groups_)
+    for (auto* sets : { &groups_, &withVoxels_ })
     {
-      for (Group& group : set)
+      for (auto& set : *sets)
       {
-        group.exposed.clear();
+        for (Group& group : set)
+        {
+          group.exposed.clear();
+        }
       }
     }
   }
@@ -92,6 +96,10 @@ public:
 
   /// What a shift of the light by a pixel would change at edges of bodies. Aborted or paused: empty.
   Differences slopesAtEdges(Patches patches, const PatchSettings& settings, const Monitor& monitor);
+
+  /// What a medium within a lower tolerance would change: see MediumTree::refineFurther(). Edges of bodies do not count, of
+  /// which it moves rays by whole pixels at the most. Aborted or paused: empty.
+  Differences ofVoxels(const PatchSettings& settings, const Monitor& monitor);
 
   /// Whether the monitor has paused it since then. What it has done is kept.
   bool isPaused() const { return isPaused_; }
@@ -141,13 +149,16 @@ private:
   struct Group
   {
     const PatchList* patches;
+    bool isOfFiner = false;                            ///< voxels
     std::map<PassKey, std::vector<TracedPass>> traced; ///< of each patch
     TracedPass underWay;                               ///< some that a pause has interrupted
     std::vector<PassKey> keysUnderWay;
     std::map<RaySet, Exposed> exposed;
   };
 
-  RayTask<Real> taskFor(double step) const;
+  RayTask<Real> taskFor(double step, const Medium<Real>& medium) const;
+  /// Makes finer voxels where some patches' light is. False if aborted.
+  bool makeFiner(const Monitor& monitor);
   Pass passOf(const Patch& patch, std::int64_t number) const;
   /// Traces a pass of all patches of a group where that has not been done, and some of those that come next. False if aborted
   /// or paused.
@@ -161,7 +172,9 @@ private:
   Cutoffs cutoff_{};
   Scouts scouts_;
   PatchLayout layout_;
-  Group groups_[2][patchPlaces]; ///< of each set
+  Group groups_[2][patchPlaces];     ///< of each set
+  Group withVoxels_[2][patchPlaces]; ///< of the image, and finer ones
+  std::unique_ptr<MediumOnDevices<Real>> finer_;
   bool isPaused_ = false;
 };
 

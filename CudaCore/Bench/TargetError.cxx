@@ -202,63 +202,62 @@ double toleranceForTarget(const Field& field, const Scene& scene)
   return std::clamp(tolerance, finestTolerance, coarsestTolerance);
 }
 
-template <class Real>
-KnownErrors knownErrors(const Pilot<Real>& pilot, double k)
-{
-  constexpr double roundingOfPath = 1.7e-7; // of itself, in single precision
-  constexpr double typicalByTolerance = 0.5;
-  const Scene& scene = pilot.scene();
-  const PilotView& view = pilot.view();
-  const Projection& projection = pilot.setup().projection;
-  const double eps = pilot.setup().errors.medium;
-  const Technique& technique = techniqueOf(scene.cutoff);
-  KnownErrors known;
-  if (technique.hasFringes)
-  {
-    const double fringes = view.path / scene.wavelength;
-    known.rounding = scene.precision == Precision::Single ? roundingOfPath * fringes : 0;
-    known.voxels = eps > 0 ? typicalByTolerance * scene.mediumTolerance * fringes : 0;
-  }
-  else if (technique.plane == RecordedPlane::Background)
-  {
-    known.voxels = eps * std::abs(projection.distance) * projection.perDataUnit;
-  }
-  else if (technique.hasK())
-  {
-    constexpr double steepestNumerical = 5; // exp(-5 k |eps|)
-    known.voxels = (scene.cutoff == Cutoff::NumericalSchlieren ? steepestNumerical : 1) * k * eps;
-  }
-  else
-  {
-    known.voxels = view.largestDeflection > 0 ? eps / view.largestDeflection : 0;
-  }
-  return known;
-}
-
-bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene)
-{
-  const double allowed = scene.targetError / margin;
-  constexpr double shareOfRounding = 0.25, shareOfVoxels = 0.7;
-  if (scene.precision == Precision::Single && known.rounding > shareOfRounding * allowed)
-  {
-    scene.precision = Precision::Double;
-    return true;
-  }
-  if (known.voxels > shareOfVoxels * allowed && scene.mediumTolerance > finestTolerance &&
-    !isMemoryShort)
-  {
-    scene.mediumTolerance =
-      std::max(finestTolerance, scene.mediumTolerance * 0.5 * allowed / known.voxels);
-    return true;
-  }
-  return false;
-}
-
 /// Whether what is compared is of one ray per pixel, however many there are: of a pattern seen through a pinhole.
 template <class Real>
 bool needsOneRay(const Pilot<Real>& pilot)
 {
   return isOfCamera(pilot.scene().cutoff) && !(pilot.setup().projection.pupilTilt > 0);
+}
+
+template <class Real>
+bool hasWalls(const Medium<Real>& medium)
+{
+  return !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
+}
+
+template <class Real>
+StepRange stepsFor(const Pilot<Real>& pilot)
+{
+  const Medium<Real>& medium = pilot.setup().medium.medium;
+  return stepsFor(medium, hasWalls(medium), !needsOneRay(pilot));
+}
+
+template <class Real>
+KnownErrors knownErrors(Pilot<Real>& pilot, const Monitor& monitor)
+{
+  const Scene& scene = pilot.scene();
+  KnownErrors known;
+  if (techniqueOf(scene.cutoff).hasFringes && scene.precision == Precision::Single)
+  {
+    constexpr double roundingOfPath = 1.7e-7; // of itself
+    known.rounding = roundingOfPath * pilot.view().path / scene.wavelength;
+  }
+  if (pilot.setup().medium.medium.tree)
+  {
+    constexpr double byFiner = 1 / (1 - 1 / furtherTolerance); // these err, too
+    constexpr double step = 0.5;
+    known.voxels =
+      byFiner * exceededBy(mayExceed, pilot.ofVoxels(stepsFor(pilot).with(step), monitor));
+  }
+  return known;
+}
+
+bool refine(const KnownErrors& known, double before, bool isMemoryShort, Scene& scene)
+{
+  const double allowed = scene.targetError / margin;
+  constexpr double shareOfRounding = 0.25, mostOfBefore = 0.7, byRefining = 1. / 3;
+  if (scene.precision == Precision::Single && known.rounding > shareOfRounding * allowed)
+  {
+    scene.precision = Precision::Double;
+    return true;
+  }
+  if (known.voxels > scene.targetError && known.voxels < mostOfBefore * before &&
+    scene.mediumTolerance > finestTolerance && !isMemoryShort)
+  {
+    scene.mediumTolerance = std::max(finestTolerance, byRefining * scene.mediumTolerance);
+    return true;
+  }
+  return false;
 }
 
 /// Finds what other patches say of settings, and writes it into them. Nothing if aborted. `looksAtRays`: also at what more rays
@@ -327,15 +326,13 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
   const AccurateSettings* before, const Monitor& monitor)
 {
   const Medium<Real>& medium = pilot.setup().medium.medium;
-  const bool hasWalls =
-    !medium.solid.empty() || (medium.tree && !medium.tree->gasDistances().empty());
   const Scene& scene = pilot.scene();
   const double target = scene.targetError;
   const bool hasFilm = !needsOneRay(pilot);
-  const StepRange steps = stepsFor(medium, hasWalls, hasFilm);
+  const StepRange steps = stepsFor(pilot);
   const auto isAborted = [&] { return monitor.aborted && monitor.aborted(); };
   KnownErrors known = ofMedium;
-  if (hasWalls && medium.tree && techniqueOf(scene.cutoff).plane == RecordedPlane::Focus)
+  if (medium.tree && hasWalls(medium) && techniqueOf(scene.cutoff).plane == RecordedPlane::Focus)
   {
     constexpr double shiftOfEdges = 0.04; // pixels: how far voxels move edges, typically
     // Of the patches that are looked at in each view, whatever is chosen.
@@ -384,8 +381,8 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
   return settings;
 }
 
-template KnownErrors knownErrors(const Pilot<float>&, double k);
-template KnownErrors knownErrors(const Pilot<double>&, double k);
+template KnownErrors knownErrors(Pilot<float>&, const Monitor&);
+template KnownErrors knownErrors(Pilot<double>&, const Monitor&);
 template AccurateSettings chooseFor(
   Pilot<float>&, const KnownErrors&, const AccurateSettings* before, const Monitor&);
 template AccurateSettings chooseFor(

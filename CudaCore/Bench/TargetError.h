@@ -22,9 +22,9 @@ namespace schlieren
 {
 
 /// The rays per pixel that are tried.
-constexpr std::array<int, 4> raysPerPixel{ 1, 4, 16, 64 };
+constexpr std::array<int, 5> raysPerPixel{ 1, 4, 16, 32, 64 };
 
-/// Errors that are known without patches, in the unit of the target.
+/// Errors that settings of rays do not lessen, in the unit of the target.
 struct KnownErrors
 {
   double voxels = 0;
@@ -43,12 +43,13 @@ struct AccurateSettings
 /// fringes that the data can make.
 double toleranceForTarget(const Field& field, const Scene& scene);
 
-/// The errors of a pilot's medium for its view. `k`: see Scene::kScale.
+/// The errors of a pilot's medium for its view. Unknown if aborted or paused.
 template <class Real>
-KnownErrors knownErrors(const Pilot<Real>& pilot, double k);
+KnownErrors knownErrors(Pilot<Real>& pilot, const Monitor& monitor);
 
-/// Whether a medium with finer voxels, double precision or bent rays are needed: `scene` has its settings then.
-bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene);
+/// Whether a medium with finer voxels or double precision is needed: `scene` has its settings then. `before`: the error of
+/// voxels of the medium before, which finer ones must have lessened.
+bool refine(const KnownErrors& known, double before, bool isMemoryShort, Scene& scene);
 
 /// Chooses settings for the pilot's scene, verifies them with other pixels, and chooses finer ones, at most twice, where that
 /// shows that they do not keep the target. Begins with the settings of another image of the same technique, which may be

@@ -29,6 +29,12 @@ public:
   {
   }
 
+  /// The same of another medium, with this rank alone.
+  Tracer in(MediumOnDevices<Real>& medium) const
+  {
+    return { medium, device_, nullptr, threads_, gradients_ };
+  }
+
   /// Traces passes, or resumes them. False if aborted or paused: the same call then does the rest. Where they are traced by
   /// CPUs, `traced` has their size. `isWantedOnHost`: or else where it was traced. Throws DeviceError.
   bool trace(const RayTask<Real>& task, const Passes& passes, TracedPass& traced,

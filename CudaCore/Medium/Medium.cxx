@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace schlieren
 {
@@ -18,17 +20,40 @@ Medium<Real> buildTree(const Field& field, const TreeSettings& settings)
   return medium;
 }
 
-template <class Real>
-bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor, Unneeded ofOthers)
+namespace
 {
-  MediumTree<Real>& tree = *medium.tree;
-  const bool hasChanged = tree.refine(column, monitor, ofOthers);
+
+template <class Real>
+void summarize(Medium<Real>& medium)
+{
+  const MediumTree<Real>& tree = *medium.tree;
   medium.largestN = tree.largestN();
   medium.rangeOfNu = tree.rangeOfNu();
   medium.largestNu = tree.largestNu();
   medium.slope = tree.slope();
   medium.steepest = tree.steepest();
+}
+
+} // namespace
+
+template <class Real>
+bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor, Unneeded ofOthers)
+{
+  const bool hasChanged = medium.tree->refine(column, monitor, ofOthers);
+  summarize(medium);
   return hasChanged;
+}
+
+template <class Real>
+Medium<Real> finerIn(
+  const Medium<Real>& medium, std::vector<Column::Part> parts, const Monitor& monitor)
+{
+  Medium<Real> finer{ PaddedVolume<Real>({ 1, 1, 1 }), {},
+    std::make_unique<MediumTree<Real>>(*medium.tree) };
+  finer.ambient = medium.ambient;
+  finer.tree->refineFurther(std::move(parts), monitor);
+  summarize(finer);
+  return finer;
 }
 
 namespace
@@ -79,6 +104,8 @@ template Medium<float> buildTree(const Field&, const TreeSettings&);
 template Medium<double> buildTree(const Field&, const TreeSettings&);
 template bool refine(Medium<float>&, const Column&, const Monitor&, Unneeded);
 template bool refine(Medium<double>&, const Column&, const Monitor&, Unneeded);
+template Medium<float> finerIn(const Medium<float>&, std::vector<Column::Part>, const Monitor&);
+template Medium<double> finerIn(const Medium<double>&, std::vector<Column::Part>, const Monitor&);
 template struct Medium<float>;
 template struct Medium<double>;
 

@@ -52,4 +52,9 @@ template <class Real>
 bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor,
   Unneeded ofOthers = Unneeded::Goes);
 
+/// A copy of it with finer voxels in parts of the image of the last view: see MediumTree::refineFurther().
+template <class Real>
+Medium<Real> finerIn(
+  const Medium<Real>& medium, std::vector<Column::Part> parts, const Monitor& monitor);
+
 } // namespace schlieren

@@ -34,6 +34,13 @@ struct Column
   static constexpr double widening = 1.1;
   double steepest = 0; ///< no slope of its light to the lines of sight is larger
 
+  /// A rectangle of image coordinates, data units.
+  struct Part
+  {
+    double low[2], high[2];
+  };
+  std::vector<Part> parts{}; ///< where it is refined; none: everywhere
+
   auto tie() const
   {
     return std::tie(u.x, u.y, u.z, v.x, v.y, v.z, middle[0], middle[1], halfWidth[0], halfWidth[1],

@@ -48,9 +48,10 @@ void MediumTree<Real>::findBricks(const View& view)
     for (std::int32_t child = 0; child < (task.divides ? childCount() : 1); ++child)
     {
       const NodePlace ofOne = task.divides ? childOf(place, child) : place;
-      if (!task.divides || view.sees(ofOne))
+      if (!task.divides || view.isInColumn(ofOne))
       {
-        requests.push_back({ ofOne, negligible, view.dividesAtWalls(ofOne), task.divides });
+        const bool dividesAtWalls = view.sees(ofOne) && view.dividesAtWalls(ofOne);
+        requests.push_back({ ofOne, negligible, dividesAtWalls, task.divides });
         work_.boxes.push_back(task.divides ? task.node : -1);
       }
     }
@@ -115,7 +116,7 @@ void MediumTree<Real>::keepBricks(const View& view)
     for (std::int32_t child = 0; child < childCount(); ++child)
     {
       addNode(childOf(place, child));
-      if (view.sees(nodes_.back().place))
+      if (view.isInColumn(nodes_.back().place))
       {
         keep(firstChild + child, *next++);
       }

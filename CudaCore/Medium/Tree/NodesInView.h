@@ -42,6 +42,12 @@ public:
 
   bool sees(const NodePlace& place) const
   {
+    return isInColumn(place) && (column_.parts.empty() || isInParts(place));
+  }
+
+  /// Whether it is to have samples where its siblings have some. Light may leave the parts that are looked at.
+  bool isInColumn(const NodePlace& place) const
+  {
     for (std::size_t axis = 0; axis < tree_.maker_.axes(); ++axis)
     {
       const double first =
@@ -51,8 +57,9 @@ public:
         return false;
       }
     }
-    const Box box = tree_.maker_.boxOf(place);
-    return sees(column_.u, 0, box) && sees(column_.v, 1, box);
+    constexpr double wider = Column::widening;
+    return sees(column_.middle, { wider * column_.halfWidth[0], wider * column_.halfWidth[1] },
+      tree_.maker_.boxOf(place));
   }
 
   /// Whether voxels of the next level are wanted along an axis, which are no smaller than so many pixels.
@@ -356,13 +363,29 @@ private:
     return range;
   }
 
-  bool sees(const Vec3<double>& direction, int side, const Box& box) const
+  bool isInParts(const NodePlace& place) const
   {
-    const double widest = Column::widening * column_.halfWidth[side];
+    const Box box = tree_.maker_.boxOf(place);
+    return std::any_of(column_.parts.begin(), column_.parts.end(),
+      [&](const Column::Part& part)
+      {
+        const auto& [low, high] = part;
+        return sees({ 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]) },
+          { 0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1]) }, box);
+      });
+  }
+
+  bool sees(const double (&middle)[2], const double (&widest)[2], const Box& box) const
+  {
+    return sees(column_.u, middle[0], widest[0], box) && sees(column_.v, middle[1], widest[1], box);
+  }
+
+  bool sees(const Vec3<double>& direction, double middle, double widest, const Box& box) const
+  {
     if (!(column_.pupil > 0))
     {
       const Range range = rangeOf(direction, box);
-      return !(std::abs(range.middle - column_.middle[side]) > widest + range.half);
+      return !(std::abs(range.middle - middle) > widest + range.half);
     }
     if (!std::isfinite(widest))
     {
@@ -374,7 +397,7 @@ private:
     for (const double sign : { -1., 1. })
     {
       const Range range = rangeOf(sign * direction + narrowing, box);
-      if (range.middle - range.half > sign * column_.middle[side] + limit)
+      if (range.middle - range.half > sign * middle + limit)
       {
         return false;
       }

@@ -24,16 +24,6 @@ constexpr std::size_t partsOfReserve = 16;
 /// Leaves whose steepest places rays are sent through.
 constexpr std::size_t steepestLeaves = 192;
 
-bool isSame(const Column& a, const Column& b)
-{
-  const auto isSameVector = [](const Vec3<double>& p, const Vec3<double>& q)
-  { return p.x == q.x && p.y == q.y && p.z == q.z; };
-  return isSameVector(a.u, b.u) && isSameVector(a.v, b.v) && a.finest == b.finest &&
-    a.pupil == b.pupil && a.plane == b.plane && a.steepest == b.steepest &&
-    std::equal(a.middle, a.middle + 2, b.middle) &&
-    std::equal(a.halfWidth, a.halfWidth + 2, b.halfWidth);
-}
-
 } // namespace
 
 template <class Real>
@@ -41,7 +31,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
 {
   unneeded_ = unneeded;
   lacksRoom_ = false;
-  const bool isAnother = !isSame(work_.column, column);
+  const bool isAnother = work_.column.tie() != column.tie();
   if (work_.isFinished || isAnother)
   {
     holdsOthers_ = holdsOthers_ || (hasRefined_ && isAnother);
@@ -87,6 +77,17 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
   }
   summarize(view);
   return hasChanged;
+}
+
+template <class Real>
+void MediumTree<Real>::refineFurther(std::vector<Column::Part> parts, const Monitor& monitor)
+{
+  settings_.tolerance /= furtherTolerance;
+  constexpr std::size_t leastMemory = std::size_t{ 1 } << 26;
+  settings_.memory += std::max(settings_.memory, leastMemory);
+  Column column = work_.column;
+  column.parts = std::move(parts);
+  refine(column, monitor, Unneeded::Stays);
 }
 
 /// Finds the largest deflection in the tree as it is and what rays gather, and leaves that are too coarse for it.
@@ -311,6 +312,8 @@ void MediumTree<Real>::chooseWhatFits(std::size_t available)
 }
 
 template bool MediumTree<float>::refine(const Column&, const Monitor&, Unneeded);
+template void MediumTree<float>::refineFurther(std::vector<Column::Part>, const Monitor&);
+template void MediumTree<double>::refineFurther(std::vector<Column::Part>, const Monitor&);
 template bool MediumTree<double>::refine(const Column&, const Monitor&, Unneeded);
 
 } // namespace schlieren

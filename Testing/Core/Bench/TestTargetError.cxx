@@ -224,6 +224,31 @@ TEST(TargetErrors, ThatCannotBeKeptAreSaid)
 }
 
 /// Single precision has an error of 0.02 fringes in 10^5.
+/// Where memory does not suffice for the voxels that are needed.
+TEST(TargetErrors, OfTooFewVoxelsAreSeen)
+{
+  std::vector<Ball> balls;
+  for (int n = 0; n < 16; ++n)
+  {
+    balls.push_back({ { 0.4 * (n % 4) - 0.6, 0.4 * (n / 4) - 0.6, 0.1 * (n % 3) }, 0.06, 1e-3 });
+  }
+  const Field field = fieldOf(std::make_shared<BallsSource>(balls, 1., 0.01));
+  Scene scene = sceneOf({ "KnifeEdge", Cutoff::KnifeEdge, 1. / 256 });
+  scene.targetError = 1. / 256;
+  scene.mediumMemory = std::size_t{ 1 } << 20;
+  const Image image = Bench().render(field, scene);
+  Scene enough = scene;
+  enough.mediumMemory = std::size_t{ 1 } << 30;
+  const Image truth = finest(field, enough, image.kScale);
+  const double error = trueError(image, truth, scene,
+    [&](std::size_t pixel) { return truth.opticalPathDifference[pixel] != 0; });
+  EXPECT_GT(error, scene.targetError);
+  EXPECT_FALSE(image.accuracy.isKept());
+  EXPECT_EQ(image.accuracy.limit, ErrorSource::Voxels);
+  EXPECT_GT(image.accuracy.reached, 0.5 * error);
+  EXPECT_LT(image.accuracy.reached, 3 * error);
+}
+
 TEST(TargetErrors, TakeDoublePrecisionForManyFringes)
 {
   const SampledField<double> field(cube(32, 1), ball);

@@ -97,7 +97,7 @@ TEST(Tracer, DividesAllRaysOfAViewBetweenProcesses)
   views.forAll(
     [](const Field& field, const Scene& scene)
     {
-      const Image alone = Bench().render(field, scene);
+      const Image byOne = Bench().render(field, scene);
       for (const int count : { 1, 2 })
       {
         SCOPED_TRACE(count);
@@ -106,10 +106,12 @@ TEST(Tracer, DividesAllRaysOfAViewBetweenProcesses)
         bench.setProcesses(&others);
         const std::int64_t before = tilesTracedOnCpu();
         const Image together = bench.render(field, scene);
-        expectSameImage(together, alone);
-        expectSameAccuracy(together, alone);
-        EXPECT_EQ(together.lightModel, alone.lightModel);
-        EXPECT_EQ(tilesTracedOnCpu() - before, others.tiles); // none by one of them alone
+        expectSameImage(together, byOne);
+        expectSameAccuracy(together, byOne);
+        EXPECT_EQ(together.lightModel, byOne.lightModel);
+        // None by one of them alone, but some pixels' through finer voxels, which the others need not have.
+        const std::int64_t alone = tilesTracedOnCpu() - before - others.tiles;
+        EXPECT_LE(alone, field.source ? others.tiles / 4 : 0);
         EXPECT_GT(others.tiles, 0);
       }
     });

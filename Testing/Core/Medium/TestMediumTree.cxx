@@ -93,6 +93,28 @@ TEST(MediumTree, DeflectionIsWithinTolerance)
   }
 }
 
+TEST(MediumTree, LooksAtPartsOfTheImageAgain)
+{
+  const std::vector<Ball> balls = threeBalls(1e-4);
+  const auto source = std::make_shared<BallsSource>(balls);
+  Tree tree(source, 0, settingsOf(1e-2));
+  tree.refine(everything());
+  Tree again = tree;
+  const auto& [u, v, depth] = balls[1].centre;
+  const double half = balls[1].width;
+  again.refineFurther({ { { u - half, v - half }, { u + half, v + half } } }, {});
+  const auto errorOf = [&](const Tree& of, const Ball& ball)
+  {
+    const Vec3<double> centre{ ball.centre[0], ball.centre[1], ball.centre[2] };
+    return worstError(of, *source, Interpolation::Quadratic, x, y, 0.9 * ball.width, centre);
+  };
+  EXPECT_LT(errorOf(again, balls[1]), errorOf(tree, balls[1]) / 3);
+  EXPECT_EQ(errorOf(again, balls[2]), errorOf(tree, balls[2])); // beside it nothing has changed
+  Tree all(source, 0, settingsOf(1e-2 / furtherTolerance));
+  all.refine(everything());
+  EXPECT_LT(again.statistics().voxels, all.statistics().voxels);
+}
+
 TEST(MediumTree, SpendsVoxelsWhereTheyAreNeeded)
 {
   const auto source = std::make_shared<BallsSource>(threeBalls(1e-4));
