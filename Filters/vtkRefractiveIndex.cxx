@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
-#include "Common/Guarded.h"
+#include "Guarded.h"
 #include "Input/InputDescription.h"
 #include "Input/RefractivityValues.h"
 #include "Ranks/ChoiceOverRanks.h"
