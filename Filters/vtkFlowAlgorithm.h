@@ -212,6 +212,30 @@ public:
   vtkSetClampMacro(MaskedSide, int, MASKED_AUTO, MASKED_BELOW);
   vtkGetMacro(MaskedSide, int);
 
+  /// Values of Symmetry.
+  enum Symmetries
+  {
+    SYMMETRY_NONE = 0,
+    SYMMETRY_AXISYMMETRIC = 1
+  };
+
+  /// What 2-D data are a section of. Default: None.
+  vtkSetClampMacro(Symmetry, int, SYMMETRY_NONE, SYMMETRY_AXISYMMETRIC);
+  vtkGetMacro(Symmetry, int);
+
+  /// Values of SymmetryAxis.
+  enum SymmetryAxes
+  {
+    AXIS_AUTO = 0,
+    AXIS_X = 1,
+    AXIS_Y = 2,
+    AXIS_Z = 3
+  };
+
+  /// The direction of the axis of symmetry. Default: Auto.
+  vtkSetClampMacro(SymmetryAxis, int, AXIS_AUTO, AXIS_Z);
+  vtkGetMacro(SymmetryAxis, int);
+
   /// A point of the axis of symmetry. Default: 0 0 0.
   vtkSetVector3Macro(SymmetryOrigin, double);
   vtkGetVector3Macro(SymmetryOrigin, double);
@@ -263,38 +287,6 @@ public:
   /// the cells, or, for a plane, the length of its shorter side. Ignored with Symmetry.
   vtkSetClampMacro(Depth, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(Depth, double);
-  ///@}
-
-  /// Three-dimensional flows that 2-D data are a section of.
-  enum Symmetries
-  {
-    NO_SYMMETRY = 0,
-    AXISYMMETRIC = 1
-  };
-  /// What SetSymmetryAxis() takes.
-  enum SymmetryAxes
-  {
-    AUTO_AXIS = 0,
-    X_AXIS = 1,
-    Y_AXIS = 2,
-    Z_AXIS = 3
-  };
-
-  ///@{
-  /// Symmetry of data in one plane, or in a wedge of one cell between two planes through an axis.
-  /// NO_SYMMETRY (the default): the flow does not depend on the third coordinate. AXISYMMETRIC: a
-  /// body of revolution, of which no mesh is made; of data on both sides of the axis, the positive
-  /// side is used. Other data are an error.
-  vtkSetClampMacro(Symmetry, int, NO_SYMMETRY, AXISYMMETRIC);
-  vtkGetMacro(Symmetry, int);
-  ///@}
-
-  ///@{
-  /// Direction of the symmetry axis, one of SymmetryAxes. AUTO_AXIS (the default): that of a wedge;
-  /// for a plane, the one of its two coordinate axes with the data on one side, touching it, and
-  /// smooth across it.
-  vtkSetClampMacro(SymmetryAxis, int, AUTO_AXIS, Z_AXIS);
-  vtkGetMacro(SymmetryAxis, int);
   ///@}
 
   /// Counts the meshes prepared. Where the mesh is the same, as for other time steps and fields,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractiveIndex.h"
 
-#include "Common/Guarded.h"
+#include "Guarded.h"
 #include "Input/InputDescription.h"
 #include "Input/RefractivityValues.h"
 #include "Ranks/ChoiceOverRanks.h"
@@ -108,9 +108,9 @@ int vtkRefractiveIndex::RequestDataObject(
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]); // null after an error upstream
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  const char* type = this->Symmetry == AXISYMMETRIC ? "vtkImageData"
-    : input                                         ? input->GetClassName()
-                                                    : "vtkUnstructuredGrid";
+  const char* type = this->Symmetry == SYMMETRY_AXISYMMETRIC ? "vtkImageData"
+    : input                                                  ? input->GetClassName()
+                                                             : "vtkUnstructuredGrid";
   if (!output || std::strcmp(output->GetClassName(), type) != 0)
   {
     outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(),
@@ -122,7 +122,7 @@ int vtkRefractiveIndex::RequestDataObject(
 int vtkRefractiveIndex::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  if (this->Symmetry == AXISYMMETRIC)
+  if (this->Symmetry == SYMMETRY_AXISYMMETRIC)
   {
     if (this->Grid->GetNumberOfPoints() == 0)
     {
@@ -136,7 +136,7 @@ int vtkRefractiveIndex::RequestInformation(
 int vtkRefractiveIndex::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  if (this->Symmetry == AXISYMMETRIC)
+  if (this->Symmetry == SYMMETRY_AXISYMMETRIC)
   {
     requestPieces(this, inputVector);
   }
@@ -154,7 +154,7 @@ int vtkRefractiveIndex::RequestData(
   {
     const Ranks ranks;
     shareArrays(ranks, this->GetMaker(), input);
-    if (this->Symmetry != AXISYMMETRIC)
+    if (this->Symmetry != SYMMETRY_AXISYMMETRIC)
     {
       this->Append(input, output);
       return;
@@ -169,7 +169,8 @@ int vtkRefractiveIndex::RequestData(
     input && input->GetInformation()->Has(vtkDataObject::DATA_TIME_STEP())
       ? input->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP())
       : 0 };
-  bool isPiece = this->Symmetry != AXISYMMETRIC; // or the whole, and nothing after an error
+  bool isPiece =
+    this->Symmetry != SYMMETRY_AXISYMMETRIC; // or the whole, and nothing after an error
   const auto fail = [&](const std::string& problem)
   {
     isPiece = false;

@@ -3,14 +3,13 @@
 #include "vtkSchlierenFilter.h"
 
 #include "Common/AtTheEnd.h"
-#include "Common/Guarded.h"
 #include "Common/Threads.h"
 #include "Filter/SchlierenFilterInternals.h"
+#include "Guarded.h"
 #include "Image/Preview.h"
 #include "Image/SceneFromSettings.h"
 #include "Input/Flow.h"
 #include "Input/InputDescription.h"
-#include "Settings/QualityPresets.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"

@@ -110,7 +110,8 @@ public:
     HISTOGRAM_PORT = 1
   };
 
-  /// What SetQuality() takes; CUSTOM is what GetQuality() returns for settings of no preset.
+  // values: Quality
+  /// Values of Quality.
   enum Qualities
   {
     INTERACTIVE = 0,
@@ -120,6 +121,8 @@ public:
     AUTOMATIC = 4,
     CUSTOM = 5
   };
+
+  // end
 
   ///@{
   /// Returns the image, or the output of another port.

@@ -11,6 +11,7 @@ Sheet draws them, and all sheets of the demo.
 import json
 import math
 import os
+from contextlib import contextmanager
 
 import numpy as np
 from matplotlib import rc_context
@@ -19,10 +20,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 from paraview import servermanager, simple
 from PIL import Image
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGWriter, vtkTIFFWriter
 
 ENDINGS = (".png", ".pdf", ".svg")
 
@@ -34,8 +33,13 @@ class FigureError(RuntimeError):
     """Something the user can put right. The text says what, why and how."""
 
 
-# ---------------------------------------------------------------------------------------------
-# Numbers in words
+@contextmanager
+def writing(path):
+    """Says which file cannot be written."""
+    try:
+        yield
+    except OSError as problem:
+        raise FigureError(f"Could not write '{path}': {problem.strerror}.") from problem
 
 
 def prefix_of(value):
@@ -52,10 +56,6 @@ def axis_name(axis, otherwise):
         if abs(part) > 1 - 1e-9:
             return letter if part > 0 else "-" + letter
     return otherwise
-
-
-# ---------------------------------------------------------------------------------------------
-# What an image holds
 
 
 def facts_of(image):
@@ -104,10 +104,6 @@ class Axes:
         left, bottom = (image.GetOrigin()[i] - pixel / 2 for i in (0, 1))
         return cls(left, bottom, pixel, image.GetDimensions()[:2],
                    (axis_name(facts["AxisRight"], "u"), axis_name(facts["AxisUp"], "v")), facts["LengthScale"][0])
-
-
-# ---------------------------------------------------------------------------------------------
-# Drawing
 
 
 class Sheet:
@@ -224,18 +220,12 @@ class Sheet:
 
     def write(self, path):
         """Writes the page as its file's name says: .png, .pdf or .svg."""
-        try:
+        with writing(path):
             if path.lower().endswith(".png"):
                 Image.fromarray(self.drawn()).save(path, dpi=(100 * self.zoom, 100 * self.zoom))
             else:
                 with rc_context({"svg.fonttype": "none", "pdf.fonttype": 42}):  # texts stay texts
                     self.figure.savefig(path)
-        except OSError as problem:
-            raise FigureError(f"Could not write '{path}': {problem.strerror}.") from problem
-
-
-# ---------------------------------------------------------------------------------------------
-# A figure of one image
 
 
 def filter_like(display, view, size=None):
@@ -308,15 +298,10 @@ def write_numbers(paths, image):
     """The intensities in 16 bits as a PNG and a TIFF; 0 is black, the field data's WhiteLevel is 65535."""
     white = facts_of(image)["WhiteLevel"][0]
     numbers = np.clip(np.nan_to_num(rows_of(image, "Intensity")) / white, 0, 1)
-    made = vtkImageData()
-    made.SetDimensions(numbers.shape[1], numbers.shape[0], 1)
-    made.GetPointData().SetScalars(numpy_to_vtk(np.rint(65535 * numbers).astype(np.uint16).ravel(), deep=True))
-    for writer, path in zip((vtkPNGWriter(), vtkTIFFWriter()), paths):
-        writer.SetFileName(path)
-        writer.SetInputData(made)
-        writer.Write()
-        if writer.GetErrorCode() or not os.path.isfile(path):
-            raise FigureError(f"Could not write '{path}'.")
+    pixels = np.rint(65535 * numbers[::-1]).astype(np.uint16)
+    for path in paths:
+        with writing(path):
+            Image.fromarray(pixels).save(path)
 
 
 def plain(value):
@@ -372,7 +357,7 @@ def write_description(path, image, bench, title, files):
         "sources": sources_of(bench),
         "properties": properties_of(bench),
     }
-    with open(path, "w", encoding="utf-8") as file:
+    with writing(path), open(path, "w", encoding="utf-8") as file:
         json.dump(description, file, indent=2, ensure_ascii=False)
 
 

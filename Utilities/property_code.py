@@ -146,7 +146,7 @@ def header(text, properties, bases=""):
         for item in properties.values():
             is_named = item.name in names or item.group in names
             is_rest = "rest" in names and item.name not in named and item.group not in named
-            if not type_of(item) or not (is_named or is_rest):
+            if not (is_named or is_rest) or not (type_of(item) or what == "values"):
                 continue
             if what == "values":
                 blocks.append(enumeration(item)[0][:-1])

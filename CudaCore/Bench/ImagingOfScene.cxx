@@ -117,9 +117,16 @@ Imaging imagingOf(
       return { plateMask(scene, wavelength), pointsOf(scene) };
     case Cutoff::Interferogram:
       return { {}, pointsOf(scene), carrierOf(scene, wavelength, pixelSize) };
-    default: // each technique whose light depends on the deflection alone
-      return { maskOf(scene, k), pointsOf(scene) };
+    case Cutoff::Shadowgraph:
+    case Cutoff::Circular:
+    case Cutoff::CircularComplement:
+    case Cutoff::GradedFilter:
+    case Cutoff::ColorFilter:
+    case Cutoff::Background:
+    case Cutoff::NumericalSchlieren:
+      break; // light depends on the deflection alone
   }
+  return { maskOf(scene, k), pointsOf(scene) };
 }
 
 std::string noteOnRays(Cutoff cutoff, double width)
@@ -142,8 +149,12 @@ std::string noteOnRays(Cutoff cutoff, double width)
     case Cutoff::PhaseContrast:
       note << "rays do not show phases";
       break;
-    default: // rays are right where paths and places alone count
-      break;
+    case Cutoff::Shadowgraph:
+    case Cutoff::ColorFilter:
+    case Cutoff::Interferogram:
+    case Cutoff::Background:
+    case Cutoff::NumericalSchlieren:
+      break; // rays are right where paths and places alone count
   }
   return note.str();
 }

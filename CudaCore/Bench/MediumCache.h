@@ -6,7 +6,6 @@
 
 #include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
-#include "Medium/Tree/BrickRays.h"
 #include "Rays/Cuda/CudaTracer.h"
 #include "Rays/Ranks/ProcessTracer.h"
 #include "Schlieren.h"

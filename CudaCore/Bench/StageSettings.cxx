@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/StageSettings.h"
 
-#include "Medium/Samples/Interpolation.h"
 #include "Rays/RayStarts.h"
 
 #include <algorithm>

@@ -4,10 +4,9 @@
 // of them, or as points.
 #pragma once
 
+#include "Film/Corners.h"
 #include "Film/Coverage.h"
-#include "Film/Shading.h"
 #include "Film/Splat.h"
-#include "Math/HostDevice.h"
 
 #include <cmath>
 #include <cstdint>
@@ -15,30 +14,13 @@
 namespace schlieren
 {
 
-/// A place on the film, pixels.
-struct FilmPoint
-{
-  double x, y;
-};
-
-/// What light is deposited in, in fixed point. `one`: the value of a full ray.
-struct FilmSize
-{
-  std::int64_t columns, rows;
-  double one;
-
-  SCHLIEREN_HD std::int64_t fixed(double light) const
-  {
-    return static_cast<std::int64_t>(light * one + 0.5);
-  }
-};
-
 /// The light between four rays. Deposit and rowsAtOnce: see Sheet.
 template <int planes, class Deposit, int rowsAtOnce>
 class CellLight
 {
 public:
   using Point = FilmPoint;
+  using Box = FilmBox;
 
   /// Counterclockwise from the lower left.
   struct Cell
@@ -53,18 +35,10 @@ public:
     /// Makes the second corner the first one.
     SCHLIEREN_HD void turn()
     {
-      const Point first = at[0];
-      at[0] = at[1];
-      at[1] = at[2];
-      at[2] = at[3];
-      at[3] = first;
+      turnCorners(at);
       for (double(&corners)[4] : light)
       {
-        const double last = corners[0];
-        corners[0] = corners[1];
-        corners[1] = corners[2];
-        corners[2] = corners[3];
-        corners[3] = last;
+        turnCorners(corners);
       }
     }
   };
@@ -81,8 +55,7 @@ public:
   {
     constexpr double maxPixels = 4096; // looked at one by one, for one cell
     constexpr double maxSize = 1e9;
-    Rest rest;
-    rest.column = rest.row = -1;
+    Rest rest{ {}, -1, -1 };
     for (int plane = 0; plane < planes; ++plane)
     {
       rest.light[plane] = film_.fixed(cell.mean(plane));
@@ -96,8 +69,8 @@ public:
     const Box box = Box::around(cell.at);
     if (size < 1e300 && isNear(box))
     {
-      const double columns = floor(smaller(box.right, columns_)) - floor(larger(box.left, 0)) + 1;
-      const double rows = floor(smaller(box.high, rows_)) - floor(larger(box.low, 0)) + 1;
+      const double columns = floor(minimum(box.right, columns_)) - floor(maximum(box.left, 0.)) + 1;
+      const double rows = floor(minimum(box.high, rows_)) - floor(maximum(box.low, 0.)) + 1;
       if (columns * rows == 1 && isInside(box))
       {
         rest.column = static_cast<std::int64_t>(box.left);
@@ -110,39 +83,24 @@ public:
     }
     for (int plane = 0; plane < planes; ++plane)
     {
-      if (rest.column >= 0)
-      {
-        deposit_.pixel(plane, rest.column, rest.row, rest.light[plane]);
-      }
-      else
-      {
-        deposit_.outside(plane, rest.light[plane]);
-      }
+      give(plane, rest.light[plane], rest.column >= 0, rest);
     }
   }
 
 private:
-  struct Box
-  {
-    double left, right, low, high;
-
-    SCHLIEREN_HD static Box around(const Point (&at)[4])
-    {
-      Box box = { at[0].x, at[0].x, at[0].y, at[0].y };
-      for (int i = 1; i < 4; ++i)
-      {
-        box = { smaller(box.left, at[i].x), larger(box.right, at[i].x), smaller(box.low, at[i].y),
-          larger(box.high, at[i].y) };
-      }
-      return box;
-    }
-  };
-
   /// Light in a polygon: of each plane mean + perX (x - centre.x) + perY (y - centre.y).
   struct Light
   {
     Point centre;
     double mean[planes], perX[planes], perY[planes];
+  };
+
+  /// Clockwise (its area is negative then) or counterclockwise.
+  struct Polygon
+  {
+    Point at[4]; ///< of a triangle, the last two are one
+    double area;
+    double fraction; ///< of the cell's rays that it holds
   };
 
   /// What is still to be given away of a cell's light, and where rounding's residue goes.
@@ -152,39 +110,18 @@ private:
     std::int64_t column, row; ///< a pixel that got light; column < 0: none
   };
 
-  SCHLIEREN_HD static double smaller(double a, double b) { return a < b ? a : b; }
-  SCHLIEREN_HD static double larger(double a, double b) { return a > b ? a : b; }
-
-  /// Calls use(a corner, the next one, that after it). No corner is chosen by a number, so that they may be in
-  /// registers.
-  template <class Use>
-  SCHLIEREN_HD static void forEachCorner(const Point (&at)[4], const Use& use)
+  /// To the pixel that got light last, or outside of the film.
+  SCHLIEREN_HD void give(int plane, std::int64_t light, bool isOnFilm, Rest& rest)
   {
-    Point a = at[0], b = at[1], c = at[2], d = at[3];
-    for (int i = 0; i < 4; ++i)
+    if (isOnFilm)
     {
-      use(a, b, c);
-      const Point last = a;
-      a = b;
-      b = c;
-      c = d;
-      d = last;
+      deposit_.pixel(plane, rest.column, rest.row, light);
     }
-  }
-
-  /// Twice the area of a triangle, negative where its corners go round clockwise.
-  SCHLIEREN_HD static double cross(const Point& a, const Point& b, const Point& c)
-  {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  }
-
-  /// Whether parts of an area stand out from rounding.
-  SCHLIEREN_HD static bool isWide(double area, const Point (&at)[4])
-  {
-    constexpr double least = 1e-9; // of the square of the extent
-    const Box box = Box::around(at);
-    const double extent = larger(box.right - box.left, box.high - box.low);
-    return fabs(area) > least * extent * extent;
+    else
+    {
+      deposit_.outside(plane, light);
+    }
+    rest.light[plane] -= light;
   }
 
   SCHLIEREN_HD bool isNear(const Box& box) const
@@ -312,14 +249,6 @@ private:
     }
   }
 
-  /// Clockwise (its area is negative then) or counterclockwise.
-  struct Polygon
-  {
-    Point at[4]; ///< of a triangle, the last two are one
-    double area;
-    double fraction; ///< of the cell's rays that it holds
-  };
-
   /// Spreads light evenly over a polygon.
   SCHLIEREN_HD void addPolygon(
     const Point (&at)[4], double area, double fraction, const Light& light, Rest& rest)
@@ -328,20 +257,20 @@ private:
     const Box box = Box::around(polygon.at);
     if (!isInside(box))
     {
-      const double low = larger(box.low, 0), high = smaller(box.high, rows_);
-      addOutside(polygon, light, { box.left, box.right, box.low, smaller(box.high, 0) }, rest);
-      addOutside(polygon, light, { box.left, box.right, larger(box.low, rows_), box.high }, rest);
-      addOutside(polygon, light, { box.left, smaller(box.right, 0), low, high }, rest);
-      addOutside(polygon, light, { larger(box.left, columns_), box.right, low, high }, rest);
+      const double low = maximum(box.low, 0.), high = minimum(box.high, rows_);
+      addOutside(polygon, light, { box.left, box.right, box.low, minimum(box.high, 0.) }, rest);
+      addOutside(polygon, light, { box.left, box.right, maximum(box.low, rows_), box.high }, rest);
+      addOutside(polygon, light, { box.left, minimum(box.right, 0.), low, high }, rest);
+      addOutside(polygon, light, { maximum(box.left, columns_), box.right, low, high }, rest);
     }
     if (!isNear(box))
     {
       return;
     }
-    const auto firstColumn = static_cast<std::int64_t>(larger(box.left, 0));
-    const auto firstRow = static_cast<std::int64_t>(larger(box.low, 0));
-    const auto lastColumn = static_cast<std::int64_t>(smaller(box.right, columns_ - 1));
-    const auto lastRow = static_cast<std::int64_t>(smaller(box.high, rows_ - 1));
+    const auto firstColumn = static_cast<std::int64_t>(maximum(box.left, 0.));
+    const auto firstRow = static_cast<std::int64_t>(maximum(box.low, 0.));
+    const auto lastColumn = static_cast<std::int64_t>(minimum(box.right, columns_ - 1));
+    const auto lastRow = static_cast<std::int64_t>(minimum(box.high, rows_ - 1));
     constexpr int size = coverageTileSize;
     for (std::int64_t row = firstRow; row <= lastRow; row += size)
     {
@@ -352,8 +281,8 @@ private:
         const int rows = lastRow - row < size ? static_cast<int>(lastRow - row) + 1 : size;
         for (int first = 0; first < rows; first += rowsAtOnce)
         {
-          addRows(columns, first, first + rowsAtOnce < rows ? first + rowsAtOnce : rows, column,
-            row, polygon, light, rest);
+          addRows(
+            columns, first, minimum(first + rowsAtOnce, rows), column, row, polygon, light, rest);
         }
       }
     }
@@ -381,9 +310,7 @@ private:
         rest.row = row + j;
         for (int plane = 0; plane < planes; ++plane)
         {
-          const std::int64_t here = lightOf(covered, origin, polygon, light, plane);
-          deposit_.pixel(plane, rest.column, rest.row, here);
-          rest.light[plane] -= here;
+          give(plane, lightOf(covered, origin, polygon, light, plane), true, rest);
         }
       }
     }
@@ -422,9 +349,7 @@ private:
     const Moments covered = { inBox.area * size, inBox.x * size * width, inBox.y * size * height };
     for (int plane = 0; plane < planes; ++plane)
     {
-      const std::int64_t here = lightOf(covered, { box.left, box.low }, polygon, light, plane);
-      deposit_.outside(plane, here);
-      rest.light[plane] -= here;
+      give(plane, lightOf(covered, { box.left, box.low }, polygon, light, plane), false, rest);
     }
   }
 
@@ -453,15 +378,7 @@ private:
           const double(&light)[4] = cell.light[plane];
           const std::int64_t here =
             film_.fixed(between(light[0], light[1], light[2], light[3]) * each * fraction);
-          if (isOnIt)
-          {
-            deposit_.pixel(plane, rest.column, rest.row, here);
-          }
-          else
-          {
-            deposit_.outside(plane, here);
-          }
-          rest.light[plane] -= here;
+          give(plane, here, isOnIt, rest);
         }
       }
     }

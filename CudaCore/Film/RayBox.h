@@ -4,23 +4,15 @@
 #pragma once
 
 #include "Film/CellLight.h"
+#include "Film/NeighbourRays.h"
 #include "Film/Splat.h"
 #include "Math/HostDevice.h"
-#include "Optics/Color.h"
 
 #include <cmath>
 #include <cstdint>
 
 namespace schlieren
 {
-
-/// Whether there is light between two rays. Where one crosses the medium and the other does not, what there is
-/// of either ends at the medium's side.
-template <int planes>
-SCHLIEREN_HD bool areTogether(const FilmRay<planes>& a, const FilmRay<planes>& b)
-{
-  return a.arrives && b.arrives && a.crossed == b.crossed;
-}
 
 /// Deposit and rowsAtOnce: see Sheet. Rays have light, not a phase.
 template <int planes, class Deposit, int rowsAtOnce>
@@ -45,8 +37,8 @@ public:
     {
       return;
     }
-    const Change along = Change::of(left, here, right, 1, 0),
-                 up = Change::of(below, here, above, 0, 1);
+    const Change along = Change::of(left, here, right, 1, 0);
+    const Change up = Change::of(below, here, above, 0, 1);
     std::int64_t light[planes];
     for (int plane = 0; plane < planes; ++plane)
     {
@@ -118,9 +110,8 @@ private:
         {} };
       for (int plane = 0; plane < planes; ++plane)
       {
-        change.second[plane] = hasBefore && hasAfter
-          ? (before.light[plane] - here.light[plane]) + (after.light[plane] - here.light[plane])
-          : 0;
+        change.second[plane] =
+          hasBefore && hasAfter ? secondDifference(before, here, after, plane) : 0;
       }
       return change;
     }

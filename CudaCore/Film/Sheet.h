@@ -6,60 +6,14 @@
 #pragma once
 
 #include "Film/CellLight.h"
-#include "Film/Coverage.h"
+#include "Film/NeighbourRays.h"
 #include "Film/RayBox.h"
-#include "Math/HostDevice.h"
 #include "Optics/Interferogram.h"
 
-#include <cmath>
 #include <cstdint>
 
 namespace schlieren
 {
-
-/// A ray among its neighbours of the same pass. Its light is such that linear interpolation between rays, which
-/// would flatten what is curved, has the right mean: less a twelfth of the second difference each way.
-template <int planes>
-struct SheetRay : FilmRay<planes>
-{
-  double bend = 0; ///< pixels: the largest second difference of where rays land
-};
-
-/// Neighbours that do not arrive, are none, or on the other side of the medium's edge count for nothing. `isOfPhase`: see Sheet.
-template <bool isOfPhase = false, int planes>
-SCHLIEREN_HD SheetRay<planes> sheetRay(const FilmRay<planes>& here, const FilmRay<planes>& left,
-  const FilmRay<planes>& right, const FilmRay<planes>& below, const FilmRay<planes>& above)
-{
-  SheetRay<planes> ray;
-  static_cast<FilmRay<planes>&>(ray) = here;
-  const auto look = [&here, &ray](const FilmRay<planes>& before, const FilmRay<planes>& after)
-  {
-    if (!areTogether(here, before) || !areTogether(here, after))
-    {
-      return;
-    }
-    const double x = fabs((before.x - here.x) + (after.x - here.x));
-    const double y = fabs((before.y - here.y) + (after.y - here.y));
-    ray.bend = ray.bend > x ? ray.bend : x;
-    ray.bend = ray.bend > y ? ray.bend : y;
-    for (int plane = 0; plane < planes; ++plane)
-    {
-      ray.light[plane] -=
-        ((before.light[plane] - here.light[plane]) + (after.light[plane] - here.light[plane])) *
-        (1. / 12);
-    }
-  };
-  if (here.arrives)
-  {
-    look(left, right);
-    look(below, above);
-    for (double& light : ray.light)
-    {
-      light = isOfPhase ? light : limited(light);
-    }
-  }
-  return ray;
-}
 
 /// Spreads the light between rays over a film's pixels. A `Deposit` takes it plane by plane:
 ///   emitted(plane, light)                 before it is divided;
@@ -125,11 +79,8 @@ public:
     if (halves.areThere)
     {
       const bool isRight = part % 2 == 1, isUpper = part / 2 == 1;
-      const Ray left = between(lowerLeft, upperLeft, halves.left);
-      const Ray right = between(lowerRight, upperRight, halves.right);
-      const Ray below = between(lowerLeft, lowerRight, halves.below);
-      const Ray above = between(upperLeft, upperRight, halves.above);
-      const Ray middle = between(left, right, halves.middle);
+      const auto [left, right, below, above, middle] =
+        raysBetween(lowerLeft, lowerRight, upperLeft, upperRight, halves);
       corners[0] =
         either(isUpper, either(isRight, middle, left), either(isRight, below, lowerLeft));
       corners[1] =
@@ -165,8 +116,6 @@ private:
     bool areThere;
     Point left, right, below, above, middle;
   };
-
-  SCHLIEREN_HD static double larger(double a, double b) { return a > b ? a : b; }
 
   /// A cell of which one ray lands in each of 2 x 2 pixels, as those of undisturbed light do: their common
   /// corner is inside of it and cuts it into four quadrilaterals. False if it is another.
@@ -251,7 +200,7 @@ private:
     constexpr double tangled =
       8; ///< where rays are too far from each other to know what is between
     const double bend =
-      larger(larger(lowerLeft.bend, lowerRight.bend), larger(upperLeft.bend, upperRight.bend));
+      maximum(maximum(lowerLeft.bend, lowerRight.bend), maximum(upperLeft.bend, upperRight.bend));
     return bend > straight && bend < tangled;
   }
 
@@ -306,11 +255,8 @@ private:
   SCHLIEREN_NOINLINE void addQuarters(const Ray& lowerLeft, const Ray& lowerRight,
     const Ray& upperLeft, const Ray& upperRight, const Halves& halves)
   {
-    const Ray left = between(lowerLeft, upperLeft, halves.left);
-    const Ray right = between(lowerRight, upperRight, halves.right);
-    const Ray below = between(lowerLeft, lowerRight, halves.below);
-    const Ray above = between(upperLeft, upperRight, halves.above);
-    const Ray middle = between(left, right, halves.middle);
+    const auto [left, right, below, above, middle] =
+      raysBetween(lowerLeft, lowerRight, upperLeft, upperRight, halves);
     const Ray rays[3][3] = { { lowerLeft, below, lowerRight }, { left, middle, right },
       { upperLeft, above, upperRight } };
     Sheet quarter({ film_.columns, film_.rows, 0.25 * film_.one }, deposit_);
@@ -342,6 +288,18 @@ private:
       (9 * (a.y + b.y) - (before.y + after.y)) / 16 };
   }
 
+  struct RaysBetween
+  {
+    Ray left, right, below, above, middle;
+  };
+  SCHLIEREN_HD static RaysBetween raysBetween(const Ray& lowerLeft, const Ray& lowerRight,
+    const Ray& upperLeft, const Ray& upperRight, const Halves& halves)
+  {
+    const Ray left = between(lowerLeft, upperLeft, halves.left);
+    const Ray right = between(lowerRight, upperRight, halves.right);
+    return { left, right, between(lowerLeft, lowerRight, halves.below),
+      between(upperLeft, upperRight, halves.above), between(left, right, halves.middle) };
+  }
   SCHLIEREN_HD static Ray between(const Ray& a, const Ray& b, const Point& at)
   {
     Ray ray;

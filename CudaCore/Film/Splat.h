@@ -11,6 +11,18 @@
 namespace schlieren
 {
 
+/// What light is deposited in, in fixed point. `one`: the value of a full ray.
+struct FilmSize
+{
+  std::int64_t columns, rows;
+  double one;
+
+  SCHLIEREN_HD std::int64_t fixed(double light) const
+  {
+    return static_cast<std::int64_t>(light * one + 0.5);
+  }
+};
+
 /// The four pixels around a point of the film, and where among them it lies. Pixel centres have whole
 /// coordinates.
 struct Footprint

@@ -67,6 +67,28 @@ SCHLIEREN_HD Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b)
   return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
 
+/// The numbers of packs, lane by lane.
+template <class Real>
+SCHLIEREN_HD Vec3<Real> packsOf(const NumberOf<Real> (&from)[3][lanesOf<Real>])
+{
+  return { fromArray<Real>(from[0]), fromArray<Real>(from[1]), fromArray<Real>(from[2]) };
+}
+
+template <class Real>
+SCHLIEREN_HD void toArrays(const Vec3<Real>& from, NumberOf<Real> (&to)[3][lanesOf<Real>])
+{
+  toArray(from.x, to[0]);
+  toArray(from.y, to[1]);
+  toArray(from.z, to[2]);
+}
+
+/// `a` where `which`, elsewhere `b`.
+template <class Mask, class Real>
+SCHLIEREN_HD Vec3<Real> either(const Mask& which, const Vec3<Real>& a, const Vec3<Real>& b)
+{
+  return { which ? a.x : b.x, which ? a.y : b.y, which ? a.z : b.z };
+}
+
 /// Into the box [low, high]; NaN becomes `low`.
 template <class Real, class Number>
 SCHLIEREN_HD Vec3<Real> clampTo(

@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr int side = 256;        // pixels of the wheel, minimum of painted images
-constexpr int largestSide = 512; // pixels, maximum of painted images
+constexpr int paintedSide = 512; // pixels, maximum of painted images
 constexpr double colorWithoutLight = 0.35;
 constexpr int grey = 128;
 
@@ -85,6 +85,18 @@ QString encoded(const QImage& image)
   return "data:image/png;base64," + QString::fromLatin1(png.data().toBase64());
 }
 
+QImage opaque(const QImage& read)
+{
+  QImage image(read.size(), QImage::Format_RGB888);
+  image.fill(Qt::white);
+  QPainter(&image).drawImage(0, 0, read);
+  if (std::max(image.width(), image.height()) > largestSide)
+  {
+    image = image.scaled(largestSide, largestSide, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+  }
+  return image;
+}
+
 QImage paintable(const QImage& image)
 {
   if (image.isNull())
@@ -92,7 +104,7 @@ QImage paintable(const QImage& image)
     return wheel();
   }
   const QSize size =
-    image.size().expandedTo({ side, side }).boundedTo({ largestSide, largestSide });
+    image.size().expandedTo({ side, side }).boundedTo({ paintedSide, paintedSide });
   return image.convertToFormat(QImage::Format_RGB32)
     .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
 }

@@ -28,6 +28,10 @@ QImage decoded(const QString& text);
 /// Encodes an image as PNG with its texts.
 QString encoded(const QImage& image);
 
+/// Blends with white, which lets all light pass, and limits the size, for the sake of state files.
+constexpr int largestSide = 2048; // pixels
+QImage opaque(const QImage& read);
+
 /// Resizes an image: large enough to paint on, small enough to send while painting.
 QImage paintable(const QImage& image);
 

@@ -91,8 +91,9 @@ double pqCutoff::transmission(const QPointF& deflection) const
       light[0] = this->Inverted ? 1 - fraction : fraction;
       break;
     }
-    default: // what has no light by the deflection alone lets all pass
-      break;
+    case NoCutoff:
+    case ColorFilter:
+      break; // lets all pass
   }
   return light[0];
 }

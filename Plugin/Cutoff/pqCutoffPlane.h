@@ -21,7 +21,7 @@ struct pqCutoff
     NumericalSchlieren = 8
   };
 
-  int Kind = NoCutoff;
+  Kinds Kind = NoCutoff;
   bool HasEdge = false; ///< straight; else a circle or a square
   double K = 0;
   double Angle = 0;            ///< degrees

@@ -56,7 +56,7 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
   {
     return cutoff;
   }
-  cutoff.Kind = kind;
+  cutoff.Kind = static_cast<pqCutoff::Kinds>(kind);
   cutoff.HasEdge = Filter::CutoffHasEdge(kind);
   cutoff.Angle = valueOf(proxy, "KnifeEdgeAngle");
   cutoff.Inverted = valueOf(proxy, "InvertCutoff") != 0;

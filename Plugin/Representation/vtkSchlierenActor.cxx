@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenActor.h"
 
+#include "Guarded.h"
 #include "SceneBehind.h"
 #include "vtkSchlierenFilter.h"
 #include "vtkSchlierenLegend.h"
-
-#include "Private/Common/Guarded.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSchlierenRepresentation.h"
 
+#include "Guarded.h"
 #include "vtkSchlierenActor.h"
 #include "vtkSchlierenFilter.h"
 #include "vtkSchlierenLegend.h"
-
-#include "Private/Common/Guarded.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"

@@ -9,6 +9,7 @@
 
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
+#include "vtkPVXMLElement.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkSMArrayListDomain.h"
 #include "vtkSMPropertyGroup.h"
@@ -46,6 +47,13 @@ enum Column
 /// Returns the filter's default colour.
 QColor colorOf(int row) { return QColor::fromHsvF(std::fmod(row * 0.61803398875, 1), 1, 1); }
 
+void setColor(QVariantList& colors, int row, const QColor& color)
+{
+  colors[3 * row] = color.redF();
+  colors[3 * row + 1] = color.greenF();
+  colors[3 * row + 2] = color.blueF();
+}
+
 void complete(QVariantList& list, int count)
 {
   list = list.mid(0, count);
@@ -82,45 +90,6 @@ QLineEdit* newLimitEdit(const QString& text)
   return edit;
 }
 
-/// Returns whether the panel shows the index model Transfer Functions.
-bool usesFunctions(vtkSMProxy* proxy)
-{
-  constexpr int transferFunctions = 5;
-  return vtkSMUncheckedPropertyHelper(proxy, "IndexModel").GetAsInt() == transferFunctions;
-}
-
-/// Shows the widget where fields are used. The filter Refractive Index has no ColorByField.
-class Decorator : public pqPropertyWidgetDecorator
-{
-public:
-  explicit Decorator(pqPropertyWidget* widget)
-    : pqPropertyWidgetDecorator(nullptr, widget)
-  {
-    for (const char* name : { "IndexModel", "ColorByField" })
-    {
-      if (vtkSMProperty* property = widget->proxy()->GetProperty(name))
-      {
-        for (const unsigned long event :
-          { vtkCommand::ModifiedEvent, vtkCommand::UncheckedPropertyModifiedEvent })
-        {
-          this->Connection->Connect(property, event, this, SIGNAL(visibilityChanged()));
-        }
-      }
-    }
-  }
-
-  bool canShowWidget(bool) const override
-  {
-    vtkSMProxy* proxy = this->parentWidget()->proxy();
-    return usesFunctions(proxy) ||
-      (proxy->GetProperty("ColorByField") &&
-        vtkSMUncheckedPropertyHelper(proxy, "ColorByField").GetAsInt() != 0);
-  }
-
-private:
-  vtkNew<vtkEventQtSlotConnect> Connection;
-};
-
 } // namespace
 
 pqFieldsWidget::pqFieldsWidget(
@@ -154,7 +123,7 @@ pqFieldsWidget::pqFieldsWidget(
     &pqFieldsWidget::pointsMoved);
 
   auto* buttons = new QHBoxLayout;
-  const auto addButton = [&](const char* name, const char* icon, const QString& tip)
+  const auto addButton = [&](const char* name, const char* icon, const QString& tip, auto clicked)
   {
     auto* button = new QToolButton(this);
     button->setObjectName(name);
@@ -163,12 +132,11 @@ pqFieldsWidget::pqFieldsWidget(
     button->setAccessibleName(tip);
     button->setFocusPolicy(Qt::StrongFocus);
     buttons->addWidget(button);
-    return button;
+    QObject::connect(button, &QToolButton::clicked, this, clicked);
   };
-  QObject::connect(addButton("Add", ":/QtWidgets/Icons/pqPlus.svg", tr("Add a field")),
-    &QToolButton::clicked, this, &pqFieldsWidget::addRow);
-  QObject::connect(addButton("Remove", ":/QtWidgets/Icons/pqMinus.svg", tr("Remove a field")),
-    &QToolButton::clicked, this, &pqFieldsWidget::removeRow);
+  addButton("Add", ":/QtWidgets/Icons/pqPlus.svg", tr("Add a field"), &pqFieldsWidget::addRow);
+  addButton(
+    "Remove", ":/QtWidgets/Icons/pqMinus.svg", tr("Remove a field"), &pqFieldsWidget::removeRow);
   buttons->addStretch();
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -196,7 +164,10 @@ pqFieldsWidget::pqFieldsWidget(
     this->Functions.property(), vtkCommand::ModifiedEvent, this, SLOT(readFunctions()));
   this->readFunctions();
 
-  this->addDecorator(new Decorator(this));
+  // Shows all of it where its properties would be shown.
+  pqPropertyWidgetDecorator::create(
+    smproxy->GetProperty("Fields")->GetHints()->FindNestedElementByName("PropertyWidgetDecorator"),
+    this);
 }
 
 pqFieldsWidget::~pqFieldsWidget() = default;
@@ -208,10 +179,7 @@ void pqFieldsWidget::completeLists()
   complete(this->Colors, 3 * this->rows());
   for (int row = known; row < this->rows(); ++row)
   {
-    const QColor color = colorOf(row);
-    this->Colors[3 * row] = color.redF();
-    this->Colors[3 * row + 1] = color.greenF();
-    this->Colors[3 * row + 2] = color.blueF();
+    setColor(this->Colors, row, colorOf(row));
   }
   this->Functions.complete(this->rows());
 }
@@ -283,12 +251,10 @@ void pqFieldsWidget::showRows()
 {
   constexpr int fewest = 2, most = 4; // rows without scrolling
   const int chosen = std::max(0, this->Table->currentRow());
-  for (int row = 0; row < this->Table->rowCount(); ++row)
+  for (QWidget* cell :
+    this->Table->viewport()->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly))
   {
-    for (int column = ARRAY; column <= COLOR; ++column)
-    {
-      this->Table->cellWidget(row, column)->setObjectName(QString()); // because it is deleted later
-    }
+    cell->setObjectName(QString()); // because it is deleted later
   }
   this->Table->setRowCount(0);
   this->Table->setRowCount(this->rows());
@@ -336,9 +302,7 @@ void pqFieldsWidget::showRows()
       [this, row](const QColor& picked)
       {
         this->completeLists();
-        this->Colors[3 * row] = picked.redF();
-        this->Colors[3 * row + 1] = picked.greenF();
-        this->Colors[3 * row + 2] = picked.blueF();
+        setColor(this->Colors, row, picked);
         this->emitChanges();
       });
   }
@@ -362,12 +326,10 @@ void pqFieldsWidget::rangeEdited(int row)
   const QString to = textOf(TO);
   // Waits until both limits are given.
   const bool given = !from.isEmpty() && !to.isEmpty();
-  const double range[2] = { given ? from.toDouble() : 0, given ? to.toDouble() : 0 };
-  if (this->Ranges[2 * row].toDouble() != range[0] ||
-    this->Ranges[2 * row + 1].toDouble() != range[1])
+  const QVariantList range = { given ? from.toDouble() : 0., given ? to.toDouble() : 0. };
+  if (this->Ranges.mid(2 * row, 2) != range)
   {
-    this->Ranges[2 * row] = range[0];
-    this->Ranges[2 * row + 1] = range[1];
+    std::copy(range.begin(), range.end(), this->Ranges.begin() + 2 * row);
     this->emitChanges();
   }
 }
@@ -384,7 +346,9 @@ void pqFieldsWidget::showFunction()
       true);
   }
   // Hides the editor for Color By Field alone, which uses the fields without functions.
-  const bool used = usesFunctions(this->proxy());
+  constexpr int transferFunctions = 5;
+  const bool used =
+    vtkSMUncheckedPropertyHelper(this->proxy(), "IndexModel").GetAsInt() == transferFunctions;
   this->Editor->setVisible(used && function);
   this->Title->setVisible(used || row < 0);
   this->Title->setText(row < 0

@@ -35,22 +35,8 @@ namespace
 
 // Keys of texts in a PNG: the file's name, and the image underneath the paint.
 const QString nameKey = "Title", underneathKey = "Underneath", wheelName = "wheel";
-constexpr int largestSide = 2048; // pixels, for the sake of state files
 constexpr int pauseOfStroke = 40; // milliseconds
 constexpr int usualBrush = 8;     // diameter, per cent of the filter's side
-
-/// Blends with white, which lets all light pass, and limits the size.
-QImage opaque(const QImage& read)
-{
-  QImage image(read.size(), QImage::Format_RGB888);
-  image.fill(Qt::white);
-  QPainter(&image).drawImage(0, 0, read);
-  if (std::max(image.width(), image.height()) > largestSide)
-  {
-    image = image.scaled(largestSide, largestSide, Qt::KeepAspectRatio, Qt::SmoothTransformation);
-  }
-  return image;
-}
 
 QString strokeLabel() { return pqImageWidget::tr("Paint Color Filter"); }
 
@@ -82,7 +68,7 @@ pqImageWidget::pqImageWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWi
   QAbstractButton* load = this->newButton("Load", tr("&Load..."),
     tr("Reads a PNG, or any image, into this property: state files keep it. At most %1 pixels "
        "along a side; larger ones are scaled down.")
-      .arg(largestSide));
+      .arg(pqColorFilterImage::largestSide));
   this->Clear = this->newButton("Clear", tr("&Clear"), tr("Takes the image out."));
   grid->addWidget(load, 0, 0);
   grid->addWidget(this->Clear, 0, 2);
@@ -383,7 +369,7 @@ void pqImageWidget::load()
                           .arg(file, reader.errorString()));
     return;
   }
-  QImage image = opaque(read);
+  QImage image = pqColorFilterImage::opaque(read);
   image.setText(nameKey, QFileInfo(file).fileName());
   this->setImage(pqColorFilterImage::encoded(image));
 }
@@ -400,7 +386,8 @@ void pqImageWidget::save()
   }
   const QImage image = pqColorFilterImage::decoded(this->Image);
   QImageWriter writer(dialog.getSelectedFiles().first(), "PNG");
-  if (!writer.write(opaque(image.isNull() ? pqColorFilterImage::paintable(image) : image)))
+  if (!writer.write(
+        pqColorFilterImage::opaque(image.isNull() ? pqColorFilterImage::paintable(image) : image)))
   {
     this->Note->setText(tr("Cannot write '%1': %2. Choose another folder or name.")
                           .arg(writer.fileName(), writer.errorString()));

@@ -6,10 +6,13 @@
 
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
+#include "pqServer.h"
+#include "pqServerResource.h"
 #include "vtkDataObject.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 
 namespace
@@ -36,6 +39,18 @@ bool isApplied(pqPipelineSource* source)
 QString notApplied(pqPipelineSource* source)
 {
   return "'" + source->getSMName() + "' has not been applied yet. Press Apply first.";
+}
+
+QString problemOfServer(pqServer* server)
+{
+  if (server->proxyManager()->HasDefinition("filters", "Schlieren"))
+  {
+    return QString();
+  }
+  const pqServerResource resource = server->getResource();
+  return "The server " + resource.host() + ":" + QString::number(resource.port()) +
+    " has not loaded the plugin Schlieren, so no image can be made there. Choose Tools > Manage "
+    "Plugins, and load Schlieren.so under Remote Plugins.";
 }
 
 QString problemOfFlow(pqOutputPort* port)

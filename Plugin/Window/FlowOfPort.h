@@ -10,11 +10,15 @@
 
 class pqOutputPort;
 class pqPipelineSource;
+class pqServer;
 class vtkSMProxy;
 
 /// Return whether a source has been applied, and a message for one that has not.
 bool isApplied(pqPipelineSource* source);
 QString notApplied(pqPipelineSource* source);
+
+/// Returns why the server cannot make images; empty if it can.
+QString problemOfServer(pqServer* server);
 
 /// Returns why no image can be made of these data, with a remedy; empty if one can.
 QString problemOfFlow(pqOutputPort* port);

@@ -8,6 +8,7 @@
 #include "PatternSettings.h"
 #include "PluginFile.h"
 #include "UndoStep.h"
+#include "ViewsBeside.h"
 #include "VolumeDisplay.h"
 
 #include "pqActiveObjects.h"
@@ -17,8 +18,6 @@
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
 #include "pqRenderView.h"
-#include "pqServer.h"
-#include "pqServerResource.h"
 #include "pqUndoStack.h"
 #include "vtkNew.h"
 #include "vtkPVRenderView.h"
@@ -27,20 +26,14 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
 #include "vtkSMRepresentationProxy.h"
-#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
 #include "vtkSMViewLayoutProxy.h"
 #include "vtkSchlierenFilter.h"
-#include "vtkSmartPointer.h"
 
 #include <QApplication>
 #include <QScopeGuard>
-#include <QWidget>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -59,17 +52,6 @@ void setInt(vtkSMProxy* proxy, const char* name, int value)
   vtkSMPropertyHelper(proxy, name).Set(value);
 }
 
-/// Returns the size of the view in pixels of the screen.
-std::array<int, 2> sizeOf(pqView* view)
-{
-  // Lays out widgets that are new in a layout.
-  QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);
-  const QWidget* widget = view->widget();
-  const double pixels = widget->devicePixelRatioF();
-  return { std::max(1, int(std::lround(widget->width() * pixels))),
-    std::max(1, int(std::lround(widget->height() * pixels))) };
-}
-
 /// Adapts a view to the image of a filter.
 void flatten(vtkSMProxy* view)
 {
@@ -82,19 +64,6 @@ void flatten(vtkSMProxy* view)
   const double darkGrey[3] = { 0.2, 0.2, 0.2 };
   vtkSMPropertyHelper(view, "Background").Set(darkGrey, 3);
   view->UpdateVTKObjects();
-}
-
-/// Returns why the server cannot make images; empty if it can.
-QString problemOfServer(pqServer* server)
-{
-  if (server->proxyManager()->HasDefinition("filters", "Schlieren"))
-  {
-    return QString();
-  }
-  const pqServerResource resource = server->getResource();
-  return "The server " + resource.host() + ":" + QString::number(resource.port()) +
-    " has not loaded the plugin Schlieren, so no image can be made there. Choose Tools > Manage "
-    "Plugins, and load Schlieren.so under Remote Plugins.";
 }
 
 /// Returns the proxy of the filter inside of a representation.
@@ -146,25 +115,21 @@ public:
         if (cell.layout && !cell.layout->GetView(cell.number))
         {
           noteLayout(cell.layout, cell.number);
-          this->Views.push_back(this->addView(cell.layout, cell.number, "Schlieren View"));
+          this->Views = { addViewIn(this->Server, cell.layout, cell.number, "Schlieren View") };
         }
         else
         {
-          this->addViews({ "Schlieren View" });
+          this->Views = addViewsBeside(this->Scene, { "Schlieren View" });
         }
         this->addImage(0, [](vtkSMProxy*) {});
         break;
       case Arrangement::ThreeImages:
-        this->addViews({ "Knife Edge", "Shadowgraph", "Interferogram" });
-        this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::KNIFE_EDGE); });
-        this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::SHADOWGRAPH); });
-        this->addImage(
-          2, [](vtkSMProxy* bench) { setInt(bench, "Cutoff", Filter::INTERFEROGRAM); });
+        this->addImages({ "Knife Edge", "Shadowgraph", "Interferogram" }, "Cutoff",
+          { Filter::KNIFE_EDGE, Filter::SHADOWGRAPH, Filter::INTERFEROGRAM });
         break;
       case Arrangement::Comparison:
-        this->addViews({ "Straight Rays", "Refracted Rays" });
-        this->addImage(0, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::STRAIGHT); });
-        this->addImage(1, [](vtkSMProxy* bench) { setInt(bench, "PathModel", Filter::REFRACTED); });
+        this->addImages({ "Straight Rays", "Refracted Rays" }, "PathModel",
+          { Filter::STRAIGHT, Filter::REFRACTED });
         break;
     }
     this->useCameraOfScene();
@@ -202,7 +167,7 @@ public:
         this->Controller->Hide(filter->getSourceProxy(), 0, view->getViewProxy());
       }
       this->findScene();
-      this->addViews({ "Image of " + filter->getSMName() });
+      this->Views = addViewsBeside(this->Scene, { "Image of " + filter->getSMName() });
       view = this->Views[0];
     }
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();
@@ -283,100 +248,14 @@ private:
     }
   }
 
-  /// Adds views beside the 3-D view: one to its right, or three that form a square with it. Three
-  /// get a layout of their own if the 3-D view has company already, beside which they would be tiny.
-  void addViews(const std::vector<QString>& names)
+  /// Draws the flow as Schlieren in a view for each value of a property.
+  void addImages(
+    const std::vector<QString>& names, const char* property, const std::vector<int>& values)
   {
-    // Puts the view of a script into a layout.
-    if (!vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy()))
+    this->Views = addViewsBeside(this->Scene, names);
+    for (std::size_t i = 0; i < values.size(); ++i)
     {
-      this->Controller->AssignViewToLayout(this->Scene->getViewProxy());
-    }
-    vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(this->Scene->getViewProxy());
-    noteLayout(layout, layout->GetViewLocation(this->Scene->getViewProxy()));
-    const bool isCrowded = names.size() > 1 && layout->GetViews().size() > 1;
-    const std::array<int, 2> before = sizeOf(this->Scene);
-    if (isCrowded)
-    {
-      layout = this->addLayout();
-    }
-    const int scene = layout->GetViewLocation(this->Scene->getViewProxy());
-    const int left =
-      isCrowded ? layout->SplitVertical(0, 0.5) : layout->SplitHorizontal(scene, 0.5);
-    std::vector<int> cells = { left + 1 };
-    if (isCrowded && names.size() == 2)
-    {
-      cells = { left, left + 1 };
-    }
-    else if (isCrowded) // the first one as wide as the tab
-    {
-      const int below = layout->SplitHorizontal(left + 1, 0.5);
-      cells = { left, below, below + 1 };
-    }
-    else if (names.size() > 1)
-    {
-      const int right = layout->SplitVertical(left + 1, 0.5);
-      cells = { right, right + 1 };
-      if (names.size() > 2)
-      {
-        cells.insert(cells.begin() + 1, layout->SplitVertical(left, 0.5) + 1); // below the scene
-      }
-    }
-    // Activates the 3-D view, because ParaView's toolbar shows the axes of the first active view,
-    // which traces would not survive while that is made.
-    pqActiveObjects::instance().setActiveView(this->Scene);
-    for (std::size_t i = 0; i < cells.size(); ++i)
-    {
-      this->Views.push_back(this->addView(layout, cells[i], names[i]));
-    }
-    this->keepInSight(before, sizeOf(this->Scene));
-  }
-
-  /// Adds a tab.
-  vtkSMViewLayoutProxy* addLayout()
-  {
-    vtkSMSessionProxyManager* proxies = this->Server->proxyManager();
-    auto layout = vtkSmartPointer<vtkSMProxy>::Take(proxies->NewProxy("misc", "ViewLayout"));
-    this->Controller->InitializeProxy(layout);
-    this->Controller->RegisterLayoutProxy(
-      layout, proxies->GetUniqueProxyName("layouts", "Schlieren Images", false).c_str());
-    return vtkSMViewLayoutProxy::SafeDownCast(layout);
-  }
-
-  pqRenderView* addView(vtkSMViewLayoutProxy* layout, int cell, const QString& name)
-  {
-    auto* builder = pqApplicationCore::instance()->getObjectBuilder();
-    auto* view = qobject_cast<pqRenderView*>(builder->createView("RenderView", this->Server));
-    layout->AssignView(cell, view->getViewProxy());
-    const std::string unique =
-      this->Server->proxyManager()->GetUniqueProxyName("views", qUtf8Printable(name), false);
-    view->rename(QString::fromStdString(unique));
-    return view;
-  }
-
-  /// Moves the camera of a narrowed 3-D view back, so that its content stays visible.
-  void keepInSight(const std::array<int, 2>& before, const std::array<int, 2>& now)
-  {
-    const double factor =
-      std::min(1.0, double(before[0]) / before[1]) / std::min(1.0, double(now[0]) / now[1]);
-    if (factor > 1)
-    {
-      vtkSMRenderViewProxy* proxy = this->Scene->getRenderViewProxy();
-      const auto stepForward = cameraSetter(proxy, proxy);
-      const auto focus = vtkSMPropertyHelper(proxy, "CameraFocalPoint").GetDoubleArray();
-      auto position = vtkSMPropertyHelper(proxy, "CameraPosition").GetDoubleArray();
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        position[axis] = focus[axis] + factor * (position[axis] - focus[axis]);
-      }
-      {
-        SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
-        vtkSMPropertyHelper(proxy, "CameraPosition").Set(position.data(), 3);
-        vtkSMPropertyHelper scale(proxy, "CameraParallelScale");
-        scale.Set(factor * scale.GetAsDouble());
-        proxy->UpdateVTKObjects();
-      }
-      addUndoStep(stepForward, cameraSetter(proxy, proxy));
+      this->addImage(i, [&](vtkSMProxy* bench) { setInt(bench, property, values[i]); });
     }
   }
 

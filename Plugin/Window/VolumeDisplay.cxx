@@ -40,7 +40,8 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
   {
     const double* ambient = array->GetComponentFiniteRange(0);
     const char* gas = vtkSMPropertyHelper(model, "Gas").GetAsString();
-    const int given = vtkSMPropertyHelper(model, "IndexModel").GetAsInt();
+    const auto given =
+      static_cast<MediumSettings::IndexModels>(vtkSMPropertyHelper(model, "IndexModel").GetAsInt());
     const double scale = vtkSMPropertyHelper(model, "DensityScale").GetAsDouble();
     const double byUnit = scaleByUnit("Density", defaults.arrayOf("Density"));
     switch (given < 0 ? defaults.indexModel : given)
@@ -59,7 +60,10 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
         return 1 + ambient[0];
       case MediumSettings::REFRACTIVITY:
         return ambient[0];
-      default:
+      case MediumSettings::AUTO:
+      case MediumSettings::GLADSTONE_DALE_MIXTURE:
+      case MediumSettings::CIDDOR:
+      case MediumSettings::TRANSFER_FUNCTIONS:
         break; // the scale of a density that is no longer alone, or of no density, is not known
     }
   }

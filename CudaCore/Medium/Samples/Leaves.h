@@ -51,6 +51,14 @@ struct Leaf
   {
     return first[axis] + local / perIndex;
   }
+  SCHLIEREN_HD Vec3<double> toLocal(const Vec3<double>& index) const
+  {
+    return { toLocal(0, index.x), toLocal(1, index.y), toLocal(2, index.z) };
+  }
+  SCHLIEREN_HD Vec3<double> toIndex(const Vec3<double>& local) const
+  {
+    return { toIndex(0, local.x), toIndex(1, local.y), toIndex(2, local.z) };
+  }
 };
 
 /// Finds leaves. Roots and children are numbers of inner nodes (0, 1, 2 ...) or, as ~number, of leaves.

@@ -7,6 +7,7 @@
 #include "Medium/Tree/StraightRays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -55,18 +56,17 @@ struct Bend
 /// What a straight ray crosses of a leaf with samples.
 struct LeafSegment
 {
-  double local[3], along[3]; ///< from where, local coordinates; and these by data unit
-  double pathLength;         ///< data units
-  double perIndex;           ///< of the leaf
-  std::int32_t steps;
-  std::int32_t leaf;
-  std::int32_t brick, map; ///< map -1: it has none
+  std::array<double, 3> local, along; ///< from where, local coordinates; and these by data unit
+  double pathLength;                  ///< data units
+  double perIndex;                    ///< of the leaf
+  std::int32_t steps, leaf, brick;
+  std::int32_t map; ///< -1: it has none
 };
 
 /// What the samples along it add up to.
 struct LeafSums
 {
-  double gradient[3] = { 0, 0, 0 }; ///< nu by index times data units
+  Vec3<double> gradient{ 0, 0, 0 }; ///< nu by index times data units
   double opticalPath = 0;           ///< nu times data units
   bool isBlocked = false;
 };
@@ -118,9 +118,7 @@ LeafSums sumUp(
     }
     const Sample<Real> sample = interpolateBrick<Scheme>(brick, layout.apron, layout.shape, here);
     sums.opticalPath += static_cast<double>(sample.value) * step;
-    sums.gradient[0] += static_cast<double>(sample.gradient.x) * segment.perIndex * step;
-    sums.gradient[1] += static_cast<double>(sample.gradient.y) * segment.perIndex * step;
-    sums.gradient[2] += static_cast<double>(sample.gradient.z) * segment.perIndex * step;
+    sums.gradient += step * (segment.perIndex * static_cast<Vec3<double>>(sample.gradient));
   }
   return sums;
 }
@@ -128,18 +126,19 @@ LeafSums sumUp(
 template <class Scheme, class Real>
 Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightRay& ray)
 {
-  double gradient[3] = { 0, 0, 0 }; // summed up, nu by index times data units
+  Vec3<double> gradient{ 0, 0, 0 }; // summed up, nu by index times data units
   Bend bend;
   std::vector<float> sums(static_cast<std::size_t>(medium.gradients.count), 0.f);
   const auto& spacing = medium.grid.spacing;
   double s = ray.entry;
   const auto at = [&](double where, int axis)
   { return ray.start[axis] + where * ray.direction[axis]; };
-  while (s < ray.exit)
+  while (s < ray.exit && !bend.isBlocked)
   {
     const std::int32_t found = medium.finder.at({ at(s, 0), at(s, 1), at(s, 2) });
     const Leaf<Real>& leaf = medium.leaves[found];
-    double local[3], along[3], pathLength = ray.exit - s, fastest = 0;
+    std::array<double, 3> local, along;
+    double pathLength = ray.exit - s, fastest = 0;
     for (int axis = 0; axis < 3; ++axis)
     {
       local[axis] = (at(s, axis) - leaf.first[axis]) * leaf.perIndex;
@@ -196,26 +195,18 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     if (leaf.kind != Leaf<Real>::Constant && pathLength > 0)
     {
       const LeafSums ofLeaf = sumUp<Scheme>(medium,
-        LeafSegment{ { local[0], local[1], local[2] }, { along[0], along[1], along[2] }, pathLength,
-          leaf.perIndex, std::max(1, static_cast<int>(std::ceil(pathLength * fastest))), found,
-          leaf.brick, leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 },
+        LeafSegment{ local, along, pathLength, leaf.perIndex,
+          std::max(1, static_cast<int>(std::ceil(pathLength * fastest))), found, leaf.brick,
+          leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 },
         sums);
       bend.opticalPath += ofLeaf.opticalPath;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        gradient[axis] += ofLeaf.gradient[axis];
-      }
+      gradient += ofLeaf.gradient;
       bend.isBlocked = ofLeaf.isBlocked;
-      if (bend.isBlocked)
-      {
-        break;
-      }
     }
     s += pathLength + beyond;
   }
-  const Grid& grid = medium.grid;
-  const Vec3<double> sum{ gradient[0] / grid.spacing[0], gradient[1] / grid.spacing[1],
-    gradient[2] / grid.spacing[2] };
+  const Vec3<double> sum{ gradient.x / spacing[0], gradient.y / spacing[1],
+    gradient.z / spacing[2] };
   bend.deflection = std::hypot(dot(sum, column.u), dot(sum, column.v));
   bend.gathered = std::accumulate(sums.begin(), sums.end(), 0.);
   return bend;
@@ -271,12 +262,6 @@ double keptByMost(const std::vector<double>& deviations)
     (exceeding(middle) > others ? low : high) = middle;
   }
   return high;
-}
-
-void makeUnique(std::vector<std::int32_t>& numbers)
-{
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 /// Finds it as tintReference() does, but no less than a hundredth of the most: where a view of a far field shows hardly any
@@ -394,13 +379,15 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
         bend.neglected, tolerance * findings.opticalPath, findings.coarse);
       addLargest<&Neglected::gathered>(
         bend.neglected, tolerance * findings.gathered, findings.coarseInFields);
-      const double allowedOfSums = maxOfSums * allowed;
-      addLargest<&Wrong::square>(bend.wrong, allowedOfSums * allowedOfSums, findings.wrong);
+      addLargest<&Wrong::square>(
+        bend.wrong, maxOfSums * allowed * maxOfSums * allowed, findings.wrong);
     }
   }
-  makeUnique(findings.coarse);
-  makeUnique(findings.coarseInFields);
-  makeUnique(findings.wrong);
+  for (auto* leaves : { &findings.coarse, &findings.coarseInFields, &findings.wrong })
+  {
+    std::sort(leaves->begin(), leaves->end());
+    leaves->erase(std::unique(leaves->begin(), leaves->end()), leaves->end());
+  }
   return findings;
 }
 

@@ -5,7 +5,6 @@
 // cancels out along it.
 #pragma once
 
-#include "Math/Vec3.h"
 #include "Medium/Samples/Leaves.h"
 
 #include <array>

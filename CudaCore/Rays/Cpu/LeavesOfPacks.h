@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which leaves of a tree the rays of a pack are in: what LeavesOfRays.h does for one ray. The rays are near each
+// Which leaves of a tree the rays of a pack are in: what LeafOfRay.h does for one ray. The rays are near each
 // other, mostly in one leaf or two, so each leaf is looked for once, and all rays that are in it take what is known of
 // it at the same time.
 #pragma once
 
 #include "Math/SimdPack.h"
 #include "Rays/March/InBoxes.h"
-#include "Rays/March/LeavesOfRays.h"
+#include "Rays/March/LeafOfRay.h"
 
 #include <cmath>
 #include <cstdint>
@@ -18,7 +18,7 @@
 namespace schlieren
 {
 
-/// See LeavesOfRays. `first` is Leaf::first in units that are so small that it is a whole number, so that differences
+/// See LeafOfRay. `first` is Leaf::first in units that are so small that it is a whole number, so that differences
 /// of places in two leaves are exact without doubles.
 template <class Real>
 struct LeavesOfPack
@@ -250,13 +250,12 @@ SCHLIEREN_HD void readLeaves(const MediumView<NumberOf<Real>>& medium,
   to.high = { local(medium.last.x, 0), local(medium.last.y, 1), local(medium.last.z, 2) };
   to.step = step > 0 ? in.usualStep : Real{};
   to.isConstant = in.isConstant;
-  to.isNearEdge = in.isNearEdge;
   to.someConstant = any((in.isConstant > 0) & (step > 0));
   to.someNearEdge = any((in.isNearEdge > 0) & (step > 0));
   to.someNearEnd = any((in.isNearEnd > 0) & (step > 0));
 }
 
-/// Moves the rays in question into the leaves of the middle of their next step; see LeavesOfRays::change. Whether any
+/// Moves the rays in question into the leaves of the middle of their next step; see LeafOfRay. Whether any
 /// ray has changed its leaf.
 template <class Real>
 SCHLIEREN_NOINLINE bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
@@ -313,9 +312,7 @@ SCHLIEREN_NOINLINE bool changeLeaves(const MediumView<NumberOf<Real>>& medium,
     left &= ~isIt;
   }
   const Vec3<Real> start = in.starts(perLength);
-  rays.start.x = which ? start.x : rays.start.x;
-  rays.start.y = which ? start.y : rays.start.y;
-  rays.start.z = which ? start.z : rays.start.z;
+  rays.start = either(which, start, rays.start);
   rays.length = which ? Real{} : rays.length;
   rays.finer = in.perIndex * voxelBefore;
   return true;
@@ -332,13 +329,7 @@ SCHLIEREN_NOINLINE void findElsewhere(const MediumView<NumberOf<Real>>& medium,
   // Within the domain.
   LeavesInPacks<Real> now;
   readLeaves(medium, {}, in, Real{}, now);
-  const auto within =
-    [](const Real& x, const Real& low, const Real& high) __attribute__((always_inline))
-  {
-    return minimum(maximum(x, low), high);
-  };
-  const Vec3<Real> there = { within(at.x, now.low.x, now.high.x),
-    within(at.y, now.low.y, now.high.y), within(at.z, now.low.z, now.high.z) };
+  const Vec3<Real> there = clampTo(at, now.low, now.high);
   to.at = there;
   to.value = Real{};
   to.finer = Real{};
@@ -346,10 +337,7 @@ SCHLIEREN_NOINLINE void findElsewhere(const MediumView<NumberOf<Real>>& medium,
   in.find(
     medium, { 1, 1 }, there, Real{} == Real{},
     latest, [&](const There& one, const Mask& which) __attribute__((always_inline)) {
-      const Vec3<Real> local = in.toLocalOf(one, there);
-      to.at.x = which ? local.x : to.at.x;
-      to.at.y = which ? local.y : to.at.y;
-      to.at.z = which ? local.z : to.at.z;
+      to.at = either(which, in.toLocalOf(one, there), to.at);
       to.value = which ? Real{} + one.value : to.value;
       to.finer = which ? one.perIndex * in.voxel : to.finer;
       typename Leaves::Whole isIt[lanesOf<Real>];

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Device/DeviceError.h"
-#include "Medium/Medium.h"
 #include "Rays/March/MakeTask.h"
 #include "Rays/Tiles.h"
 #include "Rays/TracedPass.h"

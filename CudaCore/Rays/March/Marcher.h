@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The loop that takes rays through the medium: one ray where Real is a number (CUDA, and the CPU where
-// there is nothing better), several side by side where it is a pack.
+// The steps that take rays through the medium.
 #pragma once
 
-#include "Rays/March/InBoxes.h"
-#include "Rays/March/LeavesOfRays.h"
-#include "Rays/March/RayTask.h"
-#include "Rays/March/SampleApart.h"
+#include "Rays/March/RaysInMedium.h"
+#include "Rays/March/Walls.h"
 
 #include <cstdint>
 #include <limits>
@@ -21,204 +18,19 @@ namespace schlieren
 template <class Number>
 constexpr Number roundingOf = std::numeric_limits<Number>::epsilon();
 
-/// Converts to an integer from 0 to `most`, which many numbers of steps exceed: they are estimates, of any size.
-template <class Number>
-SCHLIEREN_HD std::int32_t wholeSteps(Number steps, std::int32_t most)
-{
-  constexpr Number beyond = Number(2147483648.0); // the first that no std::int32_t holds
-  if (!(steps > 0))
-  {
-    return 0;
-  }
-  return steps < beyond ? minimum(static_cast<std::int32_t>(steps), most) : most;
-}
-
-/// What the march of some rays may meet, as far as it is known when the code is compiled. On a GPU, each thing that
-/// cannot be met saves registers.
-template <bool image, bool tree, bool fields>
-struct MayMeet
-{
-  static constexpr bool anImage = image;
-  static constexpr bool aTree = tree;
-  static constexpr bool fieldsToGather = fields;
-};
-using MayMeetAll = MayMeet<true, true, true>;
-
-template <class Real>
-struct LeavesOfPack; // for those who march with packs
-
-/// What the march of some rays through the medium needs to know, and its steps.
+/// The march of some rays through the medium.
 template <class Kernel, class Real, class May = MayMeetAll>
-struct March
+struct March : RaysInMedium<Kernel, Real, May>
 {
-  using Number = NumberOf<Real>;
-  using Path = typename Kernel::Path;
-  using Integrator = typename Kernel::Integrator;
-  using Scheme = typename Kernel::Scheme;
-  static constexpr int lanes = lanesOf<Real>;
-  static constexpr bool isAdaptive = std::is_same_v<Integrator, Adaptive>;
-  using Batch = RayBatch<Number, lanes>;
-
-  const RayTask<Number>& task;
-  Batch& batch;
-  StraightLight<Real> light;
-  Ray<Real> ray;
-  using Leaves = std::conditional_t<lanes == 1, LeavesOfRays<Real>, LeavesOfPack<Real>>;
-  Leaves in;                        ///< of a tree
-  Vec3<Real> domainLow, domainHigh; ///< in local coordinates
-  Real baseValue;                   ///< of the leaf: is added to what its samples say
-  Real inGas;                       ///< 0 outside of it, else 1
-  Real isConstant{};                ///< 1 in leaves where nothing changes, else 0
-  bool someConstant = false;        ///< some rays are in a leaf where nothing changes
-  bool someNearEdge = false;        ///< some rays are in a leaf where gas may end
-  bool someNearEnd = true;          ///< some rays may leave the domain with their next step
-  Vec3<Real> stepsToLast,
-    stepsToFirst; ///< at least, per index coordinate towards the far or near side
-  Real cruise;    ///< the usual step; 0 for rays that are not under way
-  Real nextStep;  ///< Adaptive: no longer than this
-  std::int32_t steps = 0;
-  std::int32_t nextLook = 0; ///< at the homogeneity map
-  bool areUnderWay = false;
-
-  // Rays are distinguished by masks, or in arrays, but never by an index into a pack: that would keep the
-  // pack in memory, in every step.
-
-  SCHLIEREN_HD March(const RayTask<Number>& ofTask, Batch& ofBatch)
-    : task(ofTask)
-    , batch(ofBatch)
-    , light{ packs(ofBatch.direction), packs(ofBatch.perLength), Vec3<Real>{} + ofTask.indexScale }
-    , ray{}
-    , domainLow{}
-    , domainHigh(Vec3<Real>{} + static_cast<Vec3<Number>>(ofTask.medium.last))
-    , baseValue{}
-    , inGas(Real{} + 1)
-    , stepsToLast(stepsPerIndex(light.perLength))
-    , stepsToFirst(stepsPerIndex(Number(-1) * light.perLength))
-    , nextStep(Real{} + ofTask.step)
-  {
-    Number usual[lanes], start[3][lanes];
-    for (int i = 0; i < lanes; ++i)
-    {
-      usual[i] = batch.fate[i] == RayFate::Left ? task.step : 0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        start[axis][i] = static_cast<Number>(batch.start[axis][i]);
-      }
-    }
-    cruise = fromArray<Real>(usual);
-    ray.start = packs(start);
-    areUnderWay = any(cruise > 0);
-    if (isTree())
-    {
-      enterTree();
-    }
-    park(cruise == 0);
-    if constexpr (Path::bends)
-    {
-      ray.q = atEntry(valueApart(ray.start));
-    }
-  }
-
-  /// q of light that enters a medium of nu, so that |p| = 1 + nu from the start: along d, or refracted by a face.
-  SCHLIEREN_HD Vec3<Real> atEntry(const Real& nu) const
-  {
-    if (!task.light.faces.refract)
-    {
-      return nu * light.d;
-    }
-    const Vec3<Number> w = static_cast<Vec3<Number>>(task.light.w);
-    const Real forward = w.x * light.d.x + w.y * light.d.y + w.z * light.d.z;
-    // sqrt(forward^2 + more) - forward, in full relative precision. Less than 0 below the root: total reflection.
-    const Real more = nu * (2 + nu);
-    const Real entering = more / (forward + squareRoot(maximum(forward * forward + more, Real{})));
-    const Real q = cruise > 0 ? entering : Real{}; // rays that are not under way have no direction
-    return { q * w.x, q * w.y, q * w.z };
-  }
-
-  SCHLIEREN_HD bool isTree() const
-  {
-    return May::aTree && (!May::anImage || task.medium.leaves != nullptr);
-  }
-  SCHLIEREN_HD bool isGathering() const { return May::fieldsToGather && task.gradients.count > 0; }
-
-  SCHLIEREN_HD static Vec3<Real> packs(const Number (&from)[3][lanes])
-  {
-    return { fromArray<Real>(from[0]), fromArray<Real>(from[1]), fromArray<Real>(from[2]) };
-  }
-
-  /// Puts rays where they disturb no others.
-  template <class Mask>
-  SCHLIEREN_HD void park(const Mask& which)
-  {
-    const Vec3<Number> middle = Number(0.5) * (task.medium.leafLow + task.medium.leafHigh);
-    cruise = which ? Real{} : cruise;
-    ray.start.x = which ? Real{} + middle.x : ray.start.x;
-    ray.start.y = which ? Real{} + middle.y : ray.start.y;
-    ray.start.z = which ? Real{} + middle.z : ray.start.z;
-    ray.offset.x = which ? Real{} : ray.offset.x;
-    ray.offset.y = which ? Real{} : ray.offset.y;
-    ray.offset.z = which ? Real{} : ray.offset.z;
-    ray.q.x = which ? Real{} : ray.q.x;
-    ray.q.y = which ? Real{} : ray.q.y;
-    ray.q.z = which ? Real{} : ray.q.z;
-    ray.length = which ? Real{} : ray.length;
-  }
-
-  template <class Mask>
-  SCHLIEREN_HD void finish(const Mask& which, RayFate fate, std::int32_t stepsTaken)
-  {
-    const auto put = [&which](const Real& from, Number(&to)[lanes])
-    { toArray(which ? from : fromArray<Real>(to), to); };
-    put(ray.offset.x, batch.offset[0]);
-    put(ray.offset.y, batch.offset[1]);
-    put(ray.offset.z, batch.offset[2]);
-    const Vec3<Real> end = Path::position(ray, light);
-    put(end.x, batch.end[0]);
-    put(end.y, batch.end[1]);
-    put(end.z, batch.end[2]);
-    put(ray.q.x, batch.q[0]);
-    put(ray.q.y, batch.q[1]);
-    put(ray.q.z, batch.q[2]);
-    put(ray.length, batch.length);
-    put(ray.path, batch.path);
-    put(ray.pathError, batch.pathError);
-    Number isIt[lanes];
-    toArray(which ? Real{} + 1 : Real{}, isIt);
-    for (int i = 0; i < lanes; ++i)
-    {
-      if (isIt[i] != 0)
-      {
-        batch.fate[i] = fate;
-        batch.steps[i] = stepsTaken;
-        if (isTree())
-        {
-          in.toIndexCoordinates(task.medium, i, batch.offset);
-          batch.length[i] += static_cast<Number>(in.travelled[i]);
-        }
-      }
-    }
-    park(which);
-  }
-
-  /// Calls visit(i, position, step) for the rays that are under way.
-  template <class Visit>
-  SCHLIEREN_HD void forRays(
-    const Vec3<Real>& positions, const Real& lengths, const Visit& visit) const
-  {
-    Number x[lanes], y[lanes], z[lanes], step[lanes], isUnderWay[lanes];
-    toArray(positions.x, x);
-    toArray(positions.y, y);
-    toArray(positions.z, z);
-    toArray(lengths, step);
-    toArray(cruise, isUnderWay);
-    for (int i = 0; i < lanes; ++i)
-    {
-      if (isUnderWay[i] > 0)
-      {
-        visit(i, Vec3<Number>{ x[i], y[i], z[i] }, step[i]);
-      }
-    }
-  }
+  using Base = RaysInMedium<Kernel, Real, May>;
+  using Base::areUnderWay, Base::batch, Base::cruise, Base::domainHigh, Base::domainLow,
+    Base::finish, Base::forRays, Base::in, Base::inGas, Base::isAdaptive, Base::isConstant,
+    Base::isGathering, Base::isTree, Base::lanes, Base::light, Base::nextLook, Base::nextStep,
+    Base::ray, Base::someConstant, Base::someNearEdge, Base::someNearEnd, Base::steps,
+    Base::stepsInLeaves, Base::stepsToFirst, Base::stepsToLast, Base::takeLeaves, Base::task,
+    Base::withinLeaf;
+  using Base::Base;
+  using typename Base::Batch, typename Base::Number, typename Base::Path, typename Base::Integrator;
 
   /// Up to the far side of the homogeneous cubes that the rays are in, where that is further. Returns
   /// whether there is any such cube.
@@ -240,63 +52,10 @@ struct March
     {
       return false;
     }
-    const Vec3<Real> lows = { fromArray<Real>(low[0]), fromArray<Real>(low[1]),
-      fromArray<Real>(low[2]) };
+    const Vec3<Real> lows = packsOf<Real>(low);
     const Real far = wayOut(x, along, lows, lows + Vec3<Real>{ edges, edges, edges });
     step = isIn ? maximum(step, far) : step;
     return true;
-  }
-
-  SCHLIEREN_HD StepsInLeaves<Number> stepsInLeaves() const
-  {
-    return { task.step, task.stepAtEdge };
-  }
-
-  /// Puts all rays into the leaves where they start.
-  SCHLIEREN_HD void enterTree()
-  {
-    if constexpr (lanes == 1)
-    {
-      Number start[3][lanes];
-      for (int i = 0; i < lanes; ++i)
-      {
-        in.enter(task.medium, i, batch.start);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          start[axis][i] = static_cast<Number>(in.start[axis][i]);
-        }
-      }
-      ray.start = packs(start);
-    }
-    else
-    {
-      enterLeaves(task.medium, stepsInLeaves(), batch.start, batch.perLength, in, ray.start);
-    }
-    takeLeaves();
-  }
-
-  SCHLIEREN_HD void takeLeaves()
-  {
-    LeavesInPacks<Real> leaves;
-    readLeaves(task.medium, stepsInLeaves(), in, cruise, leaves);
-    baseValue = leaves.value;
-    domainLow = leaves.low;
-    domainHigh = leaves.high;
-    isConstant = leaves.isConstant;
-    someConstant = leaves.someConstant;
-    someNearEdge = leaves.someNearEdge;
-    inGas = someNearEdge ? inGas : Real{} + 1;
-    cruise = leaves.step;
-    light.indexScale =
-      scaled(Vec3<Real>{ leaves.perIndex, leaves.perIndex, leaves.perIndex }, task.indexScale);
-    light.perLength = leaves.perIndex * packs(batch.perLength);
-    if constexpr (lanes > 1)
-    {
-      // Leaves that are not at a side of the domain are as far from it as they are wide.
-      const Number width = task.medium.leafHigh.x - task.medium.leafLow.x;
-      const Real fewest = width * minimum(leastOf(stepsToLast), leastOf(stepsToFirst));
-      someNearEnd = leaves.someNearEnd || any(fewest < 1);
-    }
   }
 
   /// Shortens the usual step, which in leaves of one layer, or of flat voxels, may lead far beyond the domain.
@@ -352,12 +111,14 @@ struct March
     return step;
   }
 
-  /// The medium at places of which some are in other leaves than the rays.
-  SCHLIEREN_HD Sample<Real> sampleElsewhere(const Vec3<Real>& at) const
+  template <class Mask>
+  SCHLIEREN_HD void block(const Mask& which, Real& step)
   {
-    PlacesElsewhere<Real> places;
-    findElsewhere(task.medium, in, at, places);
-    return onlyGas(sampleAt<Scheme>(task, places));
+    if (any(which))
+    {
+      finish(which, RayFate::Blocked, steps);
+      step = which ? Real{} : step;
+    }
   }
 
   /// Ends the rays that have come to a wall, and finds out which are where there is no gas.
@@ -366,11 +127,7 @@ struct March
     Real gas = inGas;
     const auto which = meetWalls(task.medium, in.leaf, middle, half, cruise, gas) > 0;
     inGas = gas;
-    if (any(which))
-    {
-      finish(which, RayFate::Blocked, steps);
-      step = which ? Real{} : step;
-    }
+    block(which, step);
   }
 
   SCHLIEREN_HD void stopInSolids(Real& step, const Vec3<Real>& middle)
@@ -380,11 +137,7 @@ struct March
       [&](int i, const Vec3<Number>& at, Number)
       { blocked[i] = isSolid(task.medium, at) ? 1 : 0; });
     const auto which = fromArray<Real>(blocked) > 0;
-    if (any(which))
-    {
-      finish(which, RayFate::Blocked, steps);
-      step = which ? Real{} : step;
-    }
+    block(which, step);
   }
 
   SCHLIEREN_HD void gather(const Vec3<Real>& middle, const Real& step) const
@@ -393,38 +146,6 @@ struct March
       [this](int i, const Vec3<Number>& at, Number length) {
         gatherGradients(task.gradients, isTree() ? in.leaf[i] : 0, at, length, batch.gathered[i]);
       });
-  }
-
-  SCHLIEREN_HD Sample<Real> sample(const Vec3<Real>& at) const
-  {
-    const std::int64_t* base = isTree() ? in.base : nullptr;
-    Sample<Real> found;
-    if constexpr (Integrator::samplesBeyond)
-    {
-      if (isTree() && any(insetOf(at, task.medium.leafLow, task.medium.leafHigh) < 0))
-      {
-        return sampleElsewhere(at);
-      }
-      found = sampleApart<Scheme>(task, base, withinLeaf(at));
-    }
-    else
-    {
-      found = interpolate<Scheme>(task.medium, base, withinLeaf(at));
-    }
-    found.value += baseValue;
-    return onlyGas(found);
-  }
-
-  SCHLIEREN_NOINLINE Real valueApart(const Vec3<Real>& at) const { return sample(at).value; }
-
-  SCHLIEREN_HD Sample<Real> onlyGas(const Sample<Real>& found) const
-  {
-    return someNearEdge ? Sample<Real>{ inGas * found.value, inGas * found.gradient } : found;
-  }
-
-  SCHLIEREN_HD Vec3<Real> withinLeaf(const Vec3<Real>& at) const
-  {
-    return clampTo(at, task.medium.leafLow, task.medium.leafHigh);
   }
 
   struct Sampler // a lambda cannot be forced to be compiled into its caller
@@ -487,12 +208,8 @@ struct March
   template <class Mask>
   SCHLIEREN_HD void takeWhere(const Mask& good, const Ray<Real>& there)
   {
-    ray.offset.x = good ? there.offset.x : ray.offset.x;
-    ray.offset.y = good ? there.offset.y : ray.offset.y;
-    ray.offset.z = good ? there.offset.z : ray.offset.z;
-    ray.q.x = good ? there.q.x : ray.q.x;
-    ray.q.y = good ? there.q.y : ray.q.y;
-    ray.q.z = good ? there.q.z : ray.q.z;
+    ray.offset = either(good, there.offset, ray.offset);
+    ray.q = either(good, there.q, ray.q);
     ray.length = good ? there.length : ray.length;
     ray.path = good ? there.path : ray.path;
     ray.pathError = good ? there.pathError : ray.pathError;
@@ -515,52 +232,6 @@ struct March
     return leaving & (cruise > 0) & (rest <= Number(near) * cruise);
   }
 
-  template <class Mask>
-  SCHLIEREN_HD void finishOutside(const Mask& leaving)
-  {
-    const auto done = areOutside(leaving);
-    if (any(done))
-    {
-      finish(done, RayFate::Left, steps + 1);
-    }
-  }
-
-  /// How far | |p| / n - 1 | is from 0, which nothing in the integration forces it to be.
-  SCHLIEREN_HD Real drift(const Vec3<Real>& q, const Vec3<Real>& at) const
-  {
-    const Real nu = valueApart(at);
-    const Real n = 1 + nu;
-    const Real by = (2 * (dot(q, light.d) - nu) + dot(q, q) - nu * nu) / (2 * n * n);
-    return by < 0 ? -by : by;
-  }
-
-  /// Finds the drift at the end.
-  SCHLIEREN_HD void findDrift()
-  {
-    if constexpr (!Path::bends)
-    {
-      return;
-    }
-    toArray(drift(packs(batch.q), packs(batch.end)), batch.drift);
-    for (int i = 0; i < lanes; ++i)
-    {
-      batch.drift[i] = batch.fate[i] == RayFate::Left ? batch.drift[i] : 0;
-    }
-  }
-
-  /// The steps that a ray needs at least per local coordinate, which are the same in all leaves: dx/ds is off D
-  /// by q.
-  SCHLIEREN_HD Real stepsPerIndex(const Real& along, const Number& indexScale) const
-  {
-    constexpr Number slowest = Number(1e-9);
-    return 1 / maximum(task.step * (along + task.largestQ * indexScale), Real{} + slowest);
-  }
-  SCHLIEREN_HD Vec3<Real> stepsPerIndex(const Vec3<Real>& along) const
-  {
-    return { stepsPerIndex(along.x, task.indexScale.x), stepsPerIndex(along.y, task.indexScale.y),
-      stepsPerIndex(along.z, task.indexScale.z) };
-  }
-
   /// How many steps the rays can take before any of them can reach its leaf's side.
   SCHLIEREN_HD std::int32_t stepsInside() const
   {
@@ -574,12 +245,13 @@ struct March
     Number most[lanes];
     toArray(least, most);
     const std::int32_t left = task.stepLimit - steps;
-    Number all = static_cast<Number>(left);
+    auto all = static_cast<Number>(left);
     for (const Number one : most)
     {
-      all = one < all ? one : all;
+      all = minimum(one, all);
     }
-    return wholeSteps(all, left);
+    // An estimate, of any size.
+    return !(all > 0) ? 0 : all < static_cast<Number>(left) ? static_cast<std::int32_t>(all) : left;
   }
 
   /// Whether rays meet nothing but the medium's samples.
@@ -663,7 +335,11 @@ struct March
     }
     if (next.someLeave)
     {
-      finishOutside(next.leaving);
+      const auto done = areOutside(next.leaving);
+      if (any(done))
+      {
+        finish(done, RayFate::Left, steps + 1);
+      }
       areUnderWay = any(cruise > 0);
     }
     ++steps;

@@ -4,9 +4,7 @@
 // Samples of the medium by functions of their own, for steps that take several (Integrator::samplesBeyond).
 #pragma once
 
-#include "Medium/Samples/Interpolation.h"
-#include "Rays/March/InBoxes.h"
-#include "Rays/March/LeavesOfRays.h"
+#include "Rays/March/LeafOfRay.h"
 #include "Rays/March/RayTask.h"
 
 #include <cstdint>

@@ -6,7 +6,6 @@
 // 4 for each field that it gathers. Whoever traces a tile, its rays are the same to the last bit.
 #pragma once
 
-#include "Medium/Medium.h"
 #include "Rays/Cuda/CudaTracer.h"
 #include "Rays/Ranks/Processes.h"
 

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Amr/AmrFaces.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace filters
 {
 
@@ -127,43 +124,6 @@ std::int32_t AmrFaces::pointAt(std::size_t level, const Counts& corner)
     points.push_back(place);
   }
   return found->second;
-}
-
-void sortTriangles(BoundaryFaces& faces)
-{
-  Triangles& surface = faces.surface;
-  std::vector<Point> points = surface.points;
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  struct Triangle
-  {
-    Triangles::Corners corners;
-    unsigned char hides;
-  };
-  std::vector<Triangle> triangles;
-  for (std::size_t triangle = 0; triangle < surface.size(); ++triangle)
-  {
-    Triangle& sorted = triangles.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const auto at = std::lower_bound(points.begin(), points.end(), surface.corner(triangle, i));
-      sorted.corners[i] = static_cast<std::int32_t>(at - points.begin());
-    }
-    sorted.hides = faces.hidesBehind[triangle];
-  }
-  std::sort(triangles.begin(), triangles.end(),
-    [](const Triangle& a, const Triangle& b) { return a.corners < b.corners; });
-  triangles.erase(std::unique(triangles.begin(), triangles.end(),
-                    [](const Triangle& a, const Triangle& b) { return a.corners == b.corners; }),
-    triangles.end());
-  surface.points = std::move(points);
-  surface.corners.clear();
-  faces.hidesBehind.clear();
-  for (const Triangle& triangle : triangles)
-  {
-    surface.corners.push_back(triangle.corners);
-    faces.hidesBehind.push_back(triangle.hides);
-  }
 }
 
 } // namespace filters

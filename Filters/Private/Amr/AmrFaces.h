@@ -70,7 +70,4 @@ private:
   std::unordered_map<std::uint64_t, std::int32_t> Points; // by index on the finest level
 };
 
-/// Sorts triangles and points, independently of ranks, and removes duplicate triangles.
-void sortTriangles(BoundaryFaces& faces);
-
 } // namespace filters

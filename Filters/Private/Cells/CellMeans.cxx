@@ -266,9 +266,10 @@ CellMoments momentsOf(const MeshArrays& mesh, vtkIdType cell)
       return momentsOf<CellShape::Hexahedron>(mesh, cell, placesInBoxes);
     case CellShape::Voxel:
       return momentsOf<CellShape::Voxel>(mesh, cell, placesInBoxes);
-    default:
-      return momentsOfCorners(mesh, cell);
+    case CellShape::Other:
+      break;
   }
+  return momentsOfCorners(mesh, cell);
 }
 
 void setMeansAroundPoints(const MeshArrays& mesh, vtkDoubleArray* ofCells,

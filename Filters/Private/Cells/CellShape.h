@@ -115,9 +115,11 @@ auto withShape(CellShape shape, const Act& act)
       return act(std::integral_constant<CellShape, CellShape::Pyramid>());
     case CellShape::Voxel:
       return act(std::integral_constant<CellShape, CellShape::Voxel>());
-    default:
-      return act(std::integral_constant<CellShape, CellShape::Hexahedron>());
+    case CellShape::Hexahedron:
+    case CellShape::Other:
+      break;
   }
+  return act(std::integral_constant<CellShape, CellShape::Hexahedron>());
 }
 
 inline Polynomial polynomialOf(CellShape shape, const double* corners)

@@ -8,6 +8,7 @@ struct Units
 {
   Real spread[3][3], perSpread[3], shrunk[3][3];
 
+  template <bool shrinks>
   SCHLIEREN_INLINE void scale(const Real* x, Real* y) const
   {
     for (int i = 0; i < 3; ++i)
@@ -18,6 +19,10 @@ struct Units
         y[i] -= this->spread[i][k] * y[k];
       }
       y[i] *= this->perSpread[i];
+    }
+    if constexpr (shrinks)
+    {
+      this->shrink(y);
     }
   }
 
@@ -39,28 +44,19 @@ struct Units
     Real half[3][3];
     for (int i = 0; i < 3; ++i)
     {
-      this->scale(rows[i], half[i]);
-      if constexpr (shrinks)
-      {
-        this->shrink(half[i]);
-      }
+      this->scale<shrinks>(rows[i], half[i]);
     }
     Real all[3][3];
     for (int k = 0; k < 3; ++k)
     {
       const Real column[3] = { half[0][k], half[1][k], half[2][k] };
-      this->scale(column, all[k]);
-      if constexpr (shrinks)
-      {
-        this->shrink(all[k]);
-      }
+      this->scale<shrinks>(column, all[k]);
     }
-    to[0] = all[0][0];
-    to[1] = all[1][1];
-    to[2] = all[2][2];
-    to[3] = all[0][1];
-    to[4] = all[1][2];
-    to[5] = all[2][0];
+    for (int k = 0; k < 3; ++k)
+    {
+      to[k] = all[k][k];
+      to[3 + k] = all[k][(k + 1) % 3];
+    }
   }
 
   /// Along directions in which `places` (second moments in the units so far) lie as close together as nothing else is to
@@ -124,6 +120,14 @@ private:
   static constexpr int points = PointFit::points;
   static constexpr std::ptrdiff_t perNeighbour = (ofMeans ? 10 : 4) * points;
 
+  SCHLIEREN_INLINE static void loadPlace(const double* from, Real (&x)[3])
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      load(from + i * points, x[i]);
+    }
+  }
+
   /// Finds L with L * transposed(L) = the mean of x * transposed(x): places in units of it are as far along every axis.
   SCHLIEREN_INLINE void findUnits()
   {
@@ -154,11 +158,8 @@ private:
         if constexpr (ofMeans)
         {
           // With the size of what the mean is over: where all have the same place along an axis, that is its unit.
-          sum += this->Own[i == k ? 3 + i
-                     : i == 1     ? 6
-                     : k == 1     ? 7
-                                  : 8] -
-            this->Own[i] * this->Own[k];
+          const int second = i == k ? 3 + i : i == 1 ? 6 : k == 1 ? 7 : 8;
+          sum += this->Own[second] - this->Own[i] * this->Own[k];
         }
         for (int j = 0; j < k; ++j)
         {
@@ -195,10 +196,7 @@ private:
     for (const double* from = this->First; from != this->Last; from += perNeighbour)
     {
       Real x[3], value;
-      for (int i = 0; i < 3; ++i)
-      {
-        load(from + i * points, x[i]);
-      }
+      loadPlace(from, x);
       load(from + 3 * points, value);
       low = value < low ? value : low;
       high = value > high ? value : high;
@@ -221,15 +219,8 @@ private:
     for (const double* from = this->First; from != this->Last; from += perNeighbour)
     {
       Real x[3], y[3], value;
-      for (int i = 0; i < 3; ++i)
-      {
-        load(from + i * points, x[i]);
-      }
-      this->Scale.scale(x, y);
-      if constexpr (ofMeans)
-      {
-        this->Scale.shrink(y);
-      }
+      loadPlace(from, x);
+      this->Scale.template scale<ofMeans>(x, y);
       load(from + 3 * points, value);
       const Real weight = 1 / (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + leastSquare);
       Real terms[unknowns] = { y[0], y[1], y[2], y[0] * y[0], y[1] * y[1], y[2] * y[2], y[0] * y[1],
@@ -317,8 +308,7 @@ private:
   SCHLIEREN_INLINE void storeCorrection()
   {
     Real scaled[unknowns];
-    this->Scale.scale(this->Own, scaled);
-    this->Scale.shrink(scaled);
+    this->Scale.template scale<true>(this->Own, scaled);
     this->Scale.template scaleSecond<true>(this->Own + 3, scaled + 3);
     Real correction = this->Zero;
     for (int i = 0; i < unknowns; ++i)
@@ -361,10 +351,7 @@ private:
     for (const double* from = this->First; from != this->Last; from += perNeighbour)
     {
       Real x[3];
-      for (int i = 0; i < 3; ++i)
-      {
-        load(from + i * points, x[i]);
-      }
+      loadPlace(from, x);
       const Real there = gradient[0] * x[0] + gradient[1] * x[1] + gradient[2] * x[2];
       least = there < least ? there : least;
       most = there > most ? there : most;
@@ -374,7 +361,7 @@ private:
     // In units in which squares of places along any direction are 1 in the mean.
     const Real* second = this->Found + 3;
     Real m[3];
-    this->Scale.scale(this->Middle, m);
+    this->Scale.template scale<false>(this->Middle, m);
     const Real away = m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
     const Real along = m[0] * (m[0] * second[0] + m[1] * second[3] + m[2] * second[5]) +
       m[1] * (m[1] * second[1] + m[2] * second[4]) + m[2] * m[2] * second[2];
@@ -403,13 +390,7 @@ inline void fit(PointFit& of)
 {
   for (int point = 0; point < PointFit::points; point += lanes)
   {
-    if (of.values == PointFit::Values::Means)
-    {
-      PackFit<true>(of, point).run();
-    }
-    else
-    {
-      PackFit<false>(of, point).run();
-    }
+    of.values == PointFit::Values::Means ? PackFit<true>(of, point).run()
+                                         : PackFit<false>(of, point).run();
   }
 }

@@ -316,4 +316,40 @@ bool meets(const Triangles& surface, std::size_t triangle, const schlieren::Box&
   return !isApart(surface.normal(triangle));
 }
 
+void sortTriangles(Triangles& surface, std::vector<unsigned char>& marks)
+{
+  std::vector<Point> points = surface.points;
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  struct Triangle
+  {
+    Triangles::Corners corners;
+    unsigned char mark;
+  };
+  std::vector<Triangle> triangles;
+  for (std::size_t triangle = 0; triangle < surface.size(); ++triangle)
+  {
+    Triangle& sorted = triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const auto at = std::lower_bound(points.begin(), points.end(), surface.corner(triangle, i));
+      sorted.corners[i] = static_cast<std::int32_t>(at - points.begin());
+    }
+    sorted.mark = marks[triangle];
+  }
+  std::sort(triangles.begin(), triangles.end(),
+    [](const Triangle& a, const Triangle& b) { return a.corners < b.corners; });
+  triangles.erase(std::unique(triangles.begin(), triangles.end(),
+                    [](const Triangle& a, const Triangle& b) { return a.corners == b.corners; }),
+    triangles.end());
+  surface.points = std::move(points);
+  surface.corners.clear();
+  marks.clear();
+  for (const Triangle& triangle : triangles)
+  {
+    surface.corners.push_back(triangle.corners);
+    marks.push_back(triangle.mark);
+  }
+}
+
 } // namespace filters

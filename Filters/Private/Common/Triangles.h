@@ -137,6 +137,9 @@ private:
 /// Returns the square of a point's distance to a triangle.
 double squaredDistance(const Triangles& surface, std::size_t triangle, const Point& place);
 
+/// Sorts triangles and points, independently of ranks, and removes duplicate triangles. `marks`: of the triangles.
+void sortTriangles(Triangles& surface, std::vector<unsigned char>& marks);
+
 /// Returns whether a triangle meets a box (separating axes; Akenine-Moeller 2001).
 bool meets(const Triangles& surface, std::size_t triangle, const schlieren::Box& box);
 

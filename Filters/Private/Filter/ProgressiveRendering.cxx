@@ -4,8 +4,8 @@
 #include "Filter/SchlierenFilterInternals.h"
 
 #include "Common/AvailableMemory.h"
-#include "Common/Guarded.h"
 #include "Common/Threads.h"
+#include "Guarded.h"
 #include "Image/ImageLegend.h"
 #include "Image/ImageOutput.h"
 #include "Image/Preview.h"

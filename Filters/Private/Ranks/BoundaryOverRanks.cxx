@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/BoundaryOverRanks.h"
 
-#include "Amr/AmrFaces.h"
 #include "Common/WeightedMedian.h"
 #include "Sources/ImagePiece.h"
 #include "Sources/MeshCache.h"
@@ -145,7 +144,7 @@ BoundaryOverRanks boundaryOfImage(
     [&](Reader& reader) { all.add(reader); });
   facts.voxelShape = all.spacing;
   facts.direction = all.direction;
-  sortTriangles(all.faces);
+  sortTriangles(all.faces.surface, all.faces.hidesBehind);
   return { std::make_shared<const GasBoundary>(
              std::move(all.faces), turnedBack(bodies, all.direction), Outside::Passes),
     ImagePiece::ambientOf(std::move(all.outer)) };

@@ -72,7 +72,7 @@ std::shared_ptr<const PieceSource> sourceOf(
 {
   const double ambient = weightedMedian(piece->refractivity().outerValues());
   BoundaryFaces faces = piece->refractivity().faces();
-  sortTriangles(faces);
+  sortTriangles(faces.surface, faces.hidesBehind);
   auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
   return std::make_shared<PieceSource>(std::move(piece), std::move(boundary), ambient);
 }

@@ -56,7 +56,7 @@ vtkSmartPointer<vtkSchlierenFilter> revolved(vtkDataObject* input, bool ofCells 
     filter->SetInputArrayToProcess(
       vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
   }
-  filter->SetSymmetry(vtkRefractiveIndex::AXISYMMETRIC);
+  filter->SetSymmetry(vtkRefractiveIndex::SYMMETRY_AXISYMMETRIC);
   filter->SetParallelScale(0.7);
   filter->SetMediumTolerance(4e-3);
   return filter;
@@ -201,7 +201,7 @@ TEST(Revolved, PlanesMayLieOtherwise)
   for (const auto& one : cases)
   {
     auto filter = revolved(section(0, false, one.from, one.to));
-    filter->SetSymmetryAxis(vtkRefractiveIndex::Y_AXIS);
+    filter->SetSymmetryAxis(vtkRefractiveIndex::AXIS_Y);
     const std::string warning = warningOf(filter);
     EXPECT_EQ(warning.find("both sides") != std::string::npos, one.from * one.to < 0) << warning;
     const ColumnErrors errors = compareWithColumn(filter, column);
@@ -211,7 +211,7 @@ TEST(Revolved, PlanesMayLieOtherwise)
   auto moved = section(0);
   moved->SetOrigin(5, -1, 3);
   auto filter = revolved(moved);
-  filter->SetSymmetryAxis(vtkRefractiveIndex::Y_AXIS);
+  filter->SetSymmetryAxis(vtkRefractiveIndex::AXIS_Y);
   filter->SetSymmetryOrigin(5, 0, 3);
   filter->SetFocalPoint(5, 0, 3);
   filter->Update();
@@ -259,7 +259,7 @@ TEST(Revolved, WedgesAreAColumn)
 TEST(Revolved, ARawWedgeIsReported)
 {
   auto filter = revolved(wedge(0, false, false));
-  filter->SetSymmetry(vtkRefractiveIndex::NO_SYMMETRY);
+  filter->SetSymmetry(vtkRefractiveIndex::SYMMETRY_NONE);
   const std::string warning = warningOf(filter);
   EXPECT_NE(warning.find("wedge of 5 degrees around the x axis"), std::string::npos) << warning;
   EXPECT_NE(warning.find("Symmetry"), std::string::npos);
@@ -307,7 +307,7 @@ TEST(Revolved, RefractiveIndexIsAnImage)
   index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
   index->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-  index->SetSymmetry(vtkRefractiveIndex::AXISYMMETRIC);
+  index->SetSymmetry(vtkRefractiveIndex::SYMMETRY_AXISYMMETRIC);
   vtkNew<vtkThreshold> consumer; // requests what was announced before there were data
   consumer->SetInputConnection(index->GetOutputPort());
   consumer->Update();
@@ -340,7 +340,7 @@ TEST(Revolved, RefractiveIndexIsAnImage)
   filter->Update();
   EXPECT_LT(compareWithColumn(filter, column).opticalPath, 2e-3);
 
-  index->SetSymmetry(vtkRefractiveIndex::NO_SYMMETRY);
+  index->SetSymmetry(vtkRefractiveIndex::SYMMETRY_NONE);
   index->Update();
   EXPECT_EQ(index->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT),
     section(0)->GetNumberOfPoints());
@@ -353,10 +353,10 @@ TEST(Revolved, MistakesAreReported)
   auto filter = revolved(solid);
   expectOneMessage(
     filter.Get(), [](vtkSchlierenFilter*) {}, { "Symmetry", "3-D" },
-    [](vtkSchlierenFilter* f) { f->SetSymmetry(vtkRefractiveIndex::NO_SYMMETRY); });
+    [](vtkSchlierenFilter* f) { f->SetSymmetry(vtkRefractiveIndex::SYMMETRY_NONE); });
   auto across = revolved(section(0));
   expectOneMessage(
-    across.Get(), [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkRefractiveIndex::Z_AXIS); },
+    across.Get(), [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkRefractiveIndex::AXIS_Z); },
     { "SymmetryAxis is Z", "across" },
-    [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkRefractiveIndex::Y_AXIS); });
+    [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkRefractiveIndex::AXIS_Y); });
 }

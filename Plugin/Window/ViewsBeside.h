@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+
+#include <vector>
+
+class pqRenderView;
+class pqServer;
+class vtkSMViewLayoutProxy;
+
+/// Adds a render view in a cell of a layout.
+pqRenderView* addViewIn(
+  pqServer* server, vtkSMViewLayoutProxy* layout, int cell, const QString& name);
+
+/// Adds views beside the 3-D view: one to its right, or three that form a square with it. Three
+/// get a layout of their own if the 3-D view has company already, beside which they would be tiny.
+std::vector<pqRenderView*> addViewsBeside(pqRenderView* scene, const std::vector<QString>& names);
