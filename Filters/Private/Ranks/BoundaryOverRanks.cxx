@@ -200,7 +200,8 @@ BoundaryOverRanks boundaryOfMeshes(const Ranks& ranks, const MeshPiece& piece,
     open.removeCovered(middles, hold(ranks, piece, open.corners(middles)));
     BoundaryFaces faces = open.boundary(outside);
     cache.origins = faces.origins;
-    cache.boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
+    cache.boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside,
+      [&](const std::vector<Point>& places) { return hold(ranks, piece, places); });
     cache.keys = keys;
     cache.lattices = nullptr;
   }

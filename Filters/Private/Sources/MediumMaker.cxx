@@ -73,7 +73,8 @@ std::shared_ptr<const PieceSource> sourceOf(
   const double ambient = weightedMedian(piece->refractivity().outerValues());
   BoundaryFaces faces = piece->refractivity().faces();
   sortTriangles(faces);
-  auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
+  auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside,
+    [&](const std::vector<Point>& places) { return piece->hold(places); });
   return std::make_shared<PieceSource>(std::move(piece), std::move(boundary), ambient);
 }
 

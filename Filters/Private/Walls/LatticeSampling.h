@@ -30,9 +30,11 @@ public:
   bool addBodies(const Triangles& surface, const TriangleTree& tree);
 
   /// Classifies all points. `isInBody`: empty if no point is. `kindAt` returns the kind of a point
-  /// outside, by faces beyond reach.
+  /// outside and beyond reach of faces, `isBeyond` whether it is beyond all of the mesh, where
+  /// nothing divides what is beside a body from the body.
   void run(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody,
-    const std::function<Place(const Point&)>& kindAt, Place* places, float* distances);
+    const std::function<Place(const Point&)>& kindAt,
+    const std::function<bool(const Point&)>& isBeyond, Place* places, float* distances);
 
 private:
   // State of each point.
@@ -63,10 +65,8 @@ private:
   void add(Kind kind, const Triangles& surface, std::int32_t triangle);
   void measure(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody);
   bool isWallNearer(const Index& at, std::int32_t wall, std::int32_t window) const;
-  void fill(const Index& low, const Index& high, State state);
-  void findKindsIn(
-    const Index& low, const Index& high, const std::function<bool(const Index&)>& isWallAt);
-  void findKinds(const std::function<Place(const Point&)>& kindAt);
+  void findKinds(const std::function<Place(const Point&)>& kindAt,
+    const std::function<bool(const Point&)>& isBeyond);
   void findGaps();
   void spread(std::vector<Index>& known);
   void thickenPlates();
