@@ -200,8 +200,7 @@ BoundaryOverRanks boundaryOfMeshes(const Ranks& ranks, const MeshPiece& piece,
     open.removeCovered(middles, hold(ranks, piece, open.corners(middles)));
     BoundaryFaces faces = open.boundary(outside);
     cache.origins = faces.origins;
-    cache.boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside,
-      [&](const std::vector<Point>& places) { return hold(ranks, piece, places); });
+    cache.boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
     cache.keys = keys;
     cache.lattices = nullptr;
   }

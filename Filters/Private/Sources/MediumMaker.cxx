@@ -73,8 +73,7 @@ std::shared_ptr<const PieceSource> sourceOf(
   const double ambient = weightedMedian(piece->refractivity().outerValues());
   BoundaryFaces faces = piece->refractivity().faces();
   sortTriangles(faces);
-  auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside,
-    [&](const std::vector<Point>& places) { return piece->hold(places); });
+  auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
   return std::make_shared<PieceSource>(std::move(piece), std::move(boundary), ambient);
 }
 

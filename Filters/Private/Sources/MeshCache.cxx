@@ -45,8 +45,7 @@ std::shared_ptr<const GasBoundary> boundaryOf(Faces faces, const MeshPiece& piec
   const OpenFaces::Flags middles = piece.hold(open.middles(), progress.part(0.2, 0.5));
   open.removeCovered(middles, piece.hold(open.corners(middles), progress.part(0.5, 0.6)));
   return std::make_shared<const GasBoundary>(
-    open.boundary(choices.outside), bodies, choices.outside,
-    [&](const std::vector<Point>& places) { return piece.hold(places); }, progress.part(0.7, 1));
+    open.boundary(choices.outside), bodies, choices.outside, progress.part(0.7, 1));
 }
 
 } // namespace

@@ -13,19 +13,19 @@
 namespace filters
 {
 
-GasBoundary::GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,
-  const OutsidePlaces::Hold& hold, const WorkProgress& progress)
+GasBoundary::GasBoundary(
+  BoundaryFaces faces, vtkDataObject* bodies, Outside outside, const WorkProgress& progress)
   : Faces(std::move(faces))
   , Tree(this->Faces.surface)
   , Walls(this->Faces.surface.size(), 0)
-  , IsAuto(outside == Outside::Auto && hold)
+  , IsAuto(outside == Outside::Auto)
   , Far(outside == Outside::Blocks ? Place::Wall : Place::Window)
   , Bodies(bodies ? std::make_unique<BodySurfaces>(bodies) : nullptr)
 {
   progress.reach(0.5);
-  if (hold)
+  if (this->IsAuto || !this->Faces.origins.empty())
   {
-    this->Outer.emplace(this->Faces, hold);
+    this->Outer.emplace(this->Faces);
   }
   for (std::size_t t = 0; t < this->Walls.size(); ++t)
   {

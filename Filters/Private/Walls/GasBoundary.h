@@ -29,10 +29,9 @@ class GasBoundary
 public:
   using Place = schlieren::Place;
 
-  /// `bodies`: may be null; see BodySurfaces. `hold`: of the cells; without it no face is outer.
-  /// Keeps copies of all data.
+  /// `bodies`: may be null; see BodySurfaces. Keeps copies of all data.
   GasBoundary(BoundaryFaces faces, vtkDataObject* bodies, Outside outside,
-    const OutsidePlaces::Hold& hold = {}, const WorkProgress& progress = WorkProgress());
+    const WorkProgress& progress = WorkProgress());
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
 
@@ -80,7 +79,7 @@ private:
   BoundaryFaces Faces;
   TriangleTree Tree;
   std::vector<unsigned char> Walls;   // of each triangle
-  std::optional<OutsidePlaces> Outer; // without `hold` none
+  std::optional<OutsidePlaces> Outer; // where they decide, or values are known
   bool IsAuto;                        // they decide
   Place Far;                          // without any faces
   std::unique_ptr<BodySurfaces> Bodies;

@@ -22,11 +22,13 @@ constexpr double cosineOfSmooth = 0.643; // 50 degrees
 constexpr int finestTurn = 3;            // largest number in directions of the hull
 constexpr double lookingStep = 0.5;      // beside faces, in spacings of the grid
 constexpr int lookingSteps = 5;
-constexpr double touching = 1e-6; // of a spacing
+constexpr std::size_t noPlace = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t beyondOpen = noPlace - 1, beyondClosed = noPlace - 2; // sides of the box
+constexpr double touching = 1e-6;                                           // of a spacing
 
 } // namespace
 
-OutsidePlaces::OutsidePlaces(const BoundaryFaces& faces, const Hold& hold)
+OutsidePlaces::OutsidePlaces(const BoundaryFaces& faces)
   : AreOuter(faces.surface.size(), 0)
   , Hides(std::count(faces.hidesBehind.begin(), faces.hidesBehind.end(), 1) > 0)
 {
@@ -44,31 +46,26 @@ OutsidePlaces::OutsidePlaces(const BoundaryFaces& faces, const Hold& hold)
     this->AreClosed[2 * axis] = sides.at(-1. * this->Axes[axis]).part > leastPart;
     this->AreClosed[2 * axis + 1] = sides.at(this->Axes[axis]).part > leastPart;
   }
-  std::vector<unsigned char> areAcross(own.size(), 0); // of a wedge
   if (isWedge)
   {
     this->AreClosed[2] = true; // the axis
     for (std::size_t t = 0; t < own.size(); ++t)
     {
-      areAcross[t] = sides.isIn(largest[0], t) || sides.isIn(largest[1], t) ? 1 : 0;
+      this->AreOuter[t] = sides.isIn(largest[0], t) || sides.isIn(largest[1], t) ? 1 : 0;
     }
   }
   if (own.size() > 0)
   {
     this->layGrid(own, isLayer);
-    this->markCrossed(own, areAcross);
+    this->markCrossed(own, this->AreOuter);
     Triangles ends{ own.points, faces.ends };
     this->markCrossed(ends, std::vector<unsigned char>(ends.size(), 0));
-    this->findGas(hold);
+    this->findGas(own);
     const Parts parts = this->partsOf(Kind::Passes);
     this->findBodies(parts);
     this->findHull(own, largest);
     this->findBodiesWithin();
     this->findOuter(own, faces.hidesBehind, sides, parts);
-  }
-  for (std::size_t t = 0; t < own.size(); ++t)
-  {
-    this->AreOuter[t] |= areAcross[t];
   }
 }
 
@@ -141,6 +138,7 @@ void OutsidePlaces::layGrid(const Triangles& own, bool isLayer)
     this->Spacing[axis] = lengths[axis] / static_cast<double>(this->Counts[axis]);
     all *= this->Counts[axis];
   }
+  this->Finest = longest / mostPlaces;
   this->Kinds.assign(all, Kind::Passes);
 }
 
@@ -201,60 +199,47 @@ OutsidePlaces::Parts OutsidePlaces::partsOf(Kind kind) const
   return parts;
 }
 
-/// Asks at the place of each part that is farthest from faces whether it is gas.
-void OutsidePlaces::findGas(const Hold& hold)
+/// Returns the first place beside the middle of a face that no face crosses; none: noPlace, or
+/// beyond the box.
+std::size_t OutsidePlaces::lookFrom(
+  const Triangles& own, std::size_t triangle, bool isOutward) const
 {
-  std::vector<int> depths(this->count(), std::numeric_limits<int>::max());
-  std::vector<std::size_t> waiting;
-  for (std::size_t n = 0; n < this->count(); ++n)
+  const Point middle =
+    (1. / 3) * (own.corner(triangle, 0) + own.corner(triangle, 1) + own.corner(triangle, 2));
+  const Point step = (isOutward ? -1 : 1) * lookingStep * this->Finest * unit(own.normal(triangle));
+  for (int i = 1; i <= lookingSteps; ++i)
   {
-    if (this->Kinds[n] == Kind::Crossed)
+    const Point place = middle + static_cast<double>(i) * step;
+    const auto [isBeyond, isOpen] = this->beyondSides(place, 0);
+    const std::size_t n = this->numberAt(place);
+    if (isBeyond || this->Kinds[n] != Kind::Crossed)
     {
-      depths[n] = 0;
-      waiting.push_back(n);
+      return !isBeyond ? n : isOpen ? beyondOpen : beyondClosed;
     }
   }
-  for (std::size_t next = 0; next < waiting.size(); ++next)
-  {
-    const int depth = depths[waiting[next]] + 1;
-    this->forNeighbours(waiting[next],
-      [&](std::size_t, std::size_t beside)
-      {
-        if (depth < depths[beside])
-        {
-          depths[beside] = depth;
-          waiting.push_back(beside);
-        }
-      });
-  }
+  return noPlace;
+}
+
+/// Parts are gas into which more faces look than out of it.
+void OutsidePlaces::findGas(const Triangles& own)
+{
   const Parts parts = this->partsOf(Kind::Passes);
-  std::vector<std::size_t> deepest(this->count()), roots;
-  for (std::size_t n = 0; n < this->count(); ++n)
+  std::vector<double> votes(this->count(), 0);
+  for (std::size_t t = 0; t < own.size(); ++t)
   {
-    if (this->Kinds[n] == Kind::Passes)
+    for (const bool isOutward : { false, true })
     {
-      std::size_t& best = deepest[parts[n]];
-      best = parts[n] == n || depths[n] > depths[best] ? n : best;
-      if (parts[n] == n)
+      const std::size_t n = this->lookFrom(own, t, isOutward);
+      if (n < this->count())
       {
-        roots.push_back(n);
+        votes[parts[n]] += (isOutward ? -1 : 1) * norm(own.normal(t));
       }
     }
   }
-  std::vector<Point> places;
-  for (const std::size_t root : roots)
-  {
-    const Point own = this->middleOf(deepest[root]);
-    places.push_back(own[0] * this->Axes[0] + own[1] * this->Axes[1] + own[2] * this->Axes[2]);
-  }
-  const std::vector<unsigned char> areGas = hold(places);
-  for (std::size_t i = 0; i < roots.size(); ++i)
-  {
-    this->Kinds[roots[i]] = areGas[i] ? Kind::Gas : Kind::Passes;
-  }
   for (std::size_t n = 0; n < this->count(); ++n)
   {
-    this->Kinds[n] = this->Kinds[n] == Kind::Crossed ? Kind::Crossed : this->Kinds[parts[n]];
+    const bool isGas = this->Kinds[n] == Kind::Passes && votes[parts[n]] >= 0;
+    this->Kinds[n] = isGas ? Kind::Gas : this->Kinds[n];
   }
 }
 
@@ -438,92 +423,72 @@ std::array<bool, 2> OutsidePlaces::beyondSides(const Point& own, double toleranc
 }
 
 /// Looks at what is beside faces. Leaves parts to them beside which something is hidden. Where a
-/// closed side or the hull is so near that no place of the grid is between, faces are as those
-/// around which they continue smoothly.
+/// closed side or the hull is so near that no place is between, faces are as those in which they
+/// continue smoothly.
 void OutsidePlaces::findOuter(const Triangles& own, const std::vector<unsigned char>& hide,
   const PlaneSides& sides, const Parts& parts)
 {
-  enum class Found : unsigned char
-  {
-    Wall,
-    Outer,
-    AtSide, // of the box, and so outer
-    Between
-  };
-  std::vector<Found> found(own.size(), Found::Wall);
+  constexpr int between = 0, outer = 1, wall = -1, atSide = 2;
+  std::vector<int> found(own.size(), wall), votes(own.size(), 0);
   std::vector<unsigned char> areLeft(this->count(), 0);
-  double step = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    step = std::max(step, this->isCut(axis) ? lookingStep * this->Spacing[axis] : 0);
-  }
   for (std::size_t t = 0; t < own.size(); ++t)
   {
     const Point &a = own.corner(t, 0), &b = own.corner(t, 1), &c = own.corner(t, 2);
+    const std::size_t n = this->lookFrom(own, t, true);
+    const Kind kind = n < this->count() ? this->Kinds[n] : Kind::Crossed;
+    const bool isAtHull = kind == Kind::BodyWithin && this->hullBefore(this->middleOf(n));
+    found[t] = n == beyondClosed || isAtHull    ? between
+      : n == beyondOpen || kind == Kind::Passes ? outer
+                                                : wall;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const auto [low, high] = std::minmax({ a[axis], b[axis], c[axis] });
       const bool isAtSide =
         high < this->Low[axis] + this->Tolerance || low > this->High[axis] - this->Tolerance;
-      found[t] = isAtSide ? Found::AtSide : found[t];
+      found[t] = isAtSide ? atSide : found[t];
     }
-    const Point middle = (1. / 3) * (a + b + c), outward = -step * unit(own.normal(t));
-    bool isKnown = found[t] == Found::AtSide;
-    for (int i = 1; i <= lookingSteps && !isKnown; ++i)
+    if (n < this->count())
     {
-      const Point place = middle + static_cast<double>(i) * outward;
-      const auto [isBeyond, isOpen] = this->beyondSides(place, 0);
-      const Kind kind = this->kindAt(place);
-      isKnown = isBeyond || kind != Kind::Crossed;
-      if (isBeyond)
-      {
-        found[t] = isOpen ? Found::Outer : Found::Between;
-      }
-      else if (isKnown)
-      {
-        const std::size_t n = this->numberAt(place);
-        found[t] = kind != Kind::Passes        ? Found::Wall
-          : this->Kinds[n] == Kind::BodyWithin ? Found::Between
-                                               : Found::Outer;
-        areLeft[parts[n]] |= hide[t];
-      }
+      areLeft[parts[n]] |= hide[t];
     }
   }
   for (std::size_t n = 0; n < this->count(); ++n)
   {
     this->Kinds[n] = areLeft[parts[n]] ? Kind::Crossed : this->Kinds[n];
   }
-  const auto isSmooth = [&](std::size_t one, std::size_t other)
-  { return dot(unit(own.normal(one)), unit(own.normal(other))) > cosineOfSmooth; };
   Classes classes(own.size());
-  sides.forNeighbours(
+  const auto forSmooth = [&](const auto& visit)
+  {
+    sides.forNeighbours(
+      [&](std::size_t one, std::size_t other)
+      {
+        if (dot(unit(own.normal(one)), unit(own.normal(other))) > cosineOfSmooth)
+        {
+          visit(one, other);
+          visit(other, one);
+        }
+      });
+  };
+  forSmooth(
     [&](std::size_t one, std::size_t other)
     {
-      if (found[one] == Found::Between && found[other] == Found::Between && isSmooth(one, other))
+      if (found[one] == between && found[other] == between)
       {
         classes.join(one, other);
       }
     });
-  std::vector<int> votes(own.size(), 0);
-  const auto vote = [&](std::size_t one, std::size_t other)
-  {
-    if (found[one] == Found::Between && isSmooth(one, other))
-    {
-      votes[classes.rootOf(one)] +=
-        found[other] == Found::Outer ? 1 : (found[other] == Found::Wall ? -1 : 0);
-    }
-  };
-  sides.forNeighbours(
+  forSmooth(
     [&](std::size_t one, std::size_t other)
     {
-      vote(one, other);
-      vote(other, one);
+      if (found[one] == between && found[other] != atSide)
+      {
+        votes[classes.rootOf(one)] += found[other];
+      }
     });
   for (std::size_t t = 0; t < own.size(); ++t)
   {
-    const bool isOuter = found[t] == Found::Outer || found[t] == Found::AtSide ||
-      (found[t] == Found::Between && votes[classes.rootOf(t)] > 0);
-    this->AreOuter[t] = isOuter ? 1 : 0;
+    const int vote = found[t] == between ? votes[classes.rootOf(t)] : found[t];
+    this->AreOuter[t] |= vote > 0 ? 1 : 0;
   }
 }
 

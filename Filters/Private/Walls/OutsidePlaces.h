@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,10 +31,8 @@ class OutsidePlaces
 {
 public:
   using Place = schlieren::Place;
-  /// Returns which of these places visible cells contain.
-  using Hold = std::function<std::vector<unsigned char>(const std::vector<Point>&)>;
 
-  OutsidePlaces(const BoundaryFaces& faces, const Hold& hold);
+  explicit OutsidePlaces(const BoundaryFaces& faces);
 
   /// Returns whether a triangle is no wall.
   bool isOuter(std::size_t triangle) const { return this->AreOuter[triangle] != 0; }
@@ -71,7 +68,8 @@ private:
   void layGrid(const Triangles& own, bool isLayer);
   void markCrossed(const Triangles& own, const std::vector<unsigned char>& leaveOut);
   Parts partsOf(Kind kind) const;
-  void findGas(const Hold& hold);
+  std::size_t lookFrom(const Triangles& own, std::size_t triangle, bool isOutward) const;
+  void findGas(const Triangles& own);
   void findBodies(const Parts& parts);
   void findHull(const Triangles& own, const std::vector<PlaneSide>& sides);
   void findBodiesWithin();
@@ -87,7 +85,7 @@ private:
   std::array<std::size_t, 3> Counts{};
   std::array<bool, 6> AreClosed{}; // sides of the box: low and high along each axis
   std::vector<PlaneSide> Hull;     // in own axes; open ones have no part
-  double Tolerance;
+  double Tolerance, Finest = 0;
   std::vector<Kind> Kinds;
   std::vector<unsigned char> AreOuter;
   bool Hides; // there are hidden cells, also beyond the box

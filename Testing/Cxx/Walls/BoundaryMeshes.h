@@ -212,21 +212,19 @@ inline GasBoundary boundaryOfLeaves(const std::vector<vtkDataSet*>& leaves, vtkD
 {
   const std::vector<Data> joined = withSharedPoints({ leaves.begin(), leaves.end() });
   filters::OpenFaces open(filters::facesOf(pointers(joined), filters::WorkProgress()), extent);
-  const Cells cells(joined);
-  const auto areIn = [&](const std::vector<filters::Point>& places)
-  {
-    filters::OpenFaces::Flags are;
-    std::transform(places.begin(), places.end(), std::back_inserter(are),
-      [&](const filters::Point& place)
-      { return (isInCell ? isInCell(place) : cells.hold(place)) ? 1 : 0; });
-    return are;
-  };
   if (isInCell)
   {
+    const auto areIn = [&](const std::vector<filters::Point>& places)
+    {
+      filters::OpenFaces::Flags are;
+      std::transform(places.begin(), places.end(), std::back_inserter(are),
+        [&](const filters::Point& place) { return isInCell(place) ? 1 : 0; });
+      return are;
+    };
     const auto middles = areIn(open.middles());
     open.removeCovered(middles, areIn(open.corners(middles)));
   }
-  return { open.boundary(outside), bodies, outside, areIn };
+  return { open.boundary(outside), bodies, outside };
 }
 
 inline Areas areasOf(const std::vector<Data>& leaves, Outside outside = Outside::Auto)
