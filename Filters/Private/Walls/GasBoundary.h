@@ -53,6 +53,14 @@ public:
   /// Returns the points that show what is in a box without faces: its middle and its corners, of
   /// the part within the bounds of the data.
   static std::array<Point, 9> testedPlaces(const schlieren::Box& box, const schlieren::Box& bounds);
+  /// Bodies that have no cells, as OutsidePlaces have decided.
+  struct Decided
+  {
+    int bodies, open; ///< all, and those that reach a side of the mesh's box
+    bool isAlone;     ///< nothing else stops light
+  };
+  Decided decided() const;
+
   /// Returns whether any of the Bodies meets a box.
   bool hasBodiesIn(const schlieren::Box& box) const;
 

@@ -79,3 +79,51 @@ TEST(OutsidePlaces, TurnedMeshesAreRightButForKnownOnes)
 {
   EXPECT_EQ(wrongOf(shapes::inSpace(), 30), knownInSpace);
 }
+
+// The floor rises; all below it is beyond the box's low side or passes.
+TEST(OutsidePlaces, NothingBendsLightBesideAnObliqueBoundary)
+{
+  for (const double degrees : { 35., 45., 50. })
+  {
+    const double slope = std::tan(degrees * pi / 180);
+    auto mesh = curvilinear(161, 61, 3,
+      [&](double i, double j, double k)
+      {
+        const double x = -0.02 + 0.22 * i, floor = slope * std::max(0., x);
+        return Vec{ x, floor + j * (0.3 - floor), 0.05 * k - 0.025 };
+      });
+    addPointArray(mesh, "rho",
+      [](const Vec& x) { return 1.2 + 0.5 * std::sin(200 * x[0] + 100 * x[1]) * (1 + x[2]); });
+    vtkNew<vtkSchlierenFilter> filter;
+    filter->SetInputData(mesh);
+    filter->SetInputArrayToProcess(
+      vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
+    const auto pixelsBelow = [&](vtkSchlierenFilter::OutsideModes outside, const char* array)
+    {
+      filter->SetOutside(outside);
+      filter->Update();
+      auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+      const std::vector<double> values = valuesOf(filter, array);
+      const std::size_t components =
+        values.size() / static_cast<std::size_t>(image->GetNumberOfPoints());
+      int found = 0, below = 0;
+      for (vtkIdType p = 0; p < image->GetNumberOfPoints(); ++p)
+      {
+        const double* x = image->GetPoint(p);
+        if (x[0] > 0.005 && x[0] < 0.199 && x[1] > 0.001 && x[1] < slope * x[0] - 0.0025)
+        {
+          ++below;
+          found += std::abs(values[static_cast<std::size_t>(p) * components]) > 1e-9 ? 1 : 0;
+        }
+      }
+      EXPECT_GT(below, 1000);
+      return static_cast<double>(found) / below;
+    };
+    EXPECT_EQ(pixelsBelow(vtkSchlierenFilter::OUTSIDE_PASSES, "Deflection"), 0) << degrees;
+    EXPECT_EQ(pixelsBelow(vtkSchlierenFilter::OUTSIDE_AUTO, "BlockedFraction"), 1) << degrees;
+    const std::string status = filter->GetStatus();
+    EXPECT_NE(
+      status.find(" % of the image is blocked where no cell is (Outside)"), std::string::npos)
+      << status;
+  }
+}
