@@ -19,7 +19,7 @@ constexpr double cosineOfGentle = 0.643; // 50 degrees
 constexpr double sineOfFlat = 1e-4;
 constexpr double leastOfLargest = 0.01; // area
 constexpr std::size_t mostSides = 30;   // that are looked at
-constexpr double mostOfWedge = 0.34;    // sine of 20 degrees
+constexpr double mostOfWedge = 0.5;     // sine of 30 degrees
 constexpr double acrossFirst = 0.1;     // cosine of the angle of the second axis
 constexpr double rounded = 1e-11;       // 1 - cosine, and of areas
 constexpr std::array<Point, 3> coordinateAxes{ Point{ 1, 0, 0 }, Point{ 0, 1, 0 },

@@ -40,7 +40,7 @@ public:
   /// Returns whether a triangle is in a side.
   bool isIn(const PlaneSide& side, std::size_t triangle) const;
   /// Returns whether all points are in one or both of the first two sides, which meet in an axis at
-  /// less than 20 degrees.
+  /// less than 30 degrees.
   bool isWedge(const std::vector<PlaneSide>& sides) const;
 
   /// Calls visit(one, other) for triangles at the same edge.
