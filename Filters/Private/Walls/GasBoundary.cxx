@@ -213,8 +213,7 @@ void GasBoundary::sample(const schlieren::Lattice& lattice, const unsigned char*
   }
   sampling.run(
     isInCell, isInBody, [&](const Point& place) { return this->kindAt(place, false); },
-    [&](const Point& place) { return this->IsAuto && this->Outer->isBeyond(place); }, places,
-    distances);
+    this->IsAuto ? &*this->Outer : nullptr, places, distances);
 }
 
 } // namespace filters

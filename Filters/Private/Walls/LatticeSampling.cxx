@@ -185,8 +185,8 @@ void LatticeSampling::spread(std::vector<Index>& known)
   known.clear();
 }
 
-void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt,
-  const std::function<bool(const Point&)>& isBeyond)
+void LatticeSampling::findKinds(
+  const std::function<Place(const Point&)>& kindAt, const OutsidePlaces* decided)
 {
   this->findGaps();
   if (std::find(this->States.begin(), this->States.end(), Unknown) == this->States.end())
@@ -199,28 +199,24 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
     return Point{ lattice.first[0] + at.i * lattice.spacing[0],
       lattice.first[1] + at.j * lattice.spacing[1], lattice.first[2] + at.k * lattice.spacing[2] };
   };
-  const auto find = [&](std::size_t p, const Index& at)
-  {
-    if (this->States[p] == Unknown)
-    {
-      this->States[p] = kindAt(pointAt(at)) == Place::Wall ? InWall : InWindow;
-    }
-  };
+  const auto stateOf = [](Place place) { return place == Place::Wall ? InWall : InWindow; };
   std::vector<Index> known;
   this->forPoints(
     [&](const Index& at)
     {
       const std::size_t p = this->numberOf(at);
-      if (this->States[p] != InGas && this->Distances[p] < -smallest)
+      const Point point = pointAt(at);
+      if (this->States[p] == Unknown && decided)
       {
-        if (isBeyond(pointAt(at)))
-        {
-          find(p, at);
-        }
-        else if (this->States[p] != Unknown)
-        {
-          known.push_back(at);
-        }
+        const std::optional<Place> place = decided->at(point);
+        this->States[p] = place ? stateOf(*place) : Unknown;
+      }
+      const bool isKnown =
+        this->States[p] != InGas && this->States[p] != Unknown && this->Distances[p] < -smallest;
+      // Beyond the mesh no face divides what is beside a body from the body.
+      if (isKnown && !(decided && decided->isBeyond(point)))
+      {
+        known.push_back(at);
       }
     });
   this->spread(known);
@@ -230,7 +226,7 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
       const std::size_t p = this->numberOf(at);
       if (this->States[p] == Unknown)
       {
-        find(p, at);
+        this->States[p] = stateOf(kindAt(pointAt(at)));
         known.push_back(at);
         this->spread(known);
       }
@@ -238,11 +234,11 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
 }
 
 void LatticeSampling::run(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody,
-  const std::function<Place(const Point&)>& kindAt,
-  const std::function<bool(const Point&)>& isBeyond, Place* places, float* distances)
+  const std::function<Place(const Point&)>& kindAt, const OutsidePlaces* decided, Place* places,
+  float* distances)
 {
   this->measure(isInCell, isInBody);
-  this->findKinds(kindAt, isBeyond);
+  this->findKinds(kindAt, decided);
   if (this->Fields[Wall] || this->Fields[Body])
   {
     this->thickenPlates();
