@@ -290,7 +290,6 @@ void OutsidePlaces::findBodiesWithin()
     this->Kinds[n] = Kind::Passes;
   }
   std::vector<std::size_t> found;
-  int rims = 1;
   for (std::size_t n = 0; n < this->count(); ++n)
   {
     const std::size_t part = parts[n];
@@ -306,19 +305,21 @@ void OutsidePlaces::findBodiesWithin()
   {
     this->Kinds[n] = Kind::BodyWithin;
   }
-  // The hull cuts places whose middles are beyond it, and faces look farther.
-  for (std::size_t i = 0, end = found.size(); i < end; ++i)
+  // The hull cuts places whose middles are beyond it, and faces look one farther.
+  for (int rim = 0; rim < 2; ++rim)
   {
-    this->forNeighbours(found[i],
-      [&](std::size_t, std::size_t beside)
-      {
-        if (this->Kinds[beside] == Kind::Passes)
+    for (std::size_t i = 0, end = found.size(); i < end; ++i)
+    {
+      this->forNeighbours(found[i],
+        [&](std::size_t, std::size_t beside)
         {
-          this->Kinds[beside] = Kind::BodyWithin;
-          found.push_back(beside);
-        }
-      });
-    end = i + 1 == end && rims-- > 0 ? found.size() : end;
+          if (this->Kinds[beside] == Kind::Passes)
+          {
+            this->Kinds[beside] = Kind::BodyWithin;
+            found.push_back(beside);
+          }
+        });
+    }
   }
 }
 
@@ -362,13 +363,11 @@ std::array<bool, 2> OutsidePlaces::beyondSides(const Point& own, double toleranc
   bool isBeyond = false, isOpen = false;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const bool areBeyond[2] = { own[axis]<this->Low[axis] - tolerance, own[axis]> this->High[axis] +
-      tolerance };
-    for (std::size_t i = 0; i < 2; ++i)
-    {
-      isBeyond = isBeyond || areBeyond[i];
-      isOpen = isOpen || (areBeyond[i] && !this->AreClosed[2 * axis + i]);
-    }
+    const bool isBelow = own[axis] < this->Low[axis] - tolerance;
+    const bool isAbove = own[axis] > this->High[axis] + tolerance;
+    isBeyond = isBeyond || isBelow || isAbove;
+    isOpen = isOpen || (isBelow && !this->AreClosed[2 * axis]) ||
+      (isAbove && !this->AreClosed[2 * axis + 1]);
   }
   return { isBeyond, isOpen };
 }
