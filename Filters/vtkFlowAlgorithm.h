@@ -268,10 +268,10 @@ public:
 
   ///@{
   /// Light in regions of the data's bounding box that no cell covers, one of OutsideModes:
-  /// - OUTSIDE_AUTO (the default): bodies that the mesh leaves out stop it; outside of the mesh's
-  ///   outer boundary it goes straight on. A body is a hole that the mesh encloses, or that reaches
-  ///   the bounding box only at plane sides that the mesh reaches, too, such as a symmetry plane or
-  ///   a tunnel's floor.
+  /// - OUTSIDE_AUTO (the default): places that hang together are treated alike. They are a body,
+  ///   which stops light, if the mesh encloses them, or if they reach the sides of the mesh's box
+  ///   only at sides in which the mesh has flat faces, too, such as a symmetry plane or a tunnel's
+  ///   floor. Otherwise light goes straight on.
   /// - OUTSIDE_BLOCKS: all such regions stop it.
   /// - OUTSIDE_PASSES: all of them let it pass. Give the surfaces of bodies to make them solid.
   ///

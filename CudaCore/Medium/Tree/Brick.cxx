@@ -177,15 +177,16 @@ void BrickMaker<Real>::makeOf(const BrickRequest& request, Outline& outline,
   brick.kind = Leaf<Real>::Samples;
   const bool hasEdge = outline.hasEdges && findEdges(place, content, samples, brick);
   BrickFacts& facts = brick.facts;
+  if (hasEdge && !facts.hasWallEdge && facts.besideWindow == 0)
+  {
+    // The cells know of gas that no sample has met, or only those around: without its map, all of the
+    // node would be gas.
+    facts.besideWindow =
+      deflectionByRange * std::max(std::abs(outline.lowest), std::abs(outline.highest));
+    facts.ofWindow = samples.hasGas() ? 0 : facts.besideWindow;
+  }
   if (!samples.hasGas())
   {
-    if (hasEdge && !facts.hasWallEdge)
-    {
-      // The cells know of gas that no sample has met.
-      facts.besideWindow =
-        deflectionByRange * std::max(std::abs(outline.lowest), std::abs(outline.highest));
-      facts.ofWindow = facts.besideWindow;
-    }
     brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
     return;
   }
@@ -199,15 +200,16 @@ void BrickMaker<Real>::makeOf(const BrickRequest& request, Outline& outline,
   findErrors(place, content, samples, hasEdge && !samples.isGas.empty(), facts);
   facts.difference = samples.highest - samples.lowest;
   facts.range = deflectionByRange * facts.difference;
+  const bool isGas = brick.kind == Leaf<Real>::Samples || brick.kind == Leaf<Real>::Mixed;
   if (facts.range <= negligible.deflection)
   {
     facts.neglected = std::max(facts.neglected, facts.range);
     facts.largestNu = std::max(std::abs(samples.lowest), std::abs(samples.highest));
-    brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
+    brick.offset = isGas ? static_cast<Real>(0.5 * (samples.lowest + samples.highest)) : Real(0);
     brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
     return;
   }
-  if (brick.kind == Leaf<Real>::Samples || brick.kind == Leaf<Real>::Mixed)
+  if (isGas)
   {
     brick.offset = static_cast<Real>(0.5 * (samples.lowest + samples.highest));
     const CoefficientRule rule{ rules_.interpolation == Interpolation::Cubic ? 1. / 6 : 1. / 8,

@@ -64,14 +64,6 @@ public:
   /// the one whose plane is most distant, which faces the point most. -1: there are none.
   int nearest(const Point& place) const;
 
-  /// Returns whether a corner x of any triangle has dot(normal, x) > offset.
-  bool hasBeyond(const Point& normal, double offset) const;
-
-  /// Prepares isBehindAny().
-  void findPlanes();
-  /// Returns whether a point is behind the plane of any triangle, opposite to its normal.
-  bool isBehindAny(const Point& place) const;
-
 private:
   struct Node
   {
@@ -80,45 +72,8 @@ private:
       first; // in Order; inner nodes: the second child, the first one being the next node
     std::int32_t count; // 0: an inner node
   };
-  /// Bounds the planes of a node's triangles.
-  struct Planes
-  {
-    Point low, high; // of the unit normals
-    double offset;   // the largest dot(normal, corner - Centre)
-  };
   static constexpr std::int32_t maxInLeaf = 4;
 
-  /// Calls enter(node, its number), which returns whether to continue below it, and visit(triangle) for
-  /// those of leaves until it returns true. Returns whether it has.
-  template <class Enter, class Visit>
-  bool walk(const Enter& enter, const Visit& visit) const
-  {
-    std::int32_t stack[64];
-    int waiting = 0;
-    stack[waiting++] = 0;
-    while (waiting > 0 && !this->Nodes.empty())
-    {
-      const std::int32_t number = stack[--waiting];
-      const Node& node = this->Nodes[static_cast<std::size_t>(number)];
-      if (!enter(node, static_cast<std::size_t>(number)))
-      {
-        continue;
-      }
-      if (node.count == 0)
-      {
-        stack[waiting++] = node.first;
-        stack[waiting++] = number + 1;
-      }
-      for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-      {
-        if (visit(this->Order[static_cast<std::size_t>(i)]))
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
   void build(std::int32_t begin, std::int32_t end, const std::vector<Point>& centres);
   void around(std::int32_t triangle, Node& node) const;
   static bool meets(const Point& low, const Point& high, const schlieren::Box& box)
@@ -130,8 +85,6 @@ private:
   const Triangles& Surface;
   std::vector<Node> Nodes;
   std::vector<std::int32_t> Order;
-  std::vector<Planes> PlanesOfNodes; // empty: not prepared
-  Point Centre{};
 };
 
 /// Returns the square of a point's distance to a triangle.
@@ -146,17 +99,33 @@ bool meets(const Triangles& surface, std::size_t triangle, const schlieren::Box&
 template <class Visit>
 void TriangleTree::forTrianglesAt(const schlieren::Box& box, const Visit& visit) const
 {
-  this->walk([&](const Node& node, std::size_t) { return meets(node.low, node.high, box); },
-    [&](std::int32_t triangle)
+  std::int32_t stack[64];
+  int waiting = 0;
+  stack[waiting++] = 0;
+  while (waiting > 0 && !this->Nodes.empty())
+  {
+    const std::int32_t number = stack[--waiting];
+    const Node& node = this->Nodes[static_cast<std::size_t>(number)];
+    if (!meets(node.low, node.high, box))
     {
+      continue;
+    }
+    if (node.count == 0)
+    {
+      stack[waiting++] = node.first;
+      stack[waiting++] = number + 1;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      const std::int32_t triangle = this->Order[static_cast<std::size_t>(i)];
       Node own;
       this->around(triangle, own);
       if (meets(own.low, own.high, box))
       {
         visit(triangle);
       }
-      return false;
-    });
+    }
+  }
 }
 
 } // namespace filters

@@ -8,11 +8,14 @@
 #include "Guarded.h"
 #include "Image/ImageLegend.h"
 #include "Image/ImageOutput.h"
+#include "Image/ImageStatus.h"
 #include "Image/Preview.h"
 #include "Image/RealOptics.h"
 #include "Image/SceneFromSettings.h"
 #include "Input/InputDescription.h"
 #include "Sources/FieldTints.h"
+#include "Sources/PieceSource.h"
+#include "Sources/RevolvedSource.h"
 
 #include "vtkCommand.h"
 #include "vtkPiecewiseFunction.h"
@@ -39,6 +42,14 @@ void requireMemoryFor(const schlieren::View& view, bool isColored, bool hasBackg
   requireMemory(bytes * std::max(0., width) * std::max(0., height),
     "An image of " + std::to_string(view.width) + " x " + std::to_string(view.height) + " pixels",
     "Give a smaller ImageSize.");
+}
+
+/// What has been decided of places without cells; nothing is of images.
+GasBoundary::Decided decidedIn(const schlieren::MediumSource* source)
+{
+  const auto* revolved = dynamic_cast<const RevolvedSource*>(source);
+  const auto* piece = dynamic_cast<const PieceSource*>(revolved ? revolved->section() : source);
+  return piece ? piece->boundary().decided() : GasBoundary::Decided{ 0, 0, true };
 }
 
 } // namespace
@@ -306,8 +317,17 @@ bool vtkSchlierenFilter::Show(
   }
   const schlieren::Scene& scene = inside.Images.GetScene();
   const bool isWhole = image.width == this->ImageSize[0] && image.height == this->ImageSize[1];
+  const GasBoundary::Decided decided = decidedIn(inside.Refractivity->Source.get());
+  const std::string outside = decided.bodies > 0 ? outsideInWords(image, decided.isAlone) : "";
   if (isWhole) // of a preview the whole image will say it
   {
+    if (!outside.empty() && decided.open > 0 && !std::exchange(inside.HasNotedOutside, true))
+    {
+      vtkWarningMacro(<< outside
+                      << ": a place that the mesh leaves out and that reaches the mesh's box only "
+                         "where the mesh has flat sides is taken for a body. If it is none, set "
+                         "Outside to Passes, and give bodies as Bodies.");
+    }
     for (const std::string& warning : inside.Images.GetWarnings(image))
     {
       vtkWarningMacro(<< warning);
@@ -322,7 +342,8 @@ bool vtkSchlierenFilter::Show(
   // Waves are made of a finished image.
   const bool isStillOfRays = this->LightModel == LIGHT_WAVES && (!isWhole || !image.finished);
   this->Status = std::string(isWhole ? "" : "Preview: ") + (isStillOfRays ? "rays as yet, " : "") +
-    inside.Images.GetStatus(image) + (isKept ? ", " + kInWords(image.kScale, isKept) : "");
+    inside.Images.GetStatus(image) + (outside.empty() ? "" : ", " + outside) +
+    (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(*this, image.kScale, isKept);
   ++this->PictureCount;

@@ -61,6 +61,7 @@ struct vtkSchlierenFilter::Internals
   schlieren::Lens Pupil; // of a view's camera, where it has an aperture
   std::shared_ptr<const MadeRefractivity> Refractivity = std::make_shared<MadeRefractivity>();
   std::string Grid; // text about the grid of a source
+  bool HasNotedOutside = false;
 
   static schlieren::Field fieldOf(const MadeRefractivity& made)
   {

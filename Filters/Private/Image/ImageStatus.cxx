@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace filters
 {
@@ -125,6 +126,16 @@ std::string wavesInWords(const schlieren::Image& image)
     : ratio < hidesLittle                                ? "waves, which matter: " + widths
     : ratio < schlieren::blurThatHidesWaves ? "waves, which matter at edges and caustics: " + widths
                                             : "waves, but rays would suffice: " + widths;
+}
+
+std::string outsideInWords(const schlieren::Image& image, bool isAlone)
+{
+  const double sum =
+    std::accumulate(image.blockedFraction.begin(), image.blockedFraction.end(), 0.);
+  const double share = sum / std::max(1., static_cast<double>(image.blockedFraction.size()));
+  return share < 0.001 ? ""
+                       : textOf(100 * share, 2) + " % of the image is blocked " +
+      (isAlone ? "" : "by solids and ") + "where no cell is (Outside)";
 }
 
 std::string statusInWords(

@@ -23,6 +23,9 @@ std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::S
 /// Says whether waves matter to an image whose LightModel is not Rays; empty for others.
 std::string wavesInWords(const schlieren::Image& image);
 
+/// Says how much light is blocked where no cell is; empty for less than a thousandth.
+std::string outsideInWords(const schlieren::Image& image, bool isAlone);
+
 /// Describes an image in one line: samples, the time that missing ones take, speed, device
 /// and accuracy of its rays, and the error that a target has led to.
 /// `raysPerSecond`: 0 if unknown.

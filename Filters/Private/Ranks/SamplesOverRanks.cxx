@@ -116,7 +116,7 @@ SamplesOverRanks::OwnContent SamplesOverRanks::ownContentOf(const schlieren::Box
   if (this->Own.cells > 0 && meet(box, this->Own.bounds))
   {
     own.cells = this->piece().contentOf(box);
-    const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
+    const std::array<Point, 9> tested = GasBoundary::testedPlaces(box, this->bounds());
     for (std::size_t n = 0; n < tested.size(); ++n)
     {
       own.holds[n] = this->piece().holds(tested[n]) ? 1 : 0;

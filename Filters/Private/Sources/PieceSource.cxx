@@ -59,15 +59,20 @@ schlieren::MediumSource::Content PieceSource::contentFrom(const schlieren::Box& 
   }
   else
   {
-    // A box without a boundary is all gas or not; outside may be mixed.
-    const std::array<Point, 9> tested = GasBoundary::testedPlaces(box);
-    for (std::size_t n = 0; n < tested.size() && !content.hasGas; ++n)
+    // A box without a boundary is all gas or not, though cells hold places a little beside them;
+    // outside may be mixed.
+    const std::array<Point, 9> tested = GasBoundary::testedPlaces(box, this->bounds());
+    std::array<int, 3> counts{};
+    for (std::size_t n = 0; n < tested.size(); ++n)
     {
       const schlieren::Place found = this->Boundary->kindAt(tested[n], holds(n, tested[n]));
-      content.hasGas = found == schlieren::Place::Gas;
-      content.hasWall = content.hasWall || found == schlieren::Place::Wall;
-      content.hasWindow = content.hasWindow || found == schlieren::Place::Window;
+      ++counts[static_cast<std::size_t>(found)];
     }
+    const auto count = [&](schlieren::Place place)
+    { return counts[static_cast<std::size_t>(place)]; };
+    content.hasGas = 2 * count(schlieren::Place::Gas) > static_cast<int>(tested.size());
+    content.hasWall = count(schlieren::Place::Wall) > 0;
+    content.hasWindow = count(schlieren::Place::Window) > 0;
   }
   if (content.hasGas)
   {

@@ -29,6 +29,7 @@ public:
     const std::optional<DataPiece::Facts>& facts = {});
 
   bool hasGas() const { return this->All.cells > 0; }
+  const GasBoundary& boundary() const { return *this->Boundary; }
   /// Returns whether bodies meet the bounds.
   bool meetsBodies() const { return this->Boundary->hasBodiesIn(this->bounds()); }
 

@@ -22,6 +22,8 @@ public:
   RevolvedSource(
     std::shared_ptr<const schlieren::MediumSource> section, const Revolution& revolution);
 
+  const schlieren::MediumSource* section() const { return this->Section.get(); }
+
   schlieren::Box bounds() const override { return this->Of.box(); }
   double ambient() const override { return this->Section->ambient(); }
   std::array<double, 3> voxelShape() const override;

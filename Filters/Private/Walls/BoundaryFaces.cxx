@@ -241,6 +241,10 @@ void OpenFaces::removePairs(const std::vector<std::int32_t>& before)
       const int side = isVisible[0] ? 0 : 1;
       this->Open.push_back(this->openFaceOf(owner[side], isHidden[1 - side]));
     }
+    else if (!isVisible[0] && isHidden[0] != isHidden[1])
+    {
+      this->Hidden.push_back(this->openFaceOf((first - 1)->face, true));
+    }
     else if (isVisible[0] && this->isSheet(before, owner[0], owner[1]))
     {
       this->Sheets.push_back(this->openFaceOf(owner[0], false));
@@ -317,22 +321,34 @@ BoundaryFaces OpenFaces::boundary(Outside outside) const
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkUnsignedCharArray> hides;
   hides->SetName("hides");
+  const auto numberOf = [&](std::int32_t corner)
+  {
+    const auto from = static_cast<std::size_t>(corner);
+    if (numbers[from] < 0)
+    {
+      numbers[from] = static_cast<std::int32_t>(result.surface.points.size());
+      result.origins.push_back(faces.origins[from]);
+      result.surface.points.push_back(faces.points[from]);
+      points->InsertNextPoint(faces.points[from].data());
+    }
+    return numbers[from];
+  };
   for (const Face* face : kept)
   {
     polygons->InsertNextCell(static_cast<int>(face->corners.size()));
     for (const std::int32_t corner : face->corners)
     {
-      const auto from = static_cast<std::size_t>(corner);
-      if (numbers[from] < 0)
-      {
-        numbers[from] = static_cast<std::int32_t>(result.surface.points.size());
-        result.origins.push_back(faces.origins[from]);
-        result.surface.points.push_back(faces.points[from]);
-        points->InsertNextPoint(faces.points[from].data());
-      }
-      polygons->InsertCellPoint(numbers[from]);
+      polygons->InsertCellPoint(numberOf(corner));
     }
     hides->InsertNextValue(face->hidesBehind ? 1 : 0);
+  }
+  for (const Face& face : this->Hidden)
+  {
+    for (std::size_t i = 2; i < face.corners.size(); ++i)
+    {
+      result.ends.push_back(
+        { numberOf(face.corners[0]), numberOf(face.corners[i - 1]), numberOf(face.corners[i]) });
+    }
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);

@@ -19,7 +19,7 @@ namespace filters
 /// Treatment of boundaries of the gas.
 enum class Outside
 {
-  Auto,   ///< bodies and sheets are walls, outer boundaries are not: see findOuter()
+  Auto,   ///< bodies and sheets are walls, outer boundaries are not: see OutsidePlaces
   Blocks, ///< all boundaries are walls
   Passes  ///< only hidden cells and Bodies are walls
 };
@@ -38,6 +38,7 @@ struct BoundaryFaces
   Triangles surface;                      ///< normals point into the gas
   std::vector<LeafPoint> origins;         ///< of its points
   std::vector<unsigned char> hidesBehind; ///< of each triangle: whether a hidden cell is behind it
+  std::vector<Triangles::Corners> ends;   ///< of hidden cells, where no cell follows
   Extent extent = Extent::Volume;
 };
 
@@ -101,7 +102,7 @@ private:
   Faces All;
   Extent Ends;
   double Rounding; // see relativeRounding()
-  std::vector<Face> Open, Sheets;
+  std::vector<Face> Open, Sheets, Hidden;
 };
 
 /// Returns the scalars at points of these leaves, or of others on the same mesh.

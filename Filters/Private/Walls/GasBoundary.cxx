@@ -3,9 +3,7 @@
 #include "Walls/GasBoundary.h"
 
 #include "Common/WeightedMedian.h"
-#include "Input/CoincidentPoints.h"
 #include "Walls/LatticeSampling.h"
-#include "Walls/OuterFaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,50 +18,22 @@ GasBoundary::GasBoundary(
   : Faces(std::move(faces))
   , Tree(this->Faces.surface)
   , Walls(this->Faces.surface.size(), 0)
+  , IsAuto(outside == Outside::Auto)
   , Far(outside == Outside::Blocks ? Place::Wall : Place::Window)
   , Bodies(bodies ? std::make_unique<BodySurfaces>(bodies) : nullptr)
 {
   progress.reach(0.5);
-  this->IsOuter = findOuter(this->Faces.surface, this->Tree,
-    relativeRounding(this->Faces.surface.points), this->Faces.extent == Extent::Layer ? 2 : 3);
+  if (this->IsAuto || !this->Faces.origins.empty())
+  {
+    this->Outer.emplace(this->Faces);
+  }
   for (std::size_t t = 0; t < this->Walls.size(); ++t)
   {
     const bool isWall = this->Faces.hidesBehind[t] || outside == Outside::Blocks ||
-      (outside == Outside::Auto && !this->IsOuter[t]);
+      (this->IsAuto && !this->Outer->isOuter(t));
     this->Walls[t] = isWall ? 1 : 0;
   }
-  if (outside == Outside::Auto)
-  {
-    this->findWindows();
-  }
   progress.reach(1);
-}
-
-void GasBoundary::findWindows()
-{
-  this->Windows.points = this->Faces.surface.points;
-  for (std::size_t t = 0; t < this->Walls.size(); ++t)
-  {
-    if (!this->Walls[t])
-    {
-      this->Windows.corners.push_back(this->Faces.surface.corners[t]);
-    }
-  }
-  this->TreeOfWindows = std::make_unique<TriangleTree>(this->Windows);
-  this->TreeOfWindows->findPlanes();
-}
-
-bool GasBoundary::isBeyondAll(const Point& place) const
-{
-  // Skips the search from points that all windows surround at similar distances, which would be
-  // slow.
-  if (!this->TreeOfWindows || !this->TreeOfWindows->isBehindAny(place))
-  {
-    return false;
-  }
-  const int nearest = this->TreeOfWindows->nearest(place);
-  const auto t = static_cast<std::size_t>(nearest);
-  return dot(this->Windows.normal(t), place - this->Windows.corner(t, 0)) < 0;
 }
 
 double GasBoundary::ambient(const std::vector<vtkDataSet*>& leaves) const
@@ -79,7 +49,7 @@ double GasBoundary::ambient(const std::vector<double>& values) const
   {
     for (std::size_t t = 0; t < surface.size(); ++t)
     {
-      if (ofAll || (this->IsOuter[t] && !this->Faces.hidesBehind[t]))
+      if (ofAll || (this->Outer && this->Outer->isOuter(t) && !this->Faces.hidesBehind[t]))
       {
         std::array<double, 3> ofCorners;
         std::transform(surface.corners[t].begin(), surface.corners[t].end(), ofCorners.begin(),
@@ -165,18 +135,29 @@ bool GasBoundary::areWallsFlatNear(const schlieren::Box& box) const
   return isFlat;
 }
 
-std::array<Point, 9> GasBoundary::testedPlaces(const schlieren::Box& box)
+std::array<Point, 9> GasBoundary::testedPlaces(
+  const schlieren::Box& box, const schlieren::Box& bounds)
 {
   std::array<Point, 9> places{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    places[0][axis] = 0.5 * (box.low[axis] + box.high[axis]);
+    const double low = std::clamp(box.low[axis], bounds.low[axis], bounds.high[axis]);
+    const double high = std::clamp(box.high[axis], bounds.low[axis], bounds.high[axis]);
+    places[0][axis] = 0.5 * (low + high);
     for (unsigned corner = 0; corner < 8; ++corner)
     {
-      places[corner + 1][axis] = ((corner >> axis) & 1u) != 0 ? box.high[axis] : box.low[axis];
+      places[corner + 1][axis] = ((corner >> axis) & 1u) != 0 ? high : low;
     }
   }
   return places;
+}
+
+GasBoundary::Decided GasBoundary::decided() const
+{
+  const auto& hide = this->Faces.hidesBehind;
+  const bool isAlone = !this->Bodies && std::count(hide.begin(), hide.end(), 1) == 0;
+  return this->IsAuto ? Decided{ this->Outer->bodies(), this->Outer->openBodies(), isAlone }
+                      : Decided{ 0, 0, isAlone };
 }
 
 bool GasBoundary::hasBodiesIn(const schlieren::Box& box) const
@@ -202,14 +183,14 @@ GasBoundary::Place GasBoundary::kindAt(const Point& place, bool isInCell) const
   {
     return Place::Gas;
   }
-  const int nearest = this->Tree.nearest(place);
-  if (nearest < 0)
+  if (const std::optional<Place> kind = this->IsAuto ? this->Outer->at(place) : std::nullopt)
   {
-    return this->Far;
+    return *kind;
   }
-  return this->Walls[static_cast<std::size_t>(nearest)] && !this->isBeyondAll(place)
-    ? Place::Wall
-    : Place::Window;
+  const int nearest = this->Tree.nearest(place);
+  return nearest < 0                                 ? this->Far
+    : this->Walls[static_cast<std::size_t>(nearest)] ? Place::Wall
+                                                     : Place::Window;
 }
 
 void GasBoundary::sample(const schlieren::Lattice& lattice, const unsigned char* isInCell,
@@ -231,8 +212,8 @@ void GasBoundary::sample(const schlieren::Lattice& lattice, const unsigned char*
     }
   }
   sampling.run(
-    isInCell, isInBody, [&](const Point& place) { return this->kindAt(place, false); }, places,
-    distances);
+    isInCell, isInBody, [&](const Point& place) { return this->kindAt(place, false); },
+    this->IsAuto ? &*this->Outer : nullptr, places, distances);
 }
 
 } // namespace filters

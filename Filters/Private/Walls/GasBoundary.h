@@ -7,9 +7,11 @@
 #include "Schlieren.h"
 #include "Walls/BodySurfaces.h"
 #include "Walls/BoundaryFaces.h"
+#include "Walls/OutsidePlaces.h"
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 class vtkDataObject;
@@ -48,14 +50,22 @@ public:
   /// Returns whether all faces in and near a box are in one plane of a wall; false for sheets, whose
   /// voxels depend on the voxel size.
   bool areWallsFlatNear(const schlieren::Box& box) const;
-  /// Returns the points that show what is in a box without faces: its middle and its corners.
-  static std::array<Point, 9> testedPlaces(const schlieren::Box& box);
+  /// Returns the points that show what is in a box without faces: its middle and its corners, of
+  /// the part within the bounds of the data.
+  static std::array<Point, 9> testedPlaces(const schlieren::Box& box, const schlieren::Box& bounds);
+  /// Bodies that have no cells, as OutsidePlaces have decided.
+  struct Decided
+  {
+    int bodies, open; ///< all, and those that reach a side of the mesh's box
+    bool isAlone;     ///< nothing else stops light
+  };
+  Decided decided() const;
+
   /// Returns whether any of the Bodies meets a box.
   bool hasBodiesIn(const schlieren::Box& box) const;
 
-  /// Returns the kind of a point, given whether a visible cell contains it. Outside, the nearest
-  /// face decides (or one at most a twentieth farther away); but points beyond the nearest window
-  /// are windows, even if the wall of a hole that opens there is nearer.
+  /// Returns the kind of a point, given whether a visible cell contains it. Outside, OutsidePlaces
+  /// decide with Outside::Auto, and otherwise, and near faces, the nearest face.
   Place kindAt(const Point& place, bool isInCell) const;
 
   /// Fills `places` and `distances` (may be null), see MediumSource::sample(), given the points in
@@ -74,16 +84,12 @@ public:
   bool isWall(std::size_t triangle) const { return this->Walls[triangle] != 0; }
 
 private:
-  void findWindows();
-  bool isBeyondAll(const Point& place) const;
-
   BoundaryFaces Faces;
   TriangleTree Tree;
-  std::vector<unsigned char> IsOuter; // of each triangle
   std::vector<unsigned char> Walls;   // of each triangle
-  Triangles Windows;                  // other triangles, with Outside::Auto
-  std::unique_ptr<TriangleTree> TreeOfWindows;
-  Place Far; // without any faces
+  std::optional<OutsidePlaces> Outer; // where they decide, or values are known
+  bool IsAuto;                        // they decide
+  Place Far;                          // without any faces
   std::unique_ptr<BodySurfaces> Bodies;
 };
 

@@ -185,109 +185,36 @@ void LatticeSampling::spread(std::vector<Index>& known)
   known.clear();
 }
 
-/// Sets the unknown points of a box of indices.
-void LatticeSampling::fill(const Index& low, const Index& high, State state)
-{
-  for (int k = low.k; k <= high.k; ++k)
-  {
-    for (int j = low.j; j <= high.j; ++j)
-    {
-      for (int i = low.i; i <= high.i; ++i)
-      {
-        unsigned char& of = this->States[this->numberOf({ i, j, k })];
-        if (of == Unknown)
-        {
-          of = state;
-        }
-      }
-    }
-  }
-}
-
-/// Finds the kinds of unknown points of a box of indices: that of its corners where these are of one
-/// kind, else part by part, because each test takes long.
-void LatticeSampling::findKindsIn(
-  const Index& low, const Index& high, const std::function<bool(const Index&)>& isWallAt)
-{
-  bool hasWall = false, hasWindow = false;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const Index at{ (corner & 1) != 0 ? high.i : low.i, (corner & 2) != 0 ? high.j : low.j,
-      (corner & 4) != 0 ? high.k : low.k };
-    unsigned char& state = this->States[this->numberOf(at)];
-    if (state == Unknown)
-    {
-      state = isWallAt(at) ? InWall : InWindow;
-    }
-    hasWall = hasWall || state == InWall;
-    hasWindow = hasWindow || state == InWindow;
-  }
-  if (hasWall != hasWindow)
-  {
-    this->fill(low, high, hasWall ? InWall : InWindow);
-    return;
-  }
-  const int lengths[3] = { high.i - low.i, high.j - low.j, high.k - low.k };
-  const auto longest = std::max_element(lengths, lengths + 3) - lengths;
-  if (lengths[longest] < 2)
-  {
-    return; // all are corners
-  }
-  Index below = high, above = low;
-  int Index::*const along = longest == 0 ? &Index::i : (longest == 1 ? &Index::j : &Index::k);
-  below.*along = above.*along = low.*along + lengths[longest] / 2;
-  this->findKindsIn(low, below, isWallAt);
-  this->findKindsIn(above, high, isWallAt);
-}
-
-void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt)
+void LatticeSampling::findKinds(
+  const std::function<Place(const Point&)>& kindAt, const OutsidePlaces* decided)
 {
   this->findGaps();
-  const auto hasAny = [&](State state)
-  { return std::find(this->States.begin(), this->States.end(), state) != this->States.end(); };
-  if (!hasAny(Unknown))
+  if (std::find(this->States.begin(), this->States.end(), Unknown) == this->States.end())
   {
     return;
   }
-  const schlieren::Lattice& lattice = this->Lattice;
-  const auto isWallAt = [&](const Index& at)
+  const auto pointAt = [&](const Index& at)
   {
-    return kindAt({ lattice.first[0] + at.i * lattice.spacing[0],
-             lattice.first[1] + at.j * lattice.spacing[1],
-             lattice.first[2] + at.k * lattice.spacing[2] }) == Place::Wall;
+    const schlieren::Lattice& lattice = this->Lattice;
+    return Point{ lattice.first[0] + at.i * lattice.spacing[0],
+      lattice.first[1] + at.j * lattice.spacing[1], lattice.first[2] + at.k * lattice.spacing[2] };
   };
-  const bool hasWall = hasAny(InWall), hasWindow = hasAny(InWindow);
-  if (!hasWall || !hasWindow)
-  {
-    // Counts the corners, most of which are of one kind.
-    int walls = hasWall ? 1 : 0, windows = hasWindow ? 1 : 0;
-    for (int corner = 0; corner < 8 && !hasWindow; ++corner)
-    {
-      const Index at{ (corner & 1) != 0 ? lattice.points[0] - 1 : 0,
-        (corner & 2) != 0 ? lattice.points[1] - 1 : 0,
-        (corner & 4) != 0 ? lattice.points[2] - 1 : 0 };
-      if (this->States[this->numberOf(at)] == Unknown)
-      {
-        ++(isWallAt(at) ? walls : windows);
-      }
-    }
-    const Index last{ lattice.points[0] - 1, lattice.points[1] - 1, lattice.points[2] - 1 };
-    if (walls == 0 || windows == 0)
-    {
-      this->fill({ 0, 0, 0 }, last, walls > 0 ? InWall : InWindow);
-    }
-    else
-    {
-      this->findKindsIn({ 0, 0, 0 }, last, isWallAt);
-    }
-    return;
-  }
+  const auto stateOf = [](Place place) { return place == Place::Wall ? InWall : InWindow; };
   std::vector<Index> known;
   this->forPoints(
     [&](const Index& at)
     {
       const std::size_t p = this->numberOf(at);
-      if (this->States[p] != InGas && this->States[p] != Unknown && this->Distances[p] < -smallest)
+      const Point point = pointAt(at);
+      if (this->States[p] == Unknown && decided)
+      {
+        const std::optional<Place> place = decided->at(point);
+        this->States[p] = place ? stateOf(*place) : Unknown;
+      }
+      const bool isKnown =
+        this->States[p] != InGas && this->States[p] != Unknown && this->Distances[p] < -smallest;
+      // Beyond the mesh no face divides what is beside a body from the body.
+      if (isKnown && !(decided && decided->isBeyond(point)))
       {
         known.push_back(at);
       }
@@ -299,7 +226,7 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
       const std::size_t p = this->numberOf(at);
       if (this->States[p] == Unknown)
       {
-        this->States[p] = isWallAt(at) ? InWall : InWindow;
+        this->States[p] = stateOf(kindAt(pointAt(at)));
         known.push_back(at);
         this->spread(known);
       }
@@ -307,10 +234,11 @@ void LatticeSampling::findKinds(const std::function<Place(const Point&)>& kindAt
 }
 
 void LatticeSampling::run(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody,
-  const std::function<Place(const Point&)>& kindAt, Place* places, float* distances)
+  const std::function<Place(const Point&)>& kindAt, const OutsidePlaces* decided, Place* places,
+  float* distances)
 {
   this->measure(isInCell, isInBody);
-  this->findKinds(kindAt);
+  this->findKinds(kindAt, decided);
   if (this->Fields[Wall] || this->Fields[Body])
   {
     this->thickenPlates();

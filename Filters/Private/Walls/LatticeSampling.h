@@ -4,6 +4,7 @@
 
 #include "Common/Triangles.h"
 #include "Walls/LatticeDistances.h"
+#include "Walls/OutsidePlaces.h"
 
 #include <array>
 #include <cstddef>
@@ -29,10 +30,12 @@ public:
   /// Adds surfaces in the gas. Returns whether any is within reach.
   bool addBodies(const Triangles& surface, const TriangleTree& tree);
 
-  /// Classifies all points. `isInBody`: empty if no point is. `kindAt` returns the kind of a point
-  /// outside, by faces beyond reach.
+  /// Classifies all points. `isInBody`: empty if no point is. Points outside and beyond reach of
+  /// faces are what is `decided` there (may be null), else as those beside them, else what `kindAt`
+  /// returns.
   void run(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody,
-    const std::function<Place(const Point&)>& kindAt, Place* places, float* distances);
+    const std::function<Place(const Point&)>& kindAt, const OutsidePlaces* decided, Place* places,
+    float* distances);
 
 private:
   // State of each point.
@@ -63,10 +66,7 @@ private:
   void add(Kind kind, const Triangles& surface, std::int32_t triangle);
   void measure(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody);
   bool isWallNearer(const Index& at, std::int32_t wall, std::int32_t window) const;
-  void fill(const Index& low, const Index& high, State state);
-  void findKindsIn(
-    const Index& low, const Index& high, const std::function<bool(const Index&)>& isWallAt);
-  void findKinds(const std::function<Place(const Point&)>& kindAt);
+  void findKinds(const std::function<Place(const Point&)>& kindAt, const OutsidePlaces* decided);
   void findGaps();
   void spread(std::vector<Index>& known);
   void thickenPlates();

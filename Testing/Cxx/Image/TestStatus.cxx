@@ -7,6 +7,7 @@
 
 #include "Schlieren.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -47,6 +48,18 @@ TEST(Status, SaysWhatIsKnownOfAImage)
   image.pathModel = schlieren::PathModel::Straight;
   EXPECT_EQ(
     statusInWords(image, scene, 4321).find("1 sample per pixel, 4321 rays/s on CUDA, "), 0u);
+}
+
+TEST(Status, SaysWhatIsBlockedWhereNoCellIs)
+{
+  schlieren::Image image;
+  image.blockedFraction = schlieren::PixelArray<float>(1000);
+  std::fill_n(image.blockedFraction.data(), 1000, 0.f);
+  EXPECT_EQ(outsideInWords(image, true), "");
+  std::fill_n(image.blockedFraction.data(), 120, 1.f);
+  EXPECT_EQ(outsideInWords(image, true), "12 % of the image is blocked where no cell is (Outside)");
+  EXPECT_EQ(outsideInWords(image, false),
+    "12 % of the image is blocked by solids and where no cell is (Outside)");
 }
 
 // What a target error has led to, in the technique's unit.

@@ -208,10 +208,10 @@ inline std::vector<Data> withSharedPoints(const std::vector<Data>& leaves)
 
 /// As for an image: points that coincide are one before.
 inline GasBoundary boundaryOfLeaves(const std::vector<vtkDataSet*>& leaves, vtkDataObject* bodies,
-  Outside outside, const CellTest& isInCell)
+  Outside outside, const CellTest& isInCell, filters::Extent extent = filters::Extent::Volume)
 {
   const std::vector<Data> joined = withSharedPoints({ leaves.begin(), leaves.end() });
-  filters::OpenFaces open(filters::facesOf(pointers(joined), filters::WorkProgress()));
+  filters::OpenFaces open(filters::facesOf(pointers(joined), filters::WorkProgress()), extent);
   if (isInCell)
   {
     const auto areIn = [&](const std::vector<filters::Point>& places)

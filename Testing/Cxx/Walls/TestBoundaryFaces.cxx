@@ -83,42 +83,6 @@ TEST(GasBoundary, TubeWithinAPipeIsAWall)
   expectAreasWherever(pipe, 0.2 * perimeter * 5, perimeter * 5 + 2 * area * 0.96);
 }
 
-// Its wall is not convex, and it is widest where a flat side is.
-TEST(GasBoundary, NozzleIsAllWindow)
-{
-  const auto nozzle = [](double inlet, double outlet)
-  {
-    return curvilinear(9, 33, 41,
-      [&](double r, double phi, double x)
-      {
-        const double radius =
-          r * (0.5 + (x < 0.5 ? inlet : outlet) * (1 - std::cos(2 * pi * (x - 0.5))));
-        return Vec{ 5 * x, radius * std::cos(2 * pi * phi), radius * std::sin(2 * pi * phi) };
-      });
-  };
-  for (const double outlet : { 0., 0.1, 0.25, 0.4 })
-  {
-    auto mesh = nozzle(0.25, outlet);
-    EXPECT_EQ(areasOf({ mesh }).wall, 0) << outlet;
-    turn(mesh);
-    EXPECT_EQ(areasOf({ mesh }).wall, 0) << outlet;
-  }
-}
-
-TEST(GasBoundary, ElbowIsAllWindow)
-{
-  auto elbow = curvilinear(9, 33, 31,
-    [](double r, double phi, double s)
-    {
-      const double radius = 3 + r * std::cos(2 * pi * phi);
-      return Vec{ radius * std::cos(pi / 2 * s), radius * std::sin(pi / 2 * s),
-        r * std::sin(2 * pi * phi) };
-    });
-  EXPECT_EQ(areasOf({ elbow }).wall, 0);
-  turn(elbow);
-  EXPECT_EQ(areasOf({ elbow }).wall, 0);
-}
-
 TEST(GasBoundary, StepInAChannelIsAWall)
 {
   for (const bool isForward : { true, false })
@@ -128,23 +92,6 @@ TEST(GasBoundary, StepInAChannelIsAWall)
     const double top = isForward ? 3 : 1;
     const double all = 2 * (4 * 2 + 4 * 1 + 2 * 1) - 2 * 0.5 * top;
     expectAreasWherever(asPoints(channel), top + 0.5, all - top - 0.5);
-  }
-}
-
-TEST(GasBoundary, BumpInAFloorIsAWall)
-{
-  auto channel = curvilinear(41, 21, 5,
-    [](double i, double j, double k)
-    {
-      const double x = 4 * i, floor = 0.1 * std::exp(-8 * (x - 2) * (x - 2));
-      return Vec{ x, floor + j * (2 - floor), k };
-    });
-  for (const bool isTurned : { false, true })
-  {
-    const Areas areas = areasOf({ channel });
-    EXPECT_GT(areas.wall, 1) << isTurned;
-    EXPECT_LT(areas.wall, 3) << isTurned;
-    turn(channel);
   }
 }
 
