@@ -179,10 +179,9 @@ struct MediumStatistics
   std::int64_t bytes = 0;
   double smallestVoxel = 0;     ///< data units, along the axis where it is smallest
   double largestDeflection = 0; ///< of straight rays of the last view
-  /// Error that 99 % of the deflections of the last view keep, of the largest one; or of what rays gather of fields, of the
-  /// full colour, the largest that finer voxels would mend. Voxels of the size of cells lack nothing.
-  double estimatedError = 0;
-  double deflectionError = 0; ///< the same of deflections alone, not divided by the largest one
+  /// Error that 99 % of the deflections of the last view keep, as third differences say. Voxels of the size of cells lack
+  /// nothing.
+  double deflectionError = 0;
   bool isMemoryShort = false; ///< for what the tolerance needs
 };
 

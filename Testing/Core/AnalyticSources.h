@@ -526,6 +526,12 @@ inline std::vector<Ball> threeBalls(double height)
     { { -0.37, 0.44, -0.5 }, 0.02, 0.25 * height } };
 }
 
+/// What the medium states, of the largest deflection.
+inline double statedError(const MediumStatistics& medium)
+{
+  return medium.deflectionError / medium.largestDeflection;
+}
+
 /// A column that sees all.
 inline Column everything(
   const Vec3<double>& u = { 1, 0, 0 }, const Vec3<double>& v = { 0, 1, 0 }, double finest = 0)

@@ -47,7 +47,7 @@ struct Bend
   double deflection = 0;
   double opticalPath = 0; // nu times data units
   double gathered = 0;
-  double error = 0, errorOfGathered = 0; // sums of squares
+  double error = 0; // sum of squares
   bool isBlocked = false;
   std::vector<Neglected> neglected;
   std::vector<Wrong> wrong;
@@ -168,17 +168,12 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     const auto [shortest, longest] =
       std::minmax_element(spacing.begin(), spacing.begin() + medium.layout.axes());
     const auto squared = [](double x) { return x * x; };
-    const double edges = pathLength / edgeOf(*longest);
-    const double ofLines = std::min(1., edges);
+    const double ofLines = std::min(1., pathLength / edgeOf(*longest));
     const double error = ofLines * static_cast<double>(medium.errors[found]);
     bend.error += squared(ofLines * static_cast<double>(medium.typical[found]));
     if (error > 0)
     {
       bend.wrong.push_back({ found, squared(error) });
-    }
-    if (medium.fieldErrors != nullptr)
-    {
-      bend.errorOfGathered += squared(edges * static_cast<double>(medium.fieldErrors[found]));
     }
     const double ofFields =
       medium.fieldDifferences != nullptr ? static_cast<double>(medium.fieldDifferences[found]) : 0;
@@ -190,7 +185,6 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
         static_cast<float>(0.5 * difference * pathLength),
         static_cast<float>(ofFields * pathLength / edge) });
       bend.error += squared(difference * pathLength / edge);
-      bend.errorOfGathered += squared(ofFields * pathLength / edge);
     }
     if (leaf.kind != Leaf<Real>::Constant && pathLength > 0)
     {
@@ -363,8 +357,6 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
         gathered.push_back(bend.gathered);
         deviations.push_back(std::sqrt(bend.error));
       }
-      findings.errorOfGathered =
-        std::max(findings.errorOfGathered, std::sqrt(bend.errorOfGathered));
     }
   }
   findings.error = keptByMost(deviations);

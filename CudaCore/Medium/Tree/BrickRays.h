@@ -84,8 +84,7 @@ struct LeavesView
   const std::int16_t* gasDistances;
   FieldGradientsView gradients;
   const float*
-    fieldDifferences;       ///< of each leaf, as `differences`, of all fields; null: there are none
-  const float* fieldErrors; ///< of each leaf, as `errors`, of all fields; null: there are none
+    fieldDifferences; ///< of each leaf, as `differences`, of all fields; null: there are none
   BrickLayout layout;
 };
 
@@ -101,7 +100,6 @@ struct RayFindings
   /// The error that 99 % of all deflections keep: along a ray, what is typical of leaves and what leaves with one value
   /// neglect, each with any sign, add up by their squares to the standard deviation of its error.
   double error = 0;
-  double errorOfGathered = 0; ///< the largest of all rays, likewise
   /// Leaves with one value for all that need samples: what such leaves neglect adds up along a ray to more than
   /// `tolerance` of the largest deflection or optical path. Those that contribute most, so that half of it is gone.
   std::vector<std::int32_t> coarse;

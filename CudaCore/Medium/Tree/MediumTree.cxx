@@ -269,7 +269,7 @@ void MediumTree<Real>::arrange()
 }
 
 template <class Real>
-void MediumTree<Real>::summarize(const View& view)
+void MediumTree<Real>::summarize()
 {
   statistics_ = {};
   statistics_.coarsestLevel = View::finestLevelOfAll;
@@ -277,8 +277,6 @@ void MediumTree<Real>::summarize(const View& view)
   slope_ = { 0, 0, 0 };
   steepest_ = {};
   statistics_.smallestVoxel = std::numeric_limits<double>::infinity();
-  const double error = work_.error;
-  double errorOfFields = work_.errorOfGathered;
   for (const std::int32_t at : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(at)];
@@ -298,10 +296,6 @@ void MediumTree<Real>::summarize(const View& view)
       statistics_.finestLevel = std::max(statistics_.finestLevel, level);
     }
     statistics_.constantLeaves += node.kind == Leaf<Real>::Constant && fields.brick == 0 ? 1 : 0;
-    if (view.sees(node.place) && !view.isDark(node.place))
-    {
-      errorOfFields = std::max(errorOfFields, view.errorOf(node.place, fields.facts));
-    }
   }
   statistics_.coarsestLevel = std::min(statistics_.coarsestLevel, statistics_.finestLevel);
   const std::array<double, 3> voxel = maker_.voxelOf(statistics_.finestLevel);
@@ -310,11 +304,8 @@ void MediumTree<Real>::summarize(const View& view)
     statistics_.bricks * brickEdge * brickEdge * (shape() == BrickShape::Layer ? 1 : brickEdge);
   statistics_.bytes = static_cast<std::int64_t>(bytesUsed());
   statistics_.isMemoryShort = work_.isMemoryShort;
-  const double deflection = work_.largest, gathered = work_.gathered;
-  statistics_.largestDeflection = deflection;
-  statistics_.deflectionError = error;
-  statistics_.estimatedError =
-    std::max(deflection > 0 ? error / deflection : 0, gathered > 0 ? errorOfFields / gathered : 0);
+  statistics_.largestDeflection = work_.largest;
+  statistics_.deflectionError = work_.error;
 }
 
 template class MediumTree<float>;

@@ -139,9 +139,9 @@ private:
   {
     Column column{};
     bool isFinished = true;
-    double largest = 0;                    ///< deflection
-    double gathered = 0;                   ///< of fields, for full colour
-    double error = 0, errorOfGathered = 0; ///< along rays, see RayFindings
+    double largest = 0;  ///< deflection
+    double gathered = 0; ///< of fields, for full colour
+    double error = 0;    ///< along rays, see RayFindings
     BlockedLight blocked{};
     int rounds = 0;      ///< begun
     double progress = 0; ///< reported
@@ -190,7 +190,7 @@ private:
   void number(std::int32_t node, std::int32_t& code);
   Leaf<Real> leafOf(std::int32_t node) const;
   void arrange();
-  void summarize(const View& view);
+  void summarize();
 
   std::shared_ptr<const MediumSource> source_;
   TreeSettings settings_;

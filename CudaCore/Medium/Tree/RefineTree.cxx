@@ -75,7 +75,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
     arrange();
     hasChanged = true;
   }
-  summarize(view);
+  summarize();
   return hasChanged;
 }
 
@@ -115,7 +115,7 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   }
   std::vector<float> differences(leafNodes_.size(), 0.f);
   std::vector<float> ofFields(nodeFields_.empty() ? 0 : leafNodes_.size(), 0.f);
-  std::vector<float> errors(leafNodes_.size(), 0.f), typical(errors), fieldErrors(ofFields);
+  std::vector<float> errors(leafNodes_.size(), 0.f), typical(errors);
   for (std::size_t leaf = 0; leaf < differences.size(); ++leaf)
   {
     Node& node = nodes_[static_cast<std::size_t>(leafNodes_[leaf])];
@@ -131,21 +131,15 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
     {
       ofFields[leaf] = static_cast<float>(fields.facts.neglected / deflectionByRange);
     }
-    else if (!ofFields.empty())
-    {
-      fieldErrors[leaf] = static_cast<float>(view.errorOverEdge(node.place, fields.facts));
-    }
   }
   const RayFindings findings =
     lookAlongRays<Real>({ grid_, finder(), leaves_.data(), differences.data(), errors.data(),
                           typical.data(), samples().data(), gasDistances().data(), gradients(),
-                          ofFields.empty() ? nullptr : ofFields.data(),
-                          ofFields.empty() ? nullptr : fieldErrors.data(), layout() },
+                          ofFields.empty() ? nullptr : ofFields.data(), layout() },
       work_.column, places, settings_.tolerance, least, settings_.threads);
   work_.largest = findings.deflection;
   work_.gathered = findings.gathered;
   work_.error = findings.error;
-  work_.errorOfGathered = findings.errorOfGathered;
   const auto nodeOf = [this](std::int32_t leaf)
   { return static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)]); };
   for (const std::int32_t leaf : findings.coarse)

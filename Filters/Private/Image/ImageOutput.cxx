@@ -275,7 +275,6 @@ void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)
     output, "MediumVoxels", static_cast<vtkTypeInt64>(medium.voxels));
   addFieldValue<vtkTypeInt64Array>(output, "MediumBytes", static_cast<vtkTypeInt64>(medium.bytes));
   addFieldValue<vtkDoubleArray>(output, "SmallestVoxel", medium.smallestVoxel);
-  addFieldValue<vtkDoubleArray>(output, "MediumError", medium.estimatedError);
 }
 
 std::string mediumInWords(const schlieren::MediumStatistics& medium)
@@ -285,8 +284,8 @@ std::string mediumInWords(const schlieren::MediumStatistics& medium)
   text << medium.bricks << " bricks on levels " << medium.coarsestLevel << " to "
        << medium.finestLevel << ", " << 1e-6 * static_cast<double>(medium.voxels)
        << " million voxels of " << medium.smallestVoxel << " and more, "
-       << std::lround(1e-6 * static_cast<double>(medium.bytes)) << " MB; estimated error "
-       << 100 * medium.estimatedError << " % of the largest deflection";
+       << std::lround(1e-6 * static_cast<double>(medium.bytes)) << " MB"
+       << (medium.isMemoryShort ? ", coarser than MediumTolerance, for lack of MediumMemory" : "");
   return text.str();
 }
 

@@ -79,7 +79,7 @@ TEST(MediumTree, DeflectionIsWithinTolerance)
         EXPECT_LT(worstError(tree, *source, interpolation, x, y, 3 * width, centre), 2 * tolerance);
         EXPECT_LT(worstError(tree, *source, interpolation, u, v, width, centre), 2 * tolerance);
         EXPECT_LT(worstError(tree, *source, interpolation, u, v, 3 * width, centre), 2 * tolerance);
-        const double estimated = tree.statistics().estimatedError;
+        const double estimated = statedError(tree.statistics());
         EXPECT_LE(estimated, 2 * tolerance);
         if (interpolation == Interpolation::Quadratic)
         {

@@ -298,7 +298,7 @@ TEST(SharedMedia, ViewsThatDoNotFitTogetherHaveTheirOwn)
   const Image ofSecond = together.second.render(field, right);
   EXPECT_EQ(together.builds(), 2);
   expectSameImage(ofSecond, Bench().render(field, right));
-  EXPECT_LE(ofSecond.medium.estimatedError, right.mediumTolerance);
+  EXPECT_LE(statedError(ofSecond.medium), right.mediumTolerance);
   // They do not throw each other's voxels away.
   const std::int64_t rays = together.first.work().raysTraced;
   left.knifeEdgeAngle = right.knifeEdgeAngle = 90;
@@ -349,7 +349,7 @@ TEST(SharedMedia, ThreadsDoNotMeetInAMedium)
   const Field field = fieldOf(balls());
   const std::array<double, 4> views{ 0., 0.3, -0.7, 1. };
   const auto errorOf = [&field](Bench& bench, double x) {
-    return bench.render(field, sceneTowards({ x, 0.1, -1 })).medium.estimatedError;
+    return statedError(bench.render(field, sceneTowards({ x, 0.1, -1 })).medium);
   };
   std::vector<double> alone;
   for (const double x : views)

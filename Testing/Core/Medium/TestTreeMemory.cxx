@@ -35,7 +35,7 @@ TEST(MediumTree, MemoryIsBounded)
   Tree enough(source, 0, settingsOf(1e-4));
   enough.refine(everything());
   const auto needed = static_cast<double>(enough.statistics().bytes);
-  EXPECT_LE(enough.statistics().estimatedError, 3e-4);
+  EXPECT_LE(statedError(enough.statistics()), 3e-4);
   double before = 10;
   for (const double part : { 0.1, 0.2, 0.4, 0.9 })
   {
@@ -46,13 +46,13 @@ TEST(MediumTree, MemoryIsBounded)
     EXPECT_LE(static_cast<double>(tree.statistics().bytes), part * needed);
     const auto ofDivision = static_cast<double>(8 * tree.samplesPerBrick()) * sizeof(float);
     EXPECT_GE(static_cast<double>(tree.statistics().bytes), 0.93 * part * needed - ofDivision);
-    EXPECT_GT(tree.statistics().estimatedError, 0.99 * enough.statistics().estimatedError);
+    EXPECT_GT(statedError(tree.statistics()), 0.99 * statedError(enough.statistics()));
     const double error = errorOfMost(tree, *source, Interpolation::Quadratic, x, y, 1);
-    EXPECT_LT(error, 3 * tree.statistics().estimatedError);
-    EXPECT_LT(tree.statistics().estimatedError, 1.01 * before);
+    EXPECT_LT(error, 3 * statedError(tree.statistics()));
+    EXPECT_LT(statedError(tree.statistics()), 1.01 * before);
     EXPECT_TRUE(
-      part > 0.2 || tree.statistics().estimatedError > 3 * enough.statistics().estimatedError);
-    before = tree.statistics().estimatedError;
+      part > 0.2 || statedError(tree.statistics()) > 3 * statedError(enough.statistics()));
+    before = statedError(tree.statistics());
     EXPECT_FALSE(tree.refine(everything()));
   }
 }
@@ -68,7 +68,7 @@ TEST(MediumTree, MemoryGoesToTheLastView)
   tree.refine(around(0.42, -0.31, 0.3));
   tree.refine(around(-0.1, 0.05, 0.3));
   EXPECT_LE(tree.statistics().bytes, static_cast<std::int64_t>(settings.memory));
-  EXPECT_LE(tree.statistics().estimatedError, 1.1 * alone.statistics().estimatedError);
+  EXPECT_LE(statedError(tree.statistics()), 1.1 * statedError(alone.statistics()));
   const Vec3<double> first{ -0.1, 0.05, 0.02 };
   EXPECT_LT(worstError(tree, *source, Interpolation::Quadratic, x, y, 0.3, first),
     1.1 * worstError(alone, *source, Interpolation::Quadratic, x, y, 0.3, first));
