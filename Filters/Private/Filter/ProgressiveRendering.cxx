@@ -49,7 +49,7 @@ GasBoundary::Decided decidedIn(const schlieren::MediumSource* source)
 {
   const auto* revolved = dynamic_cast<const RevolvedSource*>(source);
   const auto* piece = dynamic_cast<const PieceSource*>(revolved ? revolved->section() : source);
-  return piece ? piece->boundary().decided() : GasBoundary::Decided{ 0, 0, true };
+  return piece ? piece->boundary().decided() : GasBoundary::Decided{ 0, true };
 }
 
 } // namespace
@@ -321,12 +321,14 @@ bool vtkSchlierenFilter::Show(
   const std::string outside = decided.bodies > 0 ? outsideInWords(image, decided.isAlone) : "";
   if (isWhole) // of a preview the whole image will say it
   {
-    if (!outside.empty() && decided.open > 0 && !std::exchange(inside.HasNotedOutside, true))
+    constexpr double most = 0.5;
+    if (!outside.empty() && blockedShare(image) > most &&
+      !std::exchange(inside.HasNotedOutside, true))
     {
-      vtkWarningMacro(<< outside
-                      << ": a place that the mesh leaves out and that reaches the mesh's box only "
-                         "where the mesh has flat sides is taken for a body. If it is none, set "
-                         "Outside to Passes, and give bodies as Bodies.");
+      vtkWarningMacro(
+        << outside
+        << ": places that the mesh leaves out are taken for a body. If they are none, "
+           "set Outside to Passes, and give bodies as Bodies.");
     }
     for (const std::string& warning : inside.Images.GetWarnings(image))
     {

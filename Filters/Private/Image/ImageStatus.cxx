@@ -128,11 +128,16 @@ std::string wavesInWords(const schlieren::Image& image)
                                             : "waves, but rays would suffice: " + widths;
 }
 
-std::string outsideInWords(const schlieren::Image& image, bool isAlone)
+double blockedShare(const schlieren::Image& image)
 {
   const double sum =
     std::accumulate(image.blockedFraction.begin(), image.blockedFraction.end(), 0.);
-  const double share = sum / std::max(1., static_cast<double>(image.blockedFraction.size()));
+  return sum / std::max(1., static_cast<double>(image.blockedFraction.size()));
+}
+
+std::string outsideInWords(const schlieren::Image& image, bool isAlone)
+{
+  const double share = blockedShare(image);
   return share < 0.001 ? ""
                        : textOf(100 * share, 2) + " % of the image is blocked " +
       (isAlone ? "" : "by solids and ") + "where no cell is (Outside)";

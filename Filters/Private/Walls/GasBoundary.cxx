@@ -156,8 +156,7 @@ GasBoundary::Decided GasBoundary::decided() const
 {
   const auto& hide = this->Faces.hidesBehind;
   const bool isAlone = !this->Bodies && std::count(hide.begin(), hide.end(), 1) == 0;
-  return this->IsAuto ? Decided{ this->Outer->bodies(), this->Outer->openBodies(), isAlone }
-                      : Decided{ 0, 0, isAlone };
+  return { this->IsAuto ? this->Outer->bodies() : 0, isAlone };
 }
 
 bool GasBoundary::hasBodiesIn(const schlieren::Box& box) const

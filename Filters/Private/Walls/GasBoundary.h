@@ -56,8 +56,8 @@ public:
   /// Bodies that have no cells, as OutsidePlaces have decided.
   struct Decided
   {
-    int bodies, open; ///< all, and those that reach a side of the mesh's box
-    bool isAlone;     ///< nothing else stops light
+    int bodies;
+    bool isAlone; ///< nothing else stops light
   };
   Decided decided() const;
 

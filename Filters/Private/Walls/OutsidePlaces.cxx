@@ -197,15 +197,15 @@ OutsidePlaces::Parts OutsidePlaces::partsOf(Kind kind) const
 /// Finds parts that reach the sides of the box only where these are closed.
 void OutsidePlaces::findBodies(const Parts& parts)
 {
-  std::vector<unsigned char> areOpen(this->count(), 0), areAtSide(this->count(), 0);
+  std::vector<unsigned char> areOpen(this->count(), 0);
   for (std::size_t n = 0; n < this->count(); ++n)
   {
     this->forNeighbours(n,
       [&](std::size_t side, std::size_t beside)
       {
-        if (beside == n)
+        if (beside == n && !this->AreClosed[side])
         {
-          (this->AreClosed[side] ? areAtSide : areOpen)[parts[n]] = 1;
+          areOpen[parts[n]] = 1;
         }
       });
   }
@@ -214,7 +214,6 @@ void OutsidePlaces::findBodies(const Parts& parts)
     if (this->Kinds[n] == Kind::Passes && !areOpen[parts[n]])
     {
       this->Bodies += parts[n] == n ? 1 : 0;
-      this->OpenBodies += parts[n] == n && areAtSide[n] ? 1 : 0;
       this->Kinds[n] = Kind::Body;
     }
   }
@@ -297,7 +296,6 @@ void OutsidePlaces::findBodiesWithin()
       !this->hullBefore(this->middleOf(n)))
     {
       this->Bodies += part == n ? 1 : 0;
-      this->OpenBodies += part == n ? 1 : 0;
       found.push_back(n);
     }
   }

@@ -41,8 +41,6 @@ public:
   /// Returns nothing where the nearest face decides.
   std::optional<Place> at(const Point& place) const;
 
-  /// Number of bodies that reach a side of the box, and of all bodies.
-  int openBodies() const { return this->OpenBodies; }
   int bodies() const { return this->Bodies; }
 
 private:
@@ -89,7 +87,7 @@ private:
   std::vector<Kind> Kinds;
   std::vector<unsigned char> AreOuter;
   bool Hides; // there are hidden cells, also beyond the box
-  int OpenBodies = 0, Bodies = 0;
+  int Bodies = 0;
 };
 
 } // namespace filters
