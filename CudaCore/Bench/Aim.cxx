@@ -44,9 +44,8 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
     return true;
   }
   const bool isMemoryShort = inUse.medium().tree && inUse.medium().tree->statistics().isMemoryShort;
-  if (refine(known, ofImage.errorOfVoxels, isMemoryShort, scene))
+  if (refine(known, isMemoryShort, scene))
   {
-    ofImage.errorOfVoxels = known.voxels;
     return false;
   }
   AccurateSettings chosen = chooseFor(pilot, known, targets.lastFor(scene), watch.monitor());

@@ -23,7 +23,7 @@ constexpr std::size_t patchesElsewhere = 100;
 constexpr std::size_t patchesAtBodies = 32, patchesAtBorders = 32, patchesAtVariations = 32;
 
 /// Of the pixels whose light crosses the data, about, for finer voxels. These take eight times as long to make.
-constexpr double partOfVoxels = 0.015;
+constexpr double partOfVoxels = 0.03;
 constexpr double fewestOfVoxels = 20; ///< patches
 
 /// Chooses the places of patches.

@@ -303,7 +303,7 @@ bool Pilot<Real>::makeFiner(const Monitor& monitor)
       }
     }
     finer_ = std::make_unique<MediumOnDevices<Real>>(
-      finerIn(setup_.medium.medium, std::move(parts), { {}, monitor.aborted, {} }));
+      finerIn(setup_.medium.medium, further_, std::move(parts), { {}, monitor.aborted, {} }));
     if (monitor.aborted && monitor.aborted())
     {
       finer_.reset();
@@ -313,8 +313,10 @@ bool Pilot<Real>::makeFiner(const Monitor& monitor)
 }
 
 template <class Real>
-Differences Pilot<Real>::ofVoxels(const PatchSettings& settings, const Monitor& monitor)
+Differences Pilot<Real>::ofVoxels(
+  const PatchSettings& settings, double tolerance, const Monitor& monitor)
 {
+  further_ = tolerance;
   Differences all;
   for (std::size_t n = 0; n < patchPlaces; ++n)
   {

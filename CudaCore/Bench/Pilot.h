@@ -99,7 +99,7 @@ public:
 
   /// What a medium within a lower tolerance would change: see MediumTree::refineFurther(). Edges of bodies do not count, of
   /// which it moves rays by whole pixels at the most. Aborted or paused: empty.
-  Differences ofVoxels(const PatchSettings& settings, const Monitor& monitor);
+  Differences ofVoxels(const PatchSettings& settings, double tolerance, const Monitor& monitor);
 
   /// Whether the monitor has paused it since then. What it has done is kept.
   bool isPaused() const { return isPaused_; }
@@ -175,6 +175,7 @@ private:
   Group groups_[2][patchPlaces];     ///< of each set
   Group withVoxels_[2][patchPlaces]; ///< of the image, and finer ones
   std::unique_ptr<MediumOnDevices<Real>> finer_;
+  double further_ = 0; ///< its tolerance
   bool isPaused_ = false;
 };
 

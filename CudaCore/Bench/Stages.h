@@ -16,7 +16,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +29,6 @@ struct Aim
   Field field;
   Scene scene; ///< with the medium that the target needs, as far as that is known
   Device device;
-  double errorOfVoxels = std::numeric_limits<double>::infinity(); ///< as its medium was before
   std::string deviceNote{};                   ///< why it is another one than was chosen at first
   bool hasLeftDevice = false;                 ///< to give its memory back
   std::unique_ptr<UnfinishedImage> request{}; ///< with all settings, once they are found

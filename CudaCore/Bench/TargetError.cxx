@@ -18,6 +18,9 @@ namespace
 
 constexpr double coarsestTolerance = 0.01, finestTolerance = 3e-4;
 
+/// What a medium is made with, usually, and where its error exceeds the target.
+constexpr double firstTolerance = 0.003, refinedTolerance = 0.001;
+
 /// For what the patches have not seen.
 constexpr double margin = 1.2;
 
@@ -184,7 +187,7 @@ private:
 
 double toleranceForTarget(const Field& field, const Scene& scene)
 {
-  double tolerance = 0.003;
+  double tolerance = firstTolerance;
   if (techniqueOf(scene.cutoff).hasFringes)
   {
     const Box all = field.source->bounds();
@@ -234,27 +237,30 @@ KnownErrors knownErrors(Pilot<Real>& pilot, const Monitor& monitor)
   }
   if (pilot.setup().medium.medium.tree)
   {
-    constexpr double byFiner = 1 / (1 - 1 / furtherTolerance); // these err, too
+    const double tolerance = scene.mediumTolerance;
+    const double further = tolerance * (tolerance > refinedTolerance ? 1. / 8 : 1. / 3);
     constexpr double step = 0.5;
+    // What is compared errs, too, in proportion to its tolerance.
     known.voxels =
-      byFiner * exceededBy(mayExceed, pilot.ofVoxels(stepsFor(pilot).with(step), monitor));
+      exceededBy(mayExceed, pilot.ofVoxels(stepsFor(pilot).with(step), further, monitor)) /
+      (1 - further / tolerance);
   }
   return known;
 }
 
-bool refine(const KnownErrors& known, double before, bool isMemoryShort, Scene& scene)
+bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene)
 {
-  const double allowed = scene.targetError / margin;
-  constexpr double shareOfRounding = 0.25, mostOfBefore = 0.7, byRefining = 1. / 3;
-  if (scene.precision == Precision::Single && known.rounding > shareOfRounding * allowed)
+  constexpr double shareOfRounding = 0.25;
+  if (scene.precision == Precision::Single &&
+    known.rounding > shareOfRounding * scene.targetError / margin)
   {
     scene.precision = Precision::Double;
     return true;
   }
-  if (known.voxels > scene.targetError && known.voxels < mostOfBefore * before &&
-    scene.mediumTolerance > finestTolerance && !isMemoryShort)
+  if (known.voxels > scene.targetError && scene.mediumTolerance > refinedTolerance &&
+    !isMemoryShort)
   {
-    scene.mediumTolerance = std::max(finestTolerance, byRefining * scene.mediumTolerance);
+    scene.mediumTolerance = refinedTolerance;
     return true;
   }
   return false;

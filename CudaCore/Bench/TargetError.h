@@ -47,9 +47,8 @@ double toleranceForTarget(const Field& field, const Scene& scene);
 template <class Real>
 KnownErrors knownErrors(Pilot<Real>& pilot, const Monitor& monitor);
 
-/// Whether a medium with finer voxels or double precision is needed: `scene` has its settings then. `before`: the error of
-/// voxels of the medium before, which finer ones must have lessened.
-bool refine(const KnownErrors& known, double before, bool isMemoryShort, Scene& scene);
+/// Whether a medium with finer voxels or double precision is needed: `scene` has its settings then.
+bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene);
 
 /// Chooses settings for the pilot's scene, verifies them with other pixels, and chooses finer ones, at most twice, where that
 /// shows that they do not keep the target. Begins with the settings of another image of the same technique, which may be

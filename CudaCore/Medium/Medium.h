@@ -54,7 +54,7 @@ bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor,
 
 /// A copy of it with finer voxels in parts of the image of the last view: see MediumTree::refineFurther().
 template <class Real>
-Medium<Real> finerIn(
-  const Medium<Real>& medium, std::vector<Column::Part> parts, const Monitor& monitor);
+Medium<Real> finerIn(const Medium<Real>& medium, double tolerance, std::vector<Column::Part> parts,
+  const Monitor& monitor);
 
 } // namespace schlieren

@@ -31,9 +31,6 @@ struct TreeSettings
   int threads = 0;
 };
 
-/// Voxels half the size have an eighth of the third differences.
-inline constexpr double furtherTolerance = 8;
-
 /// What becomes of the leaves of other views, where memory is short.
 enum class Unneeded
 {
@@ -66,8 +63,8 @@ public:
   /// the last bit as if there had been no stop.
   bool refine(
     const Column& column, const Monitor& monitor = {}, Unneeded unneeded = Unneeded::Goes);
-  /// Looks at parts of the image of the last view again, with a tolerance that is less by furtherTolerance from now on.
-  void refineFurther(std::vector<Column::Part> parts, const Monitor& monitor);
+  /// Looks at parts of the image of the last view again, with a lower tolerance from now on.
+  void refineFurther(double tolerance, std::vector<Column::Part> parts, const Monitor& monitor);
   /// Whether the last call has left leaves that the view needs because of Unneeded::Stays.
   bool lacksRoom() const { return lacksRoom_; }
   bool isUnfinished() const { return !work_.isFinished; } ///< the monitor has stopped the last call

@@ -80,9 +80,10 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
 }
 
 template <class Real>
-void MediumTree<Real>::refineFurther(std::vector<Column::Part> parts, const Monitor& monitor)
+void MediumTree<Real>::refineFurther(
+  double tolerance, std::vector<Column::Part> parts, const Monitor& monitor)
 {
-  settings_.tolerance /= furtherTolerance;
+  settings_.tolerance = tolerance;
   constexpr std::size_t leastMemory = std::size_t{ 1 } << 26;
   settings_.memory += std::max(settings_.memory, leastMemory);
   Column column = work_.column;
@@ -306,8 +307,8 @@ void MediumTree<Real>::chooseWhatFits(std::size_t available)
 }
 
 template bool MediumTree<float>::refine(const Column&, const Monitor&, Unneeded);
-template void MediumTree<float>::refineFurther(std::vector<Column::Part>, const Monitor&);
-template void MediumTree<double>::refineFurther(std::vector<Column::Part>, const Monitor&);
+template void MediumTree<float>::refineFurther(double, std::vector<Column::Part>, const Monitor&);
+template void MediumTree<double>::refineFurther(double, std::vector<Column::Part>, const Monitor&);
 template bool MediumTree<double>::refine(const Column&, const Monitor&, Unneeded);
 
 } // namespace schlieren

@@ -102,7 +102,7 @@ TEST(MediumTree, LooksAtPartsOfTheImageAgain)
   Tree again = tree;
   const auto& [u, v, depth] = balls[1].centre;
   const double half = balls[1].width;
-  again.refineFurther({ { { u - half, v - half }, { u + half, v + half } } }, {});
+  again.refineFurther(1e-2 / 8, { { { u - half, v - half }, { u + half, v + half } } }, {});
   const auto errorOf = [&](const Tree& of, const Ball& ball)
   {
     const Vec3<double> centre{ ball.centre[0], ball.centre[1], ball.centre[2] };
@@ -110,7 +110,7 @@ TEST(MediumTree, LooksAtPartsOfTheImageAgain)
   };
   EXPECT_LT(errorOf(again, balls[1]), errorOf(tree, balls[1]) / 3);
   EXPECT_EQ(errorOf(again, balls[2]), errorOf(tree, balls[2])); // beside it nothing has changed
-  Tree all(source, 0, settingsOf(1e-2 / furtherTolerance));
+  Tree all(source, 0, settingsOf(1e-2 / 8));
   all.refine(everything());
   EXPECT_LT(again.statistics().voxels, all.statistics().voxels);
 }
