@@ -54,8 +54,7 @@ enum class Edges
 
 /// Adds the differences of pixels, times a factor, as the technique's reader sees them: see Scene::targetError.
 void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& patch, double factor,
-  const Scene& scene, const Projection& projection, Differences& differences,
-  Edges edges = Edges::Count);
+  const Scene& scene, const Projection& projection, Differences& differences, Edges edges);
 
 /// Adds what a shift of the light by a pixel would change where edges of bodies are, and nothing elsewhere.
 void addSlopesAtEdges(

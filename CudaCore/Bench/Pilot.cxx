@@ -204,6 +204,20 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
 }
 
 template <class Real>
+bool Pilot<Real>::compare(const Exposure& a, const Exposure& b, double factor, Edges edges,
+  const Monitor& monitor, Differences& differences)
+{
+  const std::vector<PatchPixels>* ofA = expose(a.group, a.rays, monitor);
+  const std::vector<PatchPixels>* ofB = ofA ? expose(b.group, b.rays, monitor) : nullptr;
+  for (std::size_t patch = 0; ofB && patch < ofB->size(); ++patch)
+  {
+    addDifferences((*ofA)[patch], (*ofB)[patch], (*a.group.patches)[patch], factor, scene_,
+      setup_.projection, differences, edges);
+  }
+  return ofB != nullptr;
+}
+
+template <class Real>
 Differences Pilot<Real>::compare(
   Patches patches, const PatchSettings& a, const PatchSettings& b, const Monitor& monitor)
 {
@@ -235,16 +249,9 @@ Differences Pilot<Real>::compare(
     const double part = raysOfB.areOthers ? partOfOthers
       : isOfRays ? 1 - static_cast<double>(raysOfA.samples) / raysOfB.samples
                  : 1;
-    const std::vector<PatchPixels>* ofA = expose(group, raysOfA, monitor);
-    const std::vector<PatchPixels>* ofB = ofA ? expose(group, raysOfB, monitor) : nullptr;
-    if (!ofB)
+    if (!compare({ group, raysOfA }, { group, raysOfB }, 1 / part, Edges::Count, monitor, all))
     {
       return {};
-    }
-    for (std::size_t patch = 0; patch < ofB->size(); ++patch)
-    {
-      addDifferences((*ofA)[patch], (*ofB)[patch], (*group.patches)[patch], 1 / part, scene_,
-        setup_.projection, all);
     }
   }
   return all;
@@ -293,11 +300,11 @@ bool Pilot<Real>::makeFiner(const Monitor& monitor)
         Column::Part part{};
         for (std::size_t axis = 0; axis < 2; ++axis)
         {
-          const double around = static_cast<double>(patch.margin) + 0.5 + bent;
-          const auto first = static_cast<double>(from[axis]);
-          const auto last = static_cast<double>(from[axis] + size[axis] - 1);
-          part.low[axis] = frame.origin[axis] + (first - around) * frame.pixelSize;
-          part.high[axis] = frame.origin[axis] + (last + around) * frame.pixelSize;
+          const double half = 0.5 * static_cast<double>(size[axis]);
+          part.middle[axis] =
+            frame.origin[axis] + (static_cast<double>(from[axis]) + half - 0.5) * frame.pixelSize;
+          part.halfWidth[axis] =
+            (half + static_cast<double>(patch.margin) + bent) * frame.pixelSize;
         }
         parts.push_back(part);
       }
@@ -322,18 +329,11 @@ Differences Pilot<Real>::ofVoxels(
   {
     const bool isAtBodies = static_cast<PatchPlace>(n) == PatchPlace::Body;
     const int samples = isAtBodies ? settings.samplesAtBodies : settings.samples;
-    const std::vector<PatchPixels>* here =
-      expose(withVoxels_[0][n], { settings.step, samples }, monitor);
-    const std::vector<PatchPixels>* finer =
-      here ? expose(withVoxels_[1][n], { settings.step, samples }, monitor) : nullptr;
-    if (!finer)
+    const RaySet rays{ settings.step, samples };
+    if (!compare({ withVoxels_[0][n], rays }, { withVoxels_[1][n], rays }, 1, Edges::DoNotCount,
+          monitor, all))
     {
       return {};
-    }
-    for (std::size_t patch = 0; patch < finer->size(); ++patch)
-    {
-      addDifferences((*here)[patch], (*finer)[patch], (*withVoxels_[0][n].patches)[patch], 1,
-        scene_, setup_.projection, all, Edges::DoNotCount);
     }
   }
   finer_.reset(); // its rays stay

@@ -166,6 +166,15 @@ private:
   /// The images of all patches of a group; null if aborted or paused.
   const std::vector<PatchPixels>* expose(Group& group, const RaySet& rays, const Monitor& monitor);
 
+  struct Exposure
+  {
+    Group& group;
+    RaySet rays;
+  };
+  /// Adds the differences of a group's patches, or of those of two groups with the same patches. False if aborted or paused.
+  bool compare(const Exposure& a, const Exposure& b, double factor, Edges edges,
+    const Monitor& monitor, Differences& differences);
+
   ViewSetup<Real> setup_;
   Scene scene_;
   CutoffMaker cutoffs_;

@@ -37,7 +37,7 @@ struct Column
   /// A rectangle of image coordinates, data units.
   struct Part
   {
-    double low[2], high[2];
+    double middle[2], halfWidth[2];
   };
   std::vector<Part> parts{}; ///< where it is refined; none: everywhere
 

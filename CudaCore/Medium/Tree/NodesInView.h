@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Medium/Tree/MediumTree.h"
+#include "Medium/Tree/StraightRays.h"
 
 #include <algorithm>
 #include <array>
@@ -58,8 +59,9 @@ public:
       }
     }
     constexpr double wider = Column::widening;
-    return sees(column_.middle, { wider * column_.halfWidth[0], wider * column_.halfWidth[1] },
-      tree_.maker_.boxOf(place));
+    const Column::Part all{ { column_.middle[0], column_.middle[1] },
+      { wider * column_.halfWidth[0], wider * column_.halfWidth[1] } };
+    return isSeenIn(column_, all, tree_.maker_.boxOf(place));
   }
 
   /// Whether voxels of the next level are wanted along an axis, which are no smaller than so many pixels.
@@ -289,7 +291,7 @@ private:
       return column_.finest;
     }
     constexpr double least = 1e-2;
-    const Range depths = rangeOf(cross(column_.u, column_.v), tree_.maker_.boxOf(place));
+    const Products depths = productsWith(cross(column_.u, column_.v), tree_.maker_.boxOf(place));
     return column_.finest * std::max(least, column_.widthAt(depths.middle + depths.half));
   }
 
@@ -341,68 +343,16 @@ private:
     }
     const Box box = tree_.maker_.boxOf(place);
     const auto toPupil = [&](const Vec3<double>& axis, double ofPupil)
-    { return (ofPupil - rangeOf(axis, box).middle) * axis; };
+    { return (ofPupil - productsWith(axis, box).middle) * axis; };
     return toPupil(column_.u, column_.middle[0]) + toPupil(column_.v, column_.middle[1]) +
       toPupil(w, column_.plane + column_.pupil);
-  }
-
-  struct Range
-  {
-    double middle, half;
-  };
-  /// Finds the range of the products of a vector with the points of a box.
-  static Range rangeOf(const Vec3<double>& vector, const Box& box)
-  {
-    const double a[3] = { vector.x, vector.y, vector.z };
-    Range range{ 0, 0 };
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      range.middle += a[axis] * 0.5 * (box.low[axis] + box.high[axis]);
-      range.half += std::abs(a[axis]) * 0.5 * (box.high[axis] - box.low[axis]);
-    }
-    return range;
   }
 
   bool isInParts(const NodePlace& place) const
   {
     const Box box = tree_.maker_.boxOf(place);
     return std::any_of(column_.parts.begin(), column_.parts.end(),
-      [&](const Column::Part& part)
-      {
-        const auto& [low, high] = part;
-        return sees({ 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]) },
-          { 0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1]) }, box);
-      });
-  }
-
-  bool sees(const double (&middle)[2], const double (&widest)[2], const Box& box) const
-  {
-    return sees(column_.u, middle[0], widest[0], box) && sees(column_.v, middle[1], widest[1], box);
-  }
-
-  bool sees(const Vec3<double>& direction, double middle, double widest, const Box& box) const
-  {
-    if (!(column_.pupil > 0))
-    {
-      const Range range = rangeOf(direction, box);
-      return !(std::abs(range.middle - middle) > widest + range.half);
-    }
-    if (!std::isfinite(widest))
-    {
-      return true;
-    }
-    // x . u - middle <= widest (1 - (x . w - plane) / pupil), and the same on the other side.
-    const Vec3<double> narrowing = (widest / column_.pupil) * cross(column_.u, column_.v);
-    const double limit = widest * (1 + column_.plane / column_.pupil);
-    for (const double sign : { -1., 1. })
-    {
-      const Range range = rangeOf(sign * direction + narrowing, box);
-      if (range.middle - range.half > sign * middle + limit)
-      {
-        return false;
-      }
-    }
-    return true;
+      [&](const Column::Part& part) { return isSeenIn(column_, part, box); });
   }
 
   const MediumTree& tree_;

@@ -94,4 +94,53 @@ ImageRange rangeOfBox(const Grid& grid, const Column& column, int side)
   return range;
 }
 
+Products productsWith(const Vec3<double>& vector, const Box& box)
+{
+  const double a[3] = { vector.x, vector.y, vector.z };
+  Products products{ 0, 0 };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    products.middle += a[axis] * 0.5 * (box.low[axis] + box.high[axis]);
+    products.half += std::abs(a[axis]) * 0.5 * (box.high[axis] - box.low[axis]);
+  }
+  return products;
+}
+
+namespace
+{
+
+bool isSeenAlong(
+  const Column& column, const Vec3<double>& direction, double middle, double widest, const Box& box)
+{
+  if (!(column.pupil > 0))
+  {
+    const Products products = productsWith(direction, box);
+    return !(std::abs(products.middle - middle) > widest + products.half);
+  }
+  if (!std::isfinite(widest))
+  {
+    return true;
+  }
+  // x . u - middle <= widest (1 - (x . w - plane) / pupil), and the same on the other side.
+  const Vec3<double> narrowing = (widest / column.pupil) * cross(column.u, column.v);
+  const double limit = widest * (1 + column.plane / column.pupil);
+  for (const double sign : { -1., 1. })
+  {
+    const Products products = productsWith(sign * direction + narrowing, box);
+    if (products.middle - products.half > sign * middle + limit)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+bool isSeenIn(const Column& column, const Column::Part& part, const Box& box)
+{
+  return isSeenAlong(column, column.u, part.middle[0], part.halfWidth[0], box) &&
+    isSeenAlong(column, column.v, part.middle[1], part.halfWidth[1], box);
+}
+
 } // namespace schlieren

@@ -27,6 +27,16 @@ struct ImageRange
   double low, high;
 };
 
+/// The range of the products of a vector with the points of a box.
+struct Products
+{
+  double middle, half;
+};
+Products productsWith(const Vec3<double>& vector, const Box& box);
+
+/// Whether any of a box is seen in a part of the image.
+bool isSeenIn(const Column& column, const Column::Part& part, const Box& box);
+
 /// Finds which of the image's coordinates along u or v the grid covers.
 ImageRange rangeOfBox(const Grid& grid, const Column& column, int side);
 

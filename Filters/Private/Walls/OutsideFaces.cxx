@@ -17,7 +17,6 @@ namespace
 
 constexpr double lookingStep = 0.5; // beside faces, in spacings of the grid
 constexpr int lookingSteps = 5;
-constexpr double cosineOfSmooth = 0.643; // 50 degrees
 constexpr std::size_t noPlace = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t beyondOpen = noPlace - 1, beyondClosed = noPlace - 2; // sides of the box
 
@@ -107,7 +106,7 @@ void OutsidePlaces::findOuter(const Triangles& own, const std::vector<unsigned c
     sides.forNeighbours(
       [&](std::size_t one, std::size_t other)
       {
-        if (dot(unit(own.normal(one)), unit(own.normal(other))) > cosineOfSmooth)
+        if (dot(unit(own.normal(one)), unit(own.normal(other))) > cosineOfGentle)
         {
           visit(one, other);
           visit(other, one);

@@ -14,8 +14,7 @@ namespace filters
 namespace
 {
 
-constexpr double inPlane = 1e-5;         // of the size
-constexpr double cosineOfGentle = 0.643; // 50 degrees
+constexpr double inPlane = 1e-5; // of the size
 constexpr double sineOfFlat = 1e-4;
 constexpr double leastOfLargest = 0.01; // area
 constexpr std::size_t mostSides = 30;   // that are looked at

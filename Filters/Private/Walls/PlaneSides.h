@@ -10,6 +10,9 @@
 namespace filters
 {
 
+/// Faces that turn by less than 50 degrees are of one smooth surface.
+constexpr double cosineOfGentle = 0.643;
+
 /// A plane that a mesh reaches and does not cross.
 struct PlaneSide
 {

@@ -102,7 +102,7 @@ TEST(MediumTree, LooksAtPartsOfTheImageAgain)
   Tree again = tree;
   const auto& [u, v, depth] = balls[1].centre;
   const double half = balls[1].width;
-  again.refineFurther(1e-2 / 8, { { { u - half, v - half }, { u + half, v + half } } }, {});
+  again.refineFurther(1e-2 / 8, { { { u, v }, { half, half } } }, {});
   const auto errorOf = [&](const Tree& of, const Ball& ball)
   {
     const Vec3<double> centre{ ball.centre[0], ball.centre[1], ball.centre[2] };
