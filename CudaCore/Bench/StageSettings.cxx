@@ -221,6 +221,12 @@ Column columnOf(const Scene& scene, const Light& light, const Frame& frame, std:
   column.steepest = frame.pupil > 0 ? 0 : std::hypot(light.steepest[0], light.steepest[1]);
   column.pupil = frame.pupil;
   column.plane = frame.focus;
+  const double fullScale = techniqueOf(scene.cutoff).fullScale;
+  if (scene.kScale && *scene.kScale > 0 && fullScale > 0)
+  {
+    // In powers of two, so that a medium serves for k that differ little.
+    column.fullScale = std::exp2(std::ceil(std::log2(fullScale / *scene.kScale)));
+  }
   return column;
 }
 

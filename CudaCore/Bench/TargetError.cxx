@@ -19,7 +19,7 @@ namespace
 constexpr double coarsestTolerance = 0.01, finestTolerance = 3e-4;
 
 /// What a medium is made with, usually, and where its error exceeds the target.
-constexpr double firstTolerance = 0.003, refinedTolerance = 0.001;
+constexpr double firstTolerance = 0.006, refinedTolerance = 0.001;
 
 /// For what the patches have not seen.
 constexpr double margin = 1.2;

@@ -258,20 +258,19 @@ double keptByMost(const std::vector<double>& deviations)
   return high;
 }
 
-/// Finds it as tintReference() does, but no less than a hundredth of the most: where a view of a far field shows hardly any
-/// flow, its noise is not to be resolved.
-double fullColorOf(std::vector<double> gathered)
+/// What 99 % do not exceed, but no less than a part of the most: where a view of a far field shows hardly any flow, its
+/// noise is not to be resolved.
+double fullScaleOf(std::vector<double> values, double most, double leastPart)
 {
   constexpr double fraction = 0.99;
-  if (gathered.empty())
+  if (values.empty())
   {
-    return 0;
+    return most;
   }
-  std::sort(gathered.begin(), gathered.end());
-  const double percentile =
-    gathered[static_cast<std::size_t>(fraction * static_cast<double>(gathered.size() - 1))];
-  const double most = gathered.back();
-  return percentile > 0 ? std::max(percentile, 0.01 * most) : most;
+  const auto rank = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  const double percentile = values[static_cast<std::size_t>(rank)];
+  return percentile > 0 ? std::max(percentile, leastPart * most) : most;
 }
 
 } // namespace
@@ -344,7 +343,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   RayFindings findings;
   findings.deflection = least.deflection;
   findings.opticalPath = least.opticalPath;
-  std::vector<double> gathered, deviations;
+  std::vector<double> gathered, deflections, deviations;
   for (std::size_t n = 0; n < bends.size(); ++n)
   {
     const Bend& bend = bends[n];
@@ -355,17 +354,25 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
       if (n < ofLattice)
       {
         gathered.push_back(bend.gathered);
+        deflections.push_back(bend.deflection);
         deviations.push_back(std::sqrt(bend.error));
       }
     }
   }
   findings.error = keptByMost(deviations);
-  findings.gathered = std::max(least.gathered, fullColorOf(std::move(gathered)));
+  const double mostGathered =
+    gathered.empty() ? 0 : *std::max_element(gathered.begin(), gathered.end());
+  findings.gathered =
+    std::max(least.gathered, fullScaleOf(std::move(gathered), mostGathered, 0.01));
+  findings.strong =
+    std::max(least.strong, fullScaleOf(std::move(deflections), findings.deflection, 0.1));
+  findings.strong =
+    column.fullScale > 0 ? std::min(findings.strong, column.fullScale) : findings.strong;
   for (const Bend& bend : bends)
   {
     if (bend.isBlocked == areAllBlocked)
     {
-      const double allowed = tolerance * findings.deflection;
+      const double allowed = tolerance * findings.strong;
       addLargest<&Neglected::deflection>(bend.neglected, allowed, findings.coarse);
       addLargest<&Neglected::opticalPath>(
         bend.neglected, tolerance * findings.opticalPath, findings.coarse);

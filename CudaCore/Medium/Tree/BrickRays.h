@@ -40,11 +40,13 @@ struct Column
     double middle[2], halfWidth[2];
   };
   std::vector<Part> parts{}; ///< where it is refined; none: everywhere
+  double fullScale =
+    0; ///< a deflection: errors are compared with no more than that; 0: see RayFindings::strong
 
   auto tie() const
   {
     return std::tie(u.x, u.y, u.z, v.x, v.y, v.z, middle[0], middle[1], halfWidth[0], halfWidth[1],
-      finest, pupil, plane, steepest);
+      finest, pupil, plane, steepest, fullScale);
   }
 
   /// How wide the column is at x.w = `place`, by its width in the image's plane; not positive behind the pupil.
@@ -92,7 +94,10 @@ struct LeavesView
 /// as far as they are in it. Of rays that no wall stops; where walls stop all, of these.
 struct RayFindings
 {
-  double deflection = 0;  ///< the largest
+  double deflection = 0; ///< the largest
+  /// What is full scale of an image of them: of the lattice's rays, what 99 % do not exceed, but no less than a tenth of
+  /// the largest, as automatic k has it; or Column::fullScale, where that is less.
+  double strong = 0;
   double opticalPath = 0; ///< the largest; nu times data units
   /// Gathered of all fields by the lattice's rays: what 99 % do not exceed; or, where less have gathered anything, the
   /// most.
@@ -101,7 +106,7 @@ struct RayFindings
   /// neglect, each with any sign, add up by their squares to the standard deviation of its error.
   double error = 0;
   /// Leaves with one value for all that need samples: what such leaves neglect adds up along a ray to more than
-  /// `tolerance` of the largest deflection or optical path. Those that contribute most, so that half of it is gone.
+  /// `tolerance` of a strong deflection or of the largest optical path. Those that contribute most, so that half of it is gone.
   std::vector<std::int32_t> coarse;
   std::vector<std::int32_t>
     coarseInFields; ///< the same of leaves without gradients, and of `gathered`

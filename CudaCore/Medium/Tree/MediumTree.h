@@ -24,7 +24,7 @@ namespace schlieren
 /// How fine leaves are made.
 struct TreeSettings
 {
-  /// Error of the deflection of a ray that is allowed, of the largest one. 0: as fine as the data are.
+  /// Error of the deflection of a ray that is allowed, of a strong one: see RayFindings::strong. 0: as fine as the data are.
   double tolerance = 0.01;
   std::size_t memory = std::size_t{ 1 } << 30; ///< bytes that leaves may take
   Interpolation interpolation = Interpolation::Quadratic;
@@ -42,9 +42,9 @@ enum class Unneeded
 /// on the number of threads.
 ///
 /// A leaf is refined where what finer voxels would change, as a deflection over the leaf, is more than the
-/// tolerance of the largest deflection. That is found from the tree as it is, after each level: the largest of
-/// straight rays on a lattice over the view, and of those through the steepest places of the steepest leaves, that
-/// no wall stops. At first it is smaller than it should be, if anything, because coarse voxels are smooth.
+/// tolerance of a strong deflection. That is found from the tree as it is, after each level, of straight rays on a lattice
+/// over the view, and of those through the steepest places of the steepest leaves, that no wall stops: see
+/// RayFindings::strong. At first it is smaller than it should be, if anything, because coarse voxels are smooth.
 ///
 /// Where the source has fields, leaves have their gradients, too, at the same places as nu, and the tolerance holds for
 /// what rays gather of them: of what 99 % of the same rays do not exceed, which is the full colour of a tint.
@@ -137,6 +137,7 @@ private:
     Column column{};
     bool isFinished = true;
     double largest = 0;  ///< deflection
+    double strong = 0;   ///< deflection, see RayFindings
     double gathered = 0; ///< of fields, for full colour
     double error = 0;    ///< along rays, see RayFindings
     BlockedLight blocked{};

@@ -168,14 +168,14 @@ public:
                    : 0;
     if (const double gathered = errorOf(node.place, ofFields); gathered > allowed().gathered)
     {
-      const double deflection = work_.largest;
+      const double deflection = work_.strong;
       const bool canCompare = deflection > 0 && work_.gathered > 0;
       urgency = std::max(urgency, canCompare ? gathered * (deflection / work_.gathered) : gathered);
     }
     if (hasEdge)
     {
       // A shadow's edge that is wrong by a voxel is as wrong as can be.
-      urgency = std::max({ urgency, work_.largest, std::numeric_limits<double>::min() });
+      urgency = std::max({ urgency, work_.strong, std::numeric_limits<double>::min() });
     }
     return urgency;
   }
@@ -269,7 +269,7 @@ private:
   Negligible allowed() const
   {
     const double tolerance = tree_.settings_.tolerance;
-    return { tolerance * work_.largest, tolerance * work_.gathered };
+    return { tolerance * work_.strong, tolerance * work_.gathered };
   }
 
   bool allows(int level, std::size_t axis, double finest) const

@@ -139,6 +139,7 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
                           ofFields.empty() ? nullptr : ofFields.data(), layout() },
       work_.column, places, settings_.tolerance, least, settings_.threads);
   work_.largest = findings.deflection;
+  work_.strong = findings.strong;
   work_.gathered = findings.gathered;
   work_.error = findings.error;
   const auto nodeOf = [this](std::int32_t leaf)
@@ -186,7 +187,11 @@ void MediumTree<Real>::assumeDeflection(const View& view)
       const Node& node = nodes_[static_cast<std::size_t>(at)];
       return view.awaitsWalls(node) && view.sees(node.place) && !view.isDark(node.place);
     });
-  work_.largest = areMissed ? std::max(work_.largest, leastByRange * rangeOfNu_) : work_.largest;
+  if (areMissed)
+  {
+    work_.largest = std::max(work_.largest, leastByRange * rangeOfNu_);
+    work_.strong = std::max(work_.strong, leastByRange * rangeOfNu_);
+  }
 }
 
 /// What there is to do: leaves to be made, and leaves to be divided.

@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // Stages keep their results; images do not depend on how they came about.
+#include "AnalyticSources.h"
 #include "Fields.h"
 #include "SameImage.h"
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
+#include <vector>
 
 namespace schlieren
 {
@@ -51,6 +54,28 @@ TEST(Stages, CameraKeepsTheMedium)
   EXPECT_EQ(bench.work().mediumBuilds, 1);
   EXPECT_GT(bench.work().raysTraced, rays);
   expectSameImage(image, Bench().render(blob.field, scene));
+}
+
+/// The medium is as fine as k shows; a k that differs little needs nothing new.
+TEST(Stages, SensitivityNeedsFinerVoxels)
+{
+  const Field field = fieldOf(
+    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.4, 1e-4 } }, 1., 0.01));
+  Bench bench;
+  Scene scene = sceneOnCpu(160, 120);
+  const Image automatic = bench.render(field, scene);
+  const std::int64_t rays = bench.work().raysTraced;
+  scene.kScale = automatic.kScale;
+  EXPECT_EQ(bench.render(field, scene).medium.voxels, automatic.medium.voxels);
+  EXPECT_EQ(bench.work().raysTraced, rays);
+  scene.kScale = 30 * automatic.kScale;
+  const std::int64_t voxels = bench.render(field, scene).medium.voxels;
+  EXPECT_GT(voxels, automatic.medium.voxels);
+  const std::int64_t again = bench.work().raysTraced;
+  EXPECT_GT(again, rays);
+  scene.kScale = automatic.kScale;
+  EXPECT_EQ(bench.render(field, scene).medium.voxels, voxels);
+  EXPECT_EQ(bench.work().raysTraced, again);
 }
 
 TEST(Stages, NewDataRebuildTheMedium)

@@ -93,6 +93,35 @@ TEST(MediumTree, DeflectionIsWithinTolerance)
   }
 }
 
+/// Of weak balls beside one that is 50 times as strong and seen in a thousandth of the image: errors are compared with what
+/// an image shows of them, not with the largest deflection.
+TEST(MediumTree, SeesWeakFlowsBesideStrongOnes)
+{
+  const std::vector<Ball> balls{ { { 0.5, 0.5, 0.1 }, 0.02, 5e-3 },
+    { { -0.4, 0.3, 0.2 }, 0.08, 1e-4 }, { { 0.2, -0.5, -0.1 }, 0.08, 1e-4 } };
+  const auto source = std::make_shared<BallsSource>(balls);
+  constexpr double tolerance = 1e-2, weak = 1. / 50;
+  std::int64_t voxels = 0;
+  for (const double fullScale : { 0.1, weak }) // of the largest deflection
+  {
+    SCOPED_TRACE(fullScale);
+    Tree tree(source, 0, settingsOf(tolerance));
+    Column column = everything();
+    column.fullScale = fullScale < 0.1 ? fullScale * source->largestDeflection() : 0;
+    tree.refine(column);
+    for (std::size_t n = 1; n < balls.size(); ++n)
+    {
+      const auto& [u, v, depth] = balls[n].centre;
+      const double error = worstError(
+        tree, *source, Interpolation::Quadratic, x, y, 2 * balls[n].width, { u, v, depth });
+      EXPECT_LT(error, 2 * tolerance * fullScale);
+      EXPECT_GT(error, 0.01 * tolerance * fullScale); // no more voxels than that needs
+    }
+    EXPECT_GT(tree.statistics().voxels, voxels);
+    voxels = tree.statistics().voxels;
+  }
+}
+
 TEST(MediumTree, LooksAtPartsOfTheImageAgain)
 {
   const std::vector<Ball> balls = threeBalls(1e-4);
