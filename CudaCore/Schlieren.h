@@ -191,7 +191,7 @@ struct Scene
   /// Rays cross a cube of cells in one step where the refractivity varies in it by no more than this, as a
   /// fraction of its range in the whole medium; 0: never. 0 ... 1.
   double homogeneityTolerance = 0;
-  /// Error of the deflection, of the largest one, that the voxels of a Field's source may make, and of what rays gather
+  /// Error of the deflection, of a strong one (full scale, about), that the voxels of a Field's source may make, and of what rays gather
   /// of its fields, of the full colour; 0: they are as fine as the data. 0 ... 1.
   double mediumTolerance = 0.01;
   /// Bytes that the voxels of a Field's source may take. Where they do not do, the tolerance is not met:

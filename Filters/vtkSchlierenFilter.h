@@ -458,9 +458,9 @@ public:
   vtkSetMacro(SmoothingRadius, double);
   vtkGetMacro(SmoothingRadius, double);
 
-  /// Of meshes: the error of the deflection that the size of voxels may cause, relative to the
-  /// largest deflection; with Color By Field also that of a colour's strength; 0: voxels are as
-  /// fine as the mesh. Default: 0.003.
+  /// Of meshes: the error of the deflection that the size of voxels may cause, relative to a strong
+  /// one, as k shows it at full scale; with Color By Field also that of a colour's strength; 0:
+  /// voxels are as fine as the mesh. Default: 0.003.
   vtkSetMacro(MediumTolerance, double);
   vtkGetMacro(MediumTolerance, double);
 
