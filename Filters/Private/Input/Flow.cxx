@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/Flow.h"
 
+#include "Common/NumberText.h"
 #include "Gas/GasChoices.h"
 #include "Input/ChosenArrays.h"
 #include "Input/InputDescription.h"
@@ -16,12 +17,14 @@
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -33,30 +36,31 @@ namespace filters
 namespace
 {
 
-/// Throws for data without points or cells.
-void requireSpace(vtkDataObject* input)
+/// Returns what is wrong with data without points or cells, of which `subject` says what they are; mostly empty.
+std::string lackOfSpace(vtkDataObject* input, const std::string& subject)
 {
   for (vtkDataObject* leaf : leavesOf(input))
   {
     if (vtkHyperTreeGrid::SafeDownCast(leaf))
     {
-      throw std::runtime_error(
-        "The input is a hyper-tree grid, whose cells light cannot be sent through as they are. "
-        "Make cells of it with the filter Hyper Tree Grid To Unstructured Grid.");
+      return subject +
+        " is a hyper-tree grid, whose cells light cannot be sent through as they are. "
+        "Make cells of it with the filter Hyper Tree Grid To Unstructured Grid.";
     }
     if (vtkTable::SafeDownCast(leaf))
     {
-      throw std::runtime_error(
-        "The input is a table, so it is not known where its values are. Make a grid of it with "
+      return subject +
+        " is a table, so it is not known where its values are. Make a grid of it with "
         "the filter Table To Structured Grid, or points with Table To Points and a volume of "
-        "these with Point Volume Interpolator.");
+        "these with Point Volume Interpolator.";
     }
     if (!vtkDataSet::SafeDownCast(leaf))
     {
-      throw std::runtime_error("The input is a " + std::string(leaf->GetClassName()) +
-        ", which has no cells for light to cross. Use data that fill a volume, or a plane.");
+      return subject + " is a " + std::string(leaf->GetClassName()) +
+        ", which has no cells for light to cross. Use data that fill a volume, or a plane.";
     }
   }
+  return "";
 }
 
 /// Returns the array Refractivity if the image is used as it is: IndexModel does not choose other
@@ -180,6 +184,31 @@ void flattenLayers(const MediumSettings& settings, Flow& flow, const Flow* like)
   flattenLayer(flow, like);
 }
 
+/// Returns by how much n jumps in images whose samples are all near one end of their range or the other; else 0.
+double jumpOfVoxels(const Flow& flow, const std::array<double, 2>& range)
+{
+  const Linear* linear = std::get_if<Linear>(&flow.model);
+  const double size = range[1] - range[0], margin = 0.1 * size;
+  for (const Leaf& leaf : flow.leaves)
+  {
+    const bool isGrid =
+      vtkImageData::SafeDownCast(leaf.data) || vtkRectilinearGrid::SafeDownCast(leaf.data);
+    if (!linear || !isGrid)
+    {
+      return 0;
+    }
+    for (vtkIdType i = 0; i < leaf.arrays[0]->GetNumberOfTuples(); ++i)
+    {
+      const double value = leaf.arrays[0]->GetComponent(i, 0);
+      if (value > range[0] + margin && value < range[1] - margin)
+      {
+        return 0;
+      }
+    }
+  }
+  return std::abs(linear->scale) * size;
+}
+
 } // namespace
 
 std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input)
@@ -212,10 +241,11 @@ Flow chooseFlow(
   const std::vector<vtkDataSet*> dataSets = dataSetsOf(input);
   if (dataSets.empty())
   {
-    requireSpace(input);
-    throw std::runtime_error(
-      "The input is empty: it has no points. Check that its source was read or "
-      "updated and that no filter has removed everything.");
+    const std::string lack = lackOfSpace(input, "The input");
+    throw std::runtime_error(!lack.empty()
+        ? lack
+        : "The input is empty: it has no points. Check that its source was read or "
+          "updated and that no filter has removed everything.");
   }
   Flow flow;
   flow.choice = choiceFor(given, known, dataSets);
@@ -231,10 +261,12 @@ Flow chooseFlow(
   else
   {
     flow.model = modelFrom(settings);
-    flow.noteOnGases = noteOnGases(settings);
+    flow.notes = notesOn(flow.choice);
     flow.leaves = leavesWith(selections, dataSets);
   }
 
+  const std::string leftOut = lackOfSpace(input, "A block of the input, which is left out,");
+  flow.notes += (flow.notes.empty() || leftOut.empty() ? "" : " ") + leftOut;
   if (flow.leaves.empty())
   {
     throwNotFound(selections, dataSets, flow.choice.note);
@@ -247,6 +279,12 @@ Flow chooseFlow(
   applyMask(settings, given.Arrays[MediumSettings::MaskArray].isChosen(), dataSets, flow);
   flattenLayers(settings, flow, like);
   return flow;
+}
+
+std::string notesOn(const MediumChoice& choice)
+{
+  const std::string ofGases = noteOnGases(choice.settings);
+  return choice.warning + (choice.warning.empty() || ofGases.empty() ? "" : " ") + ofGases;
 }
 
 std::vector<std::string> arraysOf(const MediumSettings& settings)
@@ -272,7 +310,7 @@ Implausible implausibleIn(const Flow& flow)
   used.isScaleGiven = flow.choice.isScaleKnown;
   const bool isIndex = settings.IndexModel == MediumSettings::REFRACTIVE_INDEX ||
     settings.IndexModel == MediumSettings::REFRACTIVITY;
-  used.scales = settings.IndexModel == MediumSettings::CIDDOR
+  used.scales = settings.IndexModel == MediumSettings::CIDDOR || settings.usesGasLaw()
     ? std::vector<double>{ kelvinsOf(settings), settings.PressureScale }
     : std::vector<double>{ isIndex ? 1 : settings.DensityScale };
   const bool isOfTable = !isCustom(settings.Gas);
@@ -284,11 +322,14 @@ Implausible implausibleIn(const Flow& flow)
   }
   const std::vector<std::size_t> indices = arraysOfModel(settings);
   const bool isUniform = settings.hasUniformPressure(), isIsentropic = settings.isIsentropic();
-  for (std::size_t i = 0; i < (isUniform || isIsentropic ? 1 : used.scales.size()); ++i)
+  used.isConstant = true;
+  const std::size_t count = isUniform || isIsentropic ? 1 : used.scales.size();
+  for (std::size_t i = 0; i < flow.leaves[0].arrays.size(); ++i)
   {
-    const ArraySelection& selection = settings.Arrays[indices[i]];
+    const ArraySelection& selection = settings.Arrays[indices[std::min(i, count - 1)]];
     FlowArray array{ selection.name, selection.cellsFirst ? FlowArray::Cells : FlowArray::Points, 1,
       { std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest() } };
+    bool areSingles = false;
     for (const Leaf& leaf : flow.leaves)
     {
       double range[2];
@@ -300,12 +341,20 @@ Implausible implausibleIn(const Flow& flow)
              : leaf.arrays[i]->GetFiniteRange(range, 0);
       array.range[0] = std::min(array.range[0], range[0]);
       array.range[1] = std::max(array.range[1], range[1]);
+      areSingles = areSingles || leaf.arrays[i]->GetDataType() == VTK_FLOAT;
       if (array.name.empty() && leaf.arrays[i]->GetName())
       {
         array.name = leaf.arrays[i]->GetName();
       }
     }
-    used.arrays.push_back(std::move(array));
+    const double rounding = areSingles ? 1e-6 : 1e-13; // of some operations
+    used.isConstant = used.isConstant &&
+      array.range[1] - array.range[0] <=
+        rounding * std::max(std::abs(array.range[0]), std::abs(array.range[1]));
+    if (i < count)
+    {
+      used.arrays.push_back(std::move(array));
+    }
   }
   if (isUniform)
   {
@@ -320,7 +369,21 @@ Implausible implausibleIn(const Flow& flow)
       { "StagnationTemperature", FlowArray::Points, 1,
         { settings.StagnationTemperature, settings.StagnationTemperature } });
   }
-  return implausible(used);
+  Implausible found = implausible(used);
+  const std::array<double, 2> range = used.arrays[0].range;
+  constexpr double least = 0.05;
+  const double jump = found.text.empty() ? jumpOfVoxels(flow, range) : 0;
+  if (jump > least)
+  {
+    found = { "voxels",
+      "n jumps by " + textOf(jump, 3) +
+        " from sample to sample with nothing between, as of glass in voxels: a face that is "
+        "oblique to the grid is "
+        "stairs, which bend light by as much as the glass does. Give each voxel the share of it "
+        "that is glass, spread "
+        "the face over three voxels, or use cells that follow it (Documentation/density.md)." };
+  }
+  return found;
 }
 
 } // namespace filters
