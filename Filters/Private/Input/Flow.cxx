@@ -184,16 +184,20 @@ void flattenLayers(const MediumSettings& settings, Flow& flow, const Flow* like)
   flattenLayer(flow, like);
 }
 
-/// Returns by how much n jumps in images whose samples are all near one end of their range or the other; else 0.
+/// Returns by how much n jumps, as at glass, in images whose samples are all near one end of their range or the other;
+/// else 0.
 double jumpOfVoxels(const Flow& flow, const std::array<double, 2>& range)
 {
   const Linear* linear = std::get_if<Linear>(&flow.model);
   const double size = range[1] - range[0], margin = 0.1 * size;
+  constexpr double least = 0.05;
+  if (!linear || !(std::abs(linear->scale) * size > least))
+  {
+    return 0;
+  }
   for (const Leaf& leaf : flow.leaves)
   {
-    const bool isGrid =
-      vtkImageData::SafeDownCast(leaf.data) || vtkRectilinearGrid::SafeDownCast(leaf.data);
-    if (!linear || !isGrid)
+    if (!vtkImageData::SafeDownCast(leaf.data) && !vtkRectilinearGrid::SafeDownCast(leaf.data))
     {
       return 0;
     }
@@ -371,9 +375,8 @@ Implausible implausibleIn(const Flow& flow)
   }
   Implausible found = implausible(used);
   const std::array<double, 2> range = used.arrays[0].range;
-  constexpr double least = 0.05;
   const double jump = found.text.empty() ? jumpOfVoxels(flow, range) : 0;
-  if (jump > least)
+  if (jump > 0)
   {
     found = { "voxels",
       "n jumps by " + textOf(jump, 3) +
