@@ -8,6 +8,7 @@
 #include "Input/InputDescription.h"
 #include "Input/OneLayer.h"
 #include "Input/RefractivityValues.h"
+#include "Input/VoxelJumps.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -17,7 +18,6 @@
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
@@ -184,35 +184,6 @@ void flattenLayers(const MediumSettings& settings, Flow& flow, const Flow* like)
   flattenLayer(flow, like);
 }
 
-/// Returns by how much n jumps, as at glass, in images whose samples are all near one end of their range or the other;
-/// else 0.
-double jumpOfVoxels(const Flow& flow, const std::array<double, 2>& range)
-{
-  const Linear* linear = std::get_if<Linear>(&flow.model);
-  const double size = range[1] - range[0], margin = 0.1 * size;
-  constexpr double least = 0.05;
-  if (!linear || !(std::abs(linear->scale) * size > least))
-  {
-    return 0;
-  }
-  for (const Leaf& leaf : flow.leaves)
-  {
-    if (!vtkImageData::SafeDownCast(leaf.data) && !vtkRectilinearGrid::SafeDownCast(leaf.data))
-    {
-      return 0;
-    }
-    for (vtkIdType i = 0; i < leaf.arrays[0]->GetNumberOfTuples(); ++i)
-    {
-      const double value = leaf.arrays[0]->GetComponent(i, 0);
-      if (value > range[0] + margin && value < range[1] - margin)
-      {
-        return 0;
-      }
-    }
-  }
-  return std::abs(linear->scale) * size;
-}
-
 } // namespace
 
 std::vector<vtkDataSet*> dataSetsOf(vtkDataObject* input)
@@ -375,7 +346,7 @@ Implausible implausibleIn(const Flow& flow)
   }
   Implausible found = implausible(used);
   const std::array<double, 2> range = used.arrays[0].range;
-  const double jump = found.text.empty() ? jumpOfVoxels(flow, range) : 0;
+  const double jump = found.text.empty() ? jumpOfVoxels(flow.leaves, flow.model, range) : 0;
   if (jump > 0)
   {
     found = { "voxels",
