@@ -112,12 +112,15 @@ VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaultsFromRest(
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaults(
   const std::vector<FlowArray>& arrays, MediumSettings::IndexModels model);
 
-/// Chooses only the fractions of known gases among the arrays of points or cells.
-VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowSpecies(
-  const std::vector<FlowArray>& arrays, FlowArray::Association association);
+/// Chooses only the fractions of known gases among the arrays of points or cells; partial densities `withDensity` only.
+VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowSpecies(const std::vector<FlowArray>& arrays,
+  FlowArray::Association association, bool withDensity = true);
 
 /// Chooses an array that marks bodies or gas by its name, with values on both sides of maskThreshold.
 VTKSCHLIERENFILTERS_EXPORT MaskDefault flowMask(const std::vector<FlowArray>& arrays);
+
+/// Returns a note on an array that marks the holes of an overset mesh; mostly empty.
+VTKSCHLIERENFILTERS_EXPORT std::string noteOnOverset(const std::vector<FlowArray>& arrays);
 
 /// Returns whether the array's name says that it marks gas, not bodies.
 VTKSCHLIERENFILTERS_EXPORT bool marksGas(const std::string& array);
@@ -142,6 +145,7 @@ struct FlowInUse
   std::vector<double> scales; ///< factors to SI units
   bool isScaleGiven = false;  ///< by the user or by a unit
   double constant = 2.26e-4;  ///< Gladstone-Dale constant of the gas, m^3/kg
+  bool isConstant = false;    ///< whether all arrays are the same everywhere, up to rounding
   bool isGas = true;          ///< false: the user has given the constant of another material
 };
 

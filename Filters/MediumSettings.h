@@ -113,7 +113,13 @@ struct MediumSettings
   /// Returns whether the model needs a pressure that no array has.
   bool hasUniformPressure() const
   {
-    return this->IndexModel == CIDDOR && this->UniformPressure > 0;
+    return (this->IndexModel == CIDDOR || this->usesGasLaw()) && this->UniformPressure > 0;
+  }
+  /// Returns whether the density of a mixture follows from temperature and pressure; of complete settings.
+  bool usesGasLaw() const
+  {
+    return this->IndexModel == GLADSTONE_DALE_MIXTURE && !this->Arrays[DensityArray].isChosen() &&
+      this->Arrays[TemperatureArray].isChosen();
   }
   /// Returns whether the model needs a temperature that the pressure gives.
   bool isIsentropic() const

@@ -143,9 +143,9 @@ public:
   vtkSetMacro(PressureScale, double);
   vtkGetMacro(PressureScale, double);
 
-  /// Pressure of air that is the same everywhere, in Pa, as around a heater or a fire in a room
-  /// (101325); then a temperature is enough, and no array of the pressure is read. 0: the pressure
-  /// is an array. Default: 0.
+  /// Pressure of air or of a mixture that is the same everywhere, in Pa, as around a heater or a
+  /// fire in a room (101325); then a temperature is enough, and no array of the pressure is read.
+  /// 0: the pressure is an array. Default: 0.
   vtkSetMacro(UniformPressure, double);
   vtkGetMacro(UniformPressure, double);
 

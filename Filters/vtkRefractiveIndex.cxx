@@ -248,7 +248,7 @@ void vtkRefractiveIndex::Append(vtkDataObject* input, vtkDataObject* output)
   const std::string warning = maker.warningOf(choice.flow, tally, false);
   if (!warning.empty() && isRank0())
   {
-    vtkWarningMacro(<< warning);
+    vtkWarningMacro(<< shortened(warning));
   }
 }
 
@@ -273,6 +273,6 @@ void vtkRefractiveIndex::Revolve(vtkDataObject* input, vtkImageData* output)
   this->Grid->CopyStructure(output);
   if (!made->Warning.empty())
   {
-    vtkWarningMacro(<< made->Warning);
+    vtkWarningMacro(<< shortened(made->Warning));
   }
 }

@@ -11,6 +11,7 @@
 #include "Device/DeviceError.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -155,8 +156,13 @@ Image Bench::Stages::imageOf(const UnfinishedImage& request, const ViewSetup<Rea
   image.ambient = medium.ambient;
   image.exitRefractivity = view.exitRefractivity;
   image.steepestChange = medium.steepest.perVoxel;
-  image.steepestPlace = placeOf(
-    request.field.grid, { medium.steepest.at[0], medium.steepest.at[1], medium.steepest.at[2] });
+  std::array<double, 3> steepest = medium.steepest.at;
+  for (std::size_t axis = 0; axis < 3; ++axis) // bricks and blocks reach beyond the data
+  {
+    steepest[axis] =
+      std::clamp(steepest[axis], 0., static_cast<double>(request.field.grid.dimensions[axis] - 1));
+  }
+  image.steepestPlace = placeOf(request.field.grid, { steepest[0], steepest[1], steepest[2] });
   image.pathModel = view.settings.kernel.path;
   image.integrator = view.settings.kernel.integrator;
   image.skippingBound = view.skippingBound;

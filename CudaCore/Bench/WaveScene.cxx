@@ -3,6 +3,7 @@
 #include "Bench/WaveScene.h"
 
 #include "Bench/StageSettings.h"
+#include "Math/NumberText.h"
 #include "Waves/ScreenWaves.h"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
   if (isDiverging && (!isPlain || largestSlope(scene, frame) > largestSlopeOfWaves))
   {
     return "LightModel is Waves, but light diverges by up to " +
-      std::to_string(largestSlope(scene, frame)) +
+      textOf(largestSlope(scene, frame)) +
       ", and waves take parallel light, or of a Shadowgraph with a point source light that "
       "diverges by no more than 0.1. Set " +
       (frame.pupil > 0 ? "ViewAngle to less (0 is parallel light),"
@@ -69,12 +70,11 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
   if (!(scene.wavelength > 0 && std::isfinite(scene.wavelength) &&
         std::isfinite(1 / scene.wavelength)))
   {
-    return "Wavelength is " + std::to_string(scene.wavelength) +
-      " metres. Set it to a positive number.";
+    return "Wavelength is " + textOf(scene.wavelength) + " metres. Set it to a positive number.";
   }
   if (!(scene.bandwidth >= 0 && scene.bandwidth < scene.wavelength))
   {
-    return "Bandwidth is " + std::to_string(scene.bandwidth / scene.wavelength) +
+    return "Bandwidth is " + textOf(scene.bandwidth / scene.wavelength) +
       " times Wavelength. Set it to 0 or more, but to less than Wavelength.";
   }
   const PhasePlate& plate = scene.phasePlate;
@@ -82,8 +82,8 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
     !(plate.diameter >= 0 && std::isfinite(plate.diameter) && std::isfinite(plate.delay) &&
       plate.transmission >= 0 && plate.transmission <= 1))
   {
-    return "The phase plate has " + std::to_string(plate.diameter) + " radians, delays light by " +
-      std::to_string(plate.delay) + " waves and transmits " + std::to_string(plate.transmission) +
+    return "The phase plate has " + textOf(plate.diameter) + " radians, delays light by " +
+      textOf(plate.delay) + " waves and transmits " + textOf(plate.transmission) +
       ". Set PhasePlateDiameter to 0 or more, PhasePlateDelay to a finite number and "
       "PhasePlateTransmission between 0 and 1.";
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/Light.h"
 
+#include "Math/NumberText.h"
 #include "Math/Units.h"
 
 #include <algorithm>
@@ -142,12 +143,12 @@ Frame frameOf(const Grid& grid, const View& view)
   constexpr double widest = 170;
   if (!(view.viewAngle >= 0 && view.viewAngle < widest))
   {
-    throw Error("ViewAngle is " + std::to_string(view.viewAngle) +
+    throw Error("ViewAngle is " + textOf(view.viewAngle) +
       " degrees. Set it to less than 170, or to 0 for parallel light.");
   }
   if (view.parallelScale < 0)
   {
-    throw Error("ParallelScale is " + std::to_string(view.parallelScale) +
+    throw Error("ParallelScale is " + textOf(view.parallelScale) +
       ", but it is half the height of the image. Set it to a positive length, or to 0 to fit the "
       "data.");
   }

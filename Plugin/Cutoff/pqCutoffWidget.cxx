@@ -39,6 +39,9 @@ double valueOf(vtkSMProxy* proxy, const char* property)
   return vtkSMPropertyHelper(proxy, property).GetAsDouble();
 }
 
+/// Returns the k times deflection over SourceWidth, which of a colour filter's image is from -1 to 1.
+double kOfWidth(int cutoff) { return cutoff == Filter::COLOR_FILTER ? 2 : 1; }
+
 vtkPiecewiseFunction* gradedFilterOf(vtkSMProxy* proxy)
 {
   vtkSMProxy* function = vtkSMPropertyHelper(proxy, "GradedFilter").GetAsProxy();
@@ -67,7 +70,7 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
   {
     const double width = valueOf(proxy, "SourceWidth"); // millimetres
     cutoff.EdgeIsFastened = true;
-    cutoff.K = 1e3 * valueOf(proxy, "FocalLength") / width;
+    cutoff.K = kOfWidth(kind) * 1e3 * valueOf(proxy, "FocalLength") / width;
     cutoff.Offset = valueOf(proxy, "CutoffPosition") / width;
   }
   else
@@ -188,7 +191,7 @@ QMap<QString, QVariant> pqCutoffWidget::changes() const
       if (fromOptics)
       {
         values["SourceWidth"] =
-          rounded(1e3 * valueOf(this->proxy(), "FocalLength") / now.K, digits);
+          rounded(kOfWidth(now.Kind) * 1e3 * valueOf(this->proxy(), "FocalLength") / now.K, digits);
       }
       else
       {

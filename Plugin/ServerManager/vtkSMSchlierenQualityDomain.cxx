@@ -73,9 +73,16 @@ template <class Helper>
 void vtkSMSchlierenQualityDomain::Follow(vtkSMProperty* modified)
 {
   Helper quality(this->GetProperty());
-  if (quality.GetNumberOfElements() == 0)
+  const auto isEmpty = [](vtkSMProperty* property)
+  { return Helper(property).GetNumberOfElements() == 0; };
+  bool lacksElements = isEmpty(this->GetProperty());
+  for (int i = 0; const char* name = Filter::GetQualitySetting(i); ++i)
   {
-    return; // the XML is still being read
+    lacksElements = lacksElements || isEmpty(this->GetRequiredProperty(name));
+  }
+  if (lacksElements)
+  {
+    return; // the XML is still being read, or a state file has a property without elements
   }
   const auto isPreset = [this](int preset)
   {

@@ -142,6 +142,18 @@ def check_kept(found=simple.FindSource):
 
 
 comes_back("quality.pvsm", script, check_kept)
+
+# A state file in which properties have no elements is loaded, however little sense it makes.
+with open("quality.pvsm", encoding="utf-8") as file:
+    state = file.read()
+for name in table["Interactive"]:
+    broken, count = re.subn(rf'(<Property name="{name}"[^>]*number_of_elements=")1(">)\s*<Element [^>]*/>', r"\g<1>0\2", state)
+    assert count >= len(kept), (name, count)
+    with open("broken.pvsm", "w", encoding="utf-8") as file:
+        file.write(broken)
+    simple.ResetSession()
+    simple.LoadState(os.path.abspath("broken.pvsm"))
+    assert simple.FindSource("Odd"), name
 simple.ResetSession()
 simple.XMLImageDataReader(FileName=[os.path.abspath("column16.vti")], registrationName=re.search(
     r"FindSource\('(XMLImageDataReader\d*)'\)", trace).group(1)).UpdatePipeline()

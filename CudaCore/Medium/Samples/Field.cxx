@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Medium/Samples/Field.h"
 
+#include "Math/NumberText.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,7 +25,7 @@ void validateAmbient(double ambient)
 {
   if (!(ambient > -1 && ambient <= largestPlausibleN))
   {
-    throw Error("The ambient refractivity " + std::to_string(ambient) +
+    throw Error("The ambient refractivity " + textOf(ambient) +
       " is that of no transparent medium (-1 < n - 1 <= 10 is accepted). Give n - 1 of the gas "
       "around the flow (air: 2.7e-4), or let it be found from the domain's boundary.");
   }
@@ -39,8 +41,7 @@ void validateRange(double lowest, double highest)
   }
   if (std::max(std::abs(lowest), std::abs(highest)) > largestPlausibleN || lowest <= -1)
   {
-    throw Error("The refractivity n - 1 reaches from " + std::to_string(lowest) + " to " +
-      std::to_string(highest) +
+    throw Error("The refractivity n - 1 reaches from " + textOf(lowest) + " to " + textOf(highest) +
       ", which no transparent medium has (-1 < n - 1 <= 10 is accepted). Check the index model, "
       "the "
       "chosen array and its unit (density in kg/m^3; use the density scale to convert).");
@@ -122,8 +123,7 @@ void validate(const Grid& grid)
     if (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis]))
     {
       throw Error("The grid's spacing along its " + name + " axis is " +
-        std::to_string(grid.spacing[axis]) +
-        "; it must be positive and finite. Check the data's spacing.");
+        textOf(grid.spacing[axis]) + "; it must be positive and finite. Check the data's spacing.");
     }
     if (!std::isfinite(grid.origin[axis]))
     {

@@ -4,6 +4,7 @@
 #include "Filter/SchlierenFilterInternals.h"
 
 #include "Gas/GasChoices.h"
+#include "Guarded.h"
 #include "Image/SceneFromSettings.h"
 #include "Input/Flow.h"
 #include "Input/InputDescription.h"
@@ -101,7 +102,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   inside.Refractivity = made;
   if (!made->Warning.empty())
   {
-    vtkWarningMacro(<< made->Warning << noteOnView(*this, made->FlatAxis));
+    vtkWarningMacro(<< shortened(made->Warning) << noteOnView(*this, made->FlatAxis));
   }
   inside.Input = std::move(description);
   inside.UsesWavelength = usesWavelength(this->GetMaker().choice().settings);

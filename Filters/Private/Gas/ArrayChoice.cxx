@@ -3,17 +3,12 @@
 #include "Gas/ArrayChoice.h"
 
 #include "Common/NumberText.h"
+#include "Gas/Fractions.h"
 #include "Gas/GasChoices.h"
 #include "Gas/RefractivityModels.h"
 
-#include "vtkDataArray.h"
-#include "vtkDataSet.h"
-#include "vtkDataSetAttributes.h"
-
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
-#include <utility>
 
 namespace filters
 {
@@ -26,6 +21,10 @@ using S = MediumSettings;
 /// Returns whether the user has left an array open that the model needs.
 bool lacksArrays(const MediumSettings& settings)
 {
+  if (settings.IndexModel == S::GLADSTONE_DALE_MIXTURE)
+  {
+    return !settings.Arrays[S::DensityArray].isChosen();
+  }
   const std::vector<std::size_t> needed = arraysOfModel(settings);
   return std::any_of(needed.begin(), needed.end(),
     [&](std::size_t index)
@@ -82,6 +81,7 @@ std::string inWords(const MediumSettings& settings)
   {
     text += (i > 0 ? ", '" : "; fractions: '") + settings.MixtureArrays[i] + "'";
   }
+  text += settings.usesGasLaw() ? "; density: that of an ideal gas" : "";
   if (settings.Arrays[S::MaskArray].isNamed())
   {
     text += (text.empty() ? "" : "; ") + std::string("Mask: '") +
@@ -91,95 +91,6 @@ std::string inWords(const MediumSettings& settings)
 }
 
 } // namespace
-
-void KnownArrays::Note(std::vector<FlowArray> arrays)
-{
-  if (!this->AreAll)
-  {
-    this->Arrays = std::move(arrays);
-  }
-}
-
-void KnownArrays::SetOfRanks(std::vector<FlowArray> arrays)
-{
-  this->Arrays = std::move(arrays);
-  this->AreAll = true;
-}
-
-void addArrays(std::vector<FlowArray>& all, const std::vector<FlowArray>& more)
-{
-  for (const FlowArray& array : more)
-  {
-    const auto same = std::find_if(all.begin(), all.end(),
-      [&array](const FlowArray& other)
-      { return other.name == array.name && other.association == array.association; });
-    if (same == all.end())
-    {
-      all.push_back(array);
-      continue;
-    }
-    same->components = std::max(same->components, array.components);
-    same->range[0] = std::min(same->range[0], array.range[0]);
-    same->range[1] = std::max(same->range[1], array.range[1]);
-  }
-}
-
-std::vector<FlowArray> flowArraysOf(const std::vector<vtkDataSet*>& data, bool hasRanges)
-{
-  std::vector<FlowArray> all;
-  for (vtkDataSet* set : data)
-  {
-    std::vector<FlowArray> ofSet;
-    for (const FlowArray::Association association : { FlowArray::Points, FlowArray::Cells })
-    {
-      vtkDataSetAttributes* attributes = set->GetAttributes(association);
-      for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-      {
-        vtkDataArray* array = attributes->GetArray(i);
-        if (!array || !array->GetName() || array->GetNumberOfTuples() == 0)
-        {
-          continue;
-        }
-        FlowArray described{ array->GetName(), association, array->GetNumberOfComponents(),
-          { 0, 0 } };
-        if (described.components == 1 && (hasRanges || dependsOnRange(described.name)))
-        {
-          array->GetFiniteRange(described.range.data(), 0);
-        }
-        ofSet.push_back(std::move(described));
-      }
-    }
-    addArrays(all, ofSet);
-  }
-  return all;
-}
-
-void putArrays(const std::vector<FlowArray>& arrays, std::vector<char>& message)
-{
-  put(static_cast<std::uint64_t>(arrays.size()), message);
-  for (const FlowArray& array : arrays)
-  {
-    putAll(array.name, message);
-    put(array.association, message);
-    put(array.components, message);
-    put(array.range, message);
-  }
-}
-
-std::vector<FlowArray> getArrays(Reader& message)
-{
-  std::vector<FlowArray> arrays;
-  const auto count = message.Get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < count; ++i)
-  {
-    FlowArray& array = arrays.emplace_back();
-    array.name = message.GetAll<std::string>();
-    array.association = message.Get<FlowArray::Association>();
-    array.components = message.Get<int>();
-    array.range = message.Get<std::array<double, 2>>();
-  }
-  return arrays;
-}
 
 std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
 {
@@ -202,7 +113,12 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
     case IndexArrays::Density:
       break;
   }
-  return { S::DensityArray };
+  if (settings.hasUniformPressure())
+  {
+    return { S::TemperatureArray };
+  }
+  return settings.usesGasLaw() ? std::vector<std::size_t>{ S::TemperatureArray, S::PressureArray }
+                               : std::vector<std::size_t>{ S::DensityArray };
 }
 
 double kelvinsOf(const MediumSettings& settings)
@@ -249,6 +165,16 @@ FlowDefaults chooseArrays(
         flowDefaults(arrays, static_cast<MediumSettings::IndexModels>(settings.IndexModel));
     }
   }
+  if (settings.IndexModel == S::GLADSTONE_DALE_MIXTURE && lacksArrays(settings))
+  {
+    // With a temperature and without a density, it is a model of the gas law.
+    ArraySelection& temperature = settings.Arrays[S::TemperatureArray];
+    const bool isLaw = defaults.arrayOf("Density").empty();
+    temperature = !isLaw       ? ArraySelection()
+      : temperature.isChosen() ? temperature
+                               : ArraySelection{ defaults.arrayOf("Temperature"), -1,
+                                   defaults.association == FlowArray::Cells };
+  }
   for (const std::size_t index : arraysOfModel(settings))
   {
     ArraySelection& selection = settings.Arrays[index];
@@ -267,25 +193,51 @@ FlowDefaults chooseArrays(
   return defaults;
 }
 
+/// Returns whether the gas is one of the user's own, which excludes mixtures.
+bool hasOneGas(const MediumSettings& given)
+{
+  return !isCustom(given.Gas) || given.GladstoneDaleConstant != MediumSettings::defaultConstant;
+}
+
+FlowArray::Association associationIn(const MediumSettings& settings)
+{
+  return settings.Arrays[arraysOfModel(settings)[0]].cellsFirst ? FlowArray::Cells
+                                                                : FlowArray::Points;
+}
+
+/// Returns a note on what the choice leaves out of the data.
+std::string noteOnArrays(
+  const MediumSettings& given, const std::vector<FlowArray>& known, const MediumSettings& settings)
+{
+  const std::string note = noteOnOverset(known);
+  // What the user has chosen needs no note. The window chooses as flowSpecies() does.
+  if (kindOf(settings.IndexModel).gases == IndexGases::None || hasOneGas(given) ||
+    (!given.MixtureArrays.empty() &&
+      given.MixtureArrays != flowSpecies(known, associationIn(settings)).fractions))
+  {
+    return note;
+  }
+  const std::string more = noteOnFractions(known, settings.MixtureArrays);
+  return note + (note.empty() || more.empty() ? "" : " ") + more;
+}
+
 /// Takes mass or volume fractions as a mixture, unless the user has chosen one gas.
 void chooseMixture(
   const MediumSettings& given, const std::vector<FlowArray>& known, MediumSettings& settings)
 {
   const bool isAuto = given.IndexModel == S::AUTO;
-  // A gas of the user's own excludes mixtures.
-  const bool isOneGas =
-    !isCustom(given.Gas) || given.GladstoneDaleConstant != MediumSettings::defaultConstant;
+  const bool isOneGas = hasOneGas(given);
   const bool mayBeMixture = settings.IndexModel == S::GLADSTONE_DALE_MIXTURE ||
     (isAuto && settings.IndexModel == S::GLADSTONE_DALE && !isOneGas);
   if (isAuto && isOneGas && settings.IndexModel == S::GLADSTONE_DALE_MIXTURE &&
     given.MixtureArrays.empty())
   {
-    settings.IndexModel = S::GLADSTONE_DALE;
+    settings.IndexModel = settings.usesGasLaw() ? S::CIDDOR : S::GLADSTONE_DALE;
   }
   else if (mayBeMixture && given.MixtureArrays.empty())
   {
-    const FlowDefaults species = flowSpecies(
-      known, settings.Arrays[S::DensityArray].cellsFirst ? FlowArray::Cells : FlowArray::Points);
+    const FlowDefaults species =
+      flowSpecies(known, associationIn(settings), !settings.usesGasLaw());
     if (!species.fractions.empty())
     {
       settings.IndexModel = S::GLADSTONE_DALE_MIXTURE;
@@ -312,7 +264,7 @@ void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, Med
     return scale != 0 ? scale : byUnit != 0 ? byUnit : byValues != 0 ? byValues : 1;
   };
   const IndexArrays arrays = kindOf(settings.IndexModel).arrays;
-  if (arrays == IndexArrays::Air)
+  if (arrays == IndexArrays::Air || settings.usesGasLaw())
   {
     settings.PressureScale = scaleOf(S::PressureArray, given.PressureScale);
   }
@@ -356,6 +308,7 @@ MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>&
     settings.Wavelength = S().Wavelength; // nor does that of light that nothing disperses
   }
   choice.message = inWords(settings);
+  choice.warning = noteOnArrays(given, known, settings);
   return choice;
 }
 

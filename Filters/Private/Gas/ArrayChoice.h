@@ -51,6 +51,7 @@ struct MediumChoice
   MediumSettings settings;
   bool isScaleKnown = false; ///< of the density or pressure: whether the user or a unit gives it
   std::string message;       ///< the choice as a text for the user
+  std::string warning;       ///< about arrays that are not used; mostly empty
   std::string note;          ///< names that were not understood; mostly empty
 };
 

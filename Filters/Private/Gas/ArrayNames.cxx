@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/ArrayNames.h"
 
-#include "Schlieren.h"
+#include "Gas/GasChoices.h"
 
 #include <algorithm>
 #include <cctype>
@@ -237,7 +237,7 @@ Understood understood(const std::vector<std::string>& words, const Names& names)
     {
       continue;
     }
-    else if (others.count(small) || schlieren::findGas(word) || schlieren::findGas(small))
+    else if (others.count(small) || !gasOf(word).empty())
     {
       atLeast(Understood::AsSpecies);
     }

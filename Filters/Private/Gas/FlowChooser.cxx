@@ -3,11 +3,11 @@
 #include "Gas/FlowChooser.h"
 
 #include "Common/NumberText.h"
+#include "Gas/Fractions.h"
 #include "Gas/RefractivityModels.h"
 #include "Schlieren.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 
 namespace filters
@@ -22,13 +22,6 @@ namespace
 
 const std::set<std::string> refractivities = { "refractivity", "nminus1" };
 
-/// Matches formulas with case ("Co" is not "CO"), names without.
-std::string gasOf(const std::string& word)
-{
-  const std::string name = lowered(word);
-  return schlieren::findGas(word) ? word : schlieren::findGas(name) ? name : std::string();
-}
-
 /// Returns the unit of a quantity's values.
 std::string unitInWords(double scale, const std::string& unit)
 {
@@ -36,56 +29,6 @@ std::string unitInWords(double scale, const std::string& unit)
 }
 
 } // namespace
-
-bool isFraction(const FlowArray& array, Fraction& fraction)
-{
-  // Solvers undershoot 0 and overshoot 1 a little.
-  if (array.components != 1 || array.range[0] < -0.05 || array.range[1] > 1.05 ||
-    array.range[1] <= 0)
-  {
-    return false;
-  }
-  const ArrayName name(array.name);
-  std::vector<std::string> rest;
-  bool isGiven = false;
-  bool ofVolume = false;
-  for (const std::string& word : name.AllWords())
-  {
-    const std::string small = lowered(word);
-    if (small == "y" || small == "mass" || small == "massfraction")
-    {
-      isGiven = true;
-    }
-    else if (small == "x" || small == "mole" || small == "molar" || small == "volume" ||
-      small == "molefraction" || small == "volumefraction")
-    {
-      isGiven = ofVolume = true;
-    }
-    else if (small != "fraction" && small != "of" && small != "mean")
-    {
-      rest.push_back(word);
-    }
-  }
-  std::string text;
-  for (const std::string& word : rest)
-  {
-    text += (text.empty() ? "" : " ") + word;
-  }
-  fraction = { array.name, gasOf(text), ofVolume };
-  // Joins what the split at capitals has separated: "YHe", "carbonDioxide", "SiH4".
-  if (fraction.gas.empty() && rest.size() > 1)
-  {
-    text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
-    fraction.gas = gasOf(text);
-  }
-  if (fraction.gas.empty() && rest.size() == 1 && !isGiven && text.size() > 1 &&
-    std::string("YyXx").find(text[0]) != std::string::npos)
-  {
-    fraction.gas = gasOf(text.substr(1));
-    fraction.ofVolume = std::tolower(text[0]) == 'x';
-  }
-  return !fraction.gas.empty();
-}
 
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
@@ -106,7 +49,8 @@ FlowChooser::FlowChooser(const std::vector<FlowArray>& all)
 
 bool FlowChooser::choose()
 {
-  return this->refractivity() || this->refractiveIndex() || this->density(true) || this->moistAir();
+  return this->refractivity() || this->refractiveIndex() || this->density(true) ||
+    this->state(true);
 }
 
 bool FlowChooser::choose(MediumSettings::IndexModels model)
@@ -119,19 +63,20 @@ bool FlowChooser::choose(MediumSettings::IndexModels model)
       return model == MediumSettings::REFRACTIVE_INDEX ? this->refractiveIndex()
                                                        : this->refractivity();
     case IndexArrays::Air:
-      return this->moistAir();
+      return this->state(false);
     case IndexArrays::Density:
-      return this->density(kind.gases == IndexGases::Mixture);
+      return this->density(kind.gases == IndexGases::Mixture) ||
+        (kind.gases == IndexGases::Mixture && this->state(true));
     case IndexArrays::Fields:
       break; // no names are known for them
   }
   return false;
 }
 
-void FlowChooser::chooseSpecies(FlowArray::Association association)
+void FlowChooser::chooseSpecies(FlowArray::Association association, bool withDensity)
 {
   this->Result.association = association;
-  this->species();
+  this->species(withDensity);
 }
 
 bool FlowChooser::has(Quantity quantity) const
@@ -147,7 +92,7 @@ FlowChooser::Found FlowChooser::find(Quantity quantity, FlowArray::Association a
   Found found;
   std::string several; // arrays of species or components, none of which is the total
   int parts = 0;
-  bool isOfPhase = false, areLiquids = false;
+  bool isOfPhase = false, isOfAir = false, areLiquids = false, areSpecies = false;
   for (const FlowArray& array : this->Arrays)
   {
     const ArrayName name(array.name);
@@ -161,17 +106,19 @@ FlowChooser::Found FlowChooser::find(Quantity quantity, FlowArray::Association a
       ++parts;
       several += (several.empty() ? "" : ", ") + quoted(array.name);
       areLiquids = areLiquids || name.IsOfLiquid();
+      areSpecies = areSpecies || how == Understood::AsSpecies;
     }
     if (how < best)
     {
       best = how;
       isOfPhase = name.IsOfGas();
+      isOfAir = name.Joined().find("air") != std::string::npos;
       const double scale = name.Scale(quantity);
       found = { &array, scale != 0 || name.HasUnit(quantity) ? scale : 1 };
     }
   }
   if (best == Understood::AsSpecies || (best == Understood::AsPart && parts > 1) ||
-    (isOfPhase && areLiquids))
+    (isOfPhase && areLiquids) || (isOfAir && areSpecies))
   {
     if (found.array && best < Understood::AsPart)
     {
@@ -270,35 +217,40 @@ bool FlowChooser::density(bool ofSpecies)
   }
   if (ofSpecies)
   {
-    this->species();
+    this->species(true);
   }
   this->Result.message += this->Result.fractions.empty() ? "; gas: air." : "; the rest: air.";
   return true;
 }
 
-void FlowChooser::species()
+void FlowChooser::species(bool withDensity)
 {
   std::vector<Fraction> found;
   for (const FlowArray& array : this->Arrays)
   {
-    Fraction fraction;
-    if (array.association == this->Result.association && isFraction(array, fraction))
+    const auto fraction = fractionOf(array);
+    if (array.association == this->Result.association && fraction && !fraction->gas.empty() &&
+      (withDensity || fraction->kind != FractionOf::Density))
     {
-      found.push_back(fraction);
+      found.push_back(*fraction);
     }
   }
-  if (found.empty())
+  if (std::none_of(
+        found.begin(), found.end(), [](const Fraction& fraction) { return fraction.isSure; }))
   {
     return;
   }
-  // Uses fractions of one kind, and each gas once: files often have both kinds.
-  this->Result.ofVolume = std::all_of(
-    found.begin(), found.end(), [](const Fraction& fraction) { return fraction.ofVolume; });
+  // Uses fractions of one kind, and each gas once: files often have several kinds.
+  const FractionOf kind = std::min_element(found.begin(), found.end(),
+    [](const Fraction& a, const Fraction& b) {
+      return a.kind < b.kind;
+    })->kind;
+  this->Result.ofVolume = kind == FractionOf::Volume;
   std::set<std::string> formulas;
   std::string list;
   for (const Fraction& fraction : found)
   {
-    if (fraction.ofVolume == this->Result.ofVolume &&
+    if (fraction.kind == kind &&
       formulas.insert(std::string(schlieren::findGas(fraction.gas)->formula)).second)
     {
       this->Result.fractions.push_back(fraction.array);
@@ -307,17 +259,20 @@ void FlowChooser::species()
     }
   }
   this->Result.indexModel = MediumSettings::GLADSTONE_DALE_MIXTURE;
-  this->Result.message += this->Result.ofVolume ? "; volume" : "; mass";
-  this->Result.message += " fractions: " + list;
+  this->Result.message += kind == FractionOf::Density ? "; partial densities: "
+    : this->Result.ofVolume                           ? "; volume fractions: "
+                                                      : "; mass fractions: ";
+  this->Result.message += list;
 }
 
-bool FlowChooser::moistAir()
+bool FlowChooser::state(bool ofSpecies)
 {
   return std::any_of(std::begin(associations), std::end(associations),
-    [this](FlowArray::Association association) { return this->moistAir(association); });
+    [this, ofSpecies](FlowArray::Association association)
+    { return this->state(association, ofSpecies); });
 }
 
-bool FlowChooser::moistAir(FlowArray::Association association)
+bool FlowChooser::state(FlowArray::Association association, bool ofSpecies)
 {
   const Found temperature = this->find(Quantity::Temperature, association);
   const Found pressure = this->find(Quantity::Pressure, association);
@@ -359,14 +314,26 @@ bool FlowChooser::moistAir(FlowArray::Association association)
   }
   this->take(MediumSettings::CIDDOR, association,
     { { "Temperature", temperature.array->name }, { "Pressure", pressure.array->name } });
-  this->Result.message = "Air; temperature: " + quoted(temperature.array->name) +
+  this->Result.message = "Temperature: " + quoted(temperature.array->name) +
     unitInWords(kelvins, "K") + "; pressure: " + quoted(pressure.array->name) +
     unitInWords(pascals, "Pa");
   if (pascals != 1)
   {
     this->Result.scales.emplace_back("PressureScale", pascals);
   }
-  this->humidity(association);
+  if (ofSpecies && temperature.array->name != stagnationTemperature)
+  {
+    this->species(false);
+  }
+  if (this->Result.fractions.empty())
+  {
+    this->Result.message = "Air; t" + this->Result.message.substr(1);
+    this->humidity(association);
+  }
+  else
+  {
+    this->Result.message += "; the rest: air; density: that of an ideal gas";
+  }
   this->Result.message += ".";
   return true;
 }

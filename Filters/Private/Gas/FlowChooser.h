@@ -18,16 +18,8 @@ namespace filters
 /// What arrays of a refractive index, and of a relative humidity, are called.
 extern const std::set<std::string> indexNames, humidityNames;
 
-/// The fraction of a gas of the table.
-struct Fraction
-{
-  std::string array;
-  std::string gas;
-  bool ofVolume;
-};
-
-/// Returns whether an array is one, by its name and range.
-bool isFraction(const FlowArray& array, Fraction& fraction);
+/// The array that withStagnation() adds.
+constexpr const char* stagnationTemperature = "Temperature [K]";
 
 std::string quoted(const std::string& name);
 std::string rangeInWords(const FlowArray& array);
@@ -46,8 +38,8 @@ public:
   /// Chooses what gives the index; of a model, its arrays. Returns whether there are some.
   bool choose();
   bool choose(MediumSettings::IndexModels model);
-  /// Chooses the fractions alone.
-  void chooseSpecies(FlowArray::Association association);
+  /// Chooses the fractions alone; partial densities `withDensity` only.
+  void chooseSpecies(FlowArray::Association association, bool withDensity);
 
   FlowDefaults Result;
   std::string Note; ///< names that were not understood
@@ -72,9 +64,10 @@ private:
   bool refractivity();
   bool refractiveIndex();
   bool density(bool ofSpecies);
-  void species();
-  bool moistAir();
-  bool moistAir(FlowArray::Association association);
+  void species(bool withDensity);
+  /// Chooses a temperature and a pressure, of moist air or, `ofSpecies`, of a mixture.
+  bool state(bool ofSpecies);
+  bool state(FlowArray::Association association, bool ofSpecies);
   /// Chooses a relative humidity between 0 and 1, not one in percent.
   void humidity(FlowArray::Association association);
 

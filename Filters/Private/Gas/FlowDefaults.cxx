@@ -4,6 +4,7 @@
 
 #include "Common/NumberText.h"
 #include "Gas/FlowChooser.h"
+#include "Gas/Fractions.h"
 
 #include <algorithm>
 #include <set>
@@ -13,9 +14,11 @@ using namespace filters;
 namespace
 {
 
-/// The arrays of withUniformPressure() and withStagnation().
+/// The array of withUniformPressure().
 constexpr const char* uniformPressure = "Pressure [Pa]";
-constexpr const char* stagnationTemperature = "Temperature [K]";
+
+/// The array of OpenFOAM's overset meshes.
+constexpr const char* oversetCells = "celltypes";
 
 /// Names of arrays that are 1 in bodies, and of those that are 1 in gas.
 const std::set<std::string> solids = { "solid", "issolid", "solidmask", "solidfraction",
@@ -25,6 +28,24 @@ const std::set<std::string> gases = { "iblank", "blank", "fluid", "isfluid", "fl
 
 /// Returns whether VTK has made the array, which then is no state of a gas.
 bool isVtkOwn(const std::string& name) { return name.rfind("vtk", 0) == 0; }
+
+/// Returns a note on arrays that hold several quantities at each place; mostly empty. Those with 6 and 9 components are
+/// tensors.
+std::string noteOnStates(const std::vector<FlowArray>& arrays)
+{
+  for (const FlowArray& array : arrays)
+  {
+    if (array.components > 3 && array.components != 6 && array.components != 9)
+    {
+      return quoted(array.name) + " has " + std::to_string(array.components) +
+        " components, perhaps the conserved quantities. Make an array of the density, mostly the "
+        "first one, with "
+        "Calculator: '" +
+        array.name + "_0'. ";
+    }
+  }
+  return "";
+}
 
 /// Returns what a chooser has found, or a message about what is missing.
 FlowDefaults resultOf(FlowChooser& chooser, bool isFound, const std::vector<FlowArray>& arrays,
@@ -43,11 +64,13 @@ FlowDefaults resultOf(FlowChooser& chooser, bool isFound, const std::vector<Flow
   }
   FlowDefaults none;
   none.isSure = false;
+  chooser.Note += noteOnStates(arrays);
   none.note = chooser.Note;
   if (chooser.isEmpty())
   {
-    none.message = "There is no array with one value at a point or cell, so nothing gives the "
-                   "refractive index. Load or compute a density.";
+    none.message = chooser.Note +
+      "There is no array with one value at a point or cell, so nothing gives the "
+      "refractive index. Load or compute a density.";
     return none;
   }
   const std::string names = arraysInWords(arrays);
@@ -167,10 +190,11 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays, MediumSettings::
   return result;
 }
 
-FlowDefaults flowSpecies(const std::vector<FlowArray>& arrays, FlowArray::Association association)
+FlowDefaults flowSpecies(
+  const std::vector<FlowArray>& arrays, FlowArray::Association association, bool withDensity)
 {
   FlowChooser chooser(arrays);
-  chooser.chooseSpecies(association);
+  chooser.chooseSpecies(association, withDensity);
   return chooser.Result;
 }
 
@@ -187,17 +211,28 @@ MaskDefault flowMask(const std::vector<FlowArray>& arrays)
   return found == arrays.end() ? MaskDefault() : MaskDefault{ found->name, found->association };
 }
 
+std::string noteOnOverset(const std::vector<FlowArray>& arrays)
+{
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+    [](const FlowArray& array)
+    { return ArrayName(array.name).Joined() == oversetCells && array.range[1] >= 2; });
+  return found == arrays.end() ? ""
+                               : quoted(found->name) +
+      " marks cells of an overset mesh that are no part of the flow (2: holes), and these are "
+      "taken as gas. Remove "
+      "them with Threshold, from 0 to 1.5.";
+}
+
 bool marksGas(const std::string& array) { return gases.count(ArrayName(array).Joined()) > 0; }
 
 bool dependsOnRange(const std::string& text)
 {
   const ArrayName name(text);
   const std::string words = name.Joined();
-  Fraction fraction;
   return name.As(Quantity::Temperature) != Understood::Not ||
     name.As(Quantity::Pressure) != Understood::Not || name.Is(indexNames) ||
-    name.Is(humidityNames) || solids.count(words) || gases.count(words) ||
-    isFraction({ text, FlowArray::Points, 1, { 0, 1 } }, fraction);
+    name.Is(humidityNames) || solids.count(words) || gases.count(words) || words == oversetCells ||
+    fractionOf({ text, FlowArray::Points, 1, { 0, 1 } });
 }
 
 double scaleByUnit(const std::string& property, const std::string& array)

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/GasChoices.h"
 
+#include "Common/NumberText.h"
+#include "Gas/ArrayNames.h"
 #include "Gas/RefractivityModels.h"
 #include "MediumSettings.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <locale>
@@ -108,6 +111,24 @@ int readNumbers(const std::string& text, schlieren::Component& component)
 
 bool isCustom(const std::string& name) { return name.empty() || name == "Custom"; }
 
+std::string gasOf(const std::string& word)
+{
+  const std::string name = lowered(word);
+  const bool isOfOneCase = word.size() > 1 &&
+    (word == name ||
+      std::none_of(
+        word.begin(), word.end(), [](unsigned char letter) { return std::islower(letter) != 0; }));
+  for (const schlieren::Gas& gas : schlieren::gases())
+  {
+    if (gas.formula == word || gas.name == name ||
+      (isOfOneCase && lowered(std::string(gas.formula)) == name))
+    {
+      return std::string(gas.name == name ? gas.name : gas.formula);
+    }
+  }
+  return "";
+}
+
 const schlieren::Gas* gasFrom(const std::string& property, const std::string& name)
 {
   const schlieren::Gas* gas = schlieren::findGas(name);
@@ -134,12 +155,15 @@ schlieren::Component componentFrom(
       "; or numbers: the Gladstone-Dale constant in m^3/kg and, for volume fractions, a space and "
       "the molar mass in kg/mol, such as 2.3e-4 0.044.");
   }
-  if (count == 1 && settings.FractionType == 1)
+  if (count == 1 && (settings.FractionType == 1 || settings.usesGasLaw()))
   {
-    throw std::runtime_error(property + " holds '" + text +
-      "', a gas without a molar mass, by which volume fractions weigh. Add it in kg/mol, such "
-      "as " +
-      text + " 0.044, or set FractionType to Mass.");
+    throw std::runtime_error(property + " holds '" + text + "', a gas without a molar mass, " +
+      (settings.usesGasLaw()
+          ? "which the density of a mixture by its temperature and pressure needs. Add it in "
+            "kg/mol, such as " +
+            text + " 0.044, or choose an array for Density."
+          : "by which volume fractions weigh. Add it in kg/mol, such as " + text +
+            " 0.044, or set FractionType to Mass."));
   }
   if (component.constant < 0 || component.molarMass <= 0)
   {
@@ -154,7 +178,7 @@ double wavelengthOfGases(const MediumSettings& settings)
 {
   if (!std::isfinite(settings.Wavelength) || settings.Wavelength <= 0)
   {
-    throw std::runtime_error("Wavelength is " + std::to_string(settings.Wavelength) +
+    throw std::runtime_error("Wavelength is " + textOf(settings.Wavelength) +
       " nm, but a wavelength is positive. Set it to that of the light (helium-neon laser: 632.8).");
   }
   return 1e-9 * settings.Wavelength;

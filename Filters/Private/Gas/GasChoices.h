@@ -16,6 +16,10 @@ namespace filters
 /// Returns whether the name is "Custom" or empty: no gas of the table.
 bool isCustom(const std::string& name);
 
+/// Returns the name or formula in the table of a gas that is written so, in capitals, or in small letters; empty: none.
+/// A single letter is a formula in capitals only, and "Co" is not "CO".
+std::string gasOf(const std::string& word);
+
 /// Finds a gas by name or formula; null for a custom one. Throws std::runtime_error that lists the
 /// table's gases for an unknown name. `property` names the source of the choice in the message.
 const schlieren::Gas* gasFrom(const std::string& property, const std::string& name);

@@ -41,6 +41,13 @@ Implausible ofAny(const FlowArray& array, const std::string& quantity)
   return {};
 }
 
+/// Says that values which are the same everywhere are rounded.
+std::string exactly(const FlowArray& array)
+{
+  return array.range[0] == array.range[1] ? ""
+                                          : " up to rounding, which is all that the image shows";
+}
+
 Implausible ofDensity(const FlowInUse& flow)
 {
   constexpr const char* document = " (Documentation/density.md)";
@@ -68,11 +75,12 @@ Implausible ofDensity(const FlowInUse& flow)
         "of it." };
   }
   const double low = array.range[0] * flow.scales[0], high = array.range[1] * flow.scales[0];
-  if (low == high && flow.indexModel == MediumSettings::GLADSTONE_DALE)
+  if (flow.isConstant || (low == high && flow.indexModel == MediumSettings::GLADSTONE_DALE))
   {
     return { "constant",
-      "The density '" + array.name + "' is " + textOf(array.range[0], 3) +
-        " everywhere, as in incompressible flow, so that nothing bends light. Where temperatures "
+      "The density '" + array.name + "' is " + textOf(array.range[0], 3) + " everywhere" +
+        exactly(array) +
+        ", as in incompressible flow, so that nothing bends light. Where temperatures "
         "differ, compute a density from temperature and pressure" +
         std::string(document) + "." };
   }
@@ -115,6 +123,14 @@ Implausible ofMoistAir(const FlowInUse& flow)
     {
       return any;
     }
+  }
+  if (flow.isConstant)
+  {
+    return { "constant",
+      "The temperature '" + temperature.name + "' and the pressure '" + pressure.name +
+        "' are the same everywhere" +
+        (exactly(temperature).empty() ? exactly(pressure) : exactly(temperature)) +
+        ", so that nothing bends light. Choose other arrays, or another time step." };
   }
   const double kelvins[2] = { temperature.range[0] * flow.scales[0],
     temperature.range[1] * flow.scales[0] };
@@ -168,10 +184,21 @@ Implausible implausible(const FlowInUse& flow)
   switch (filters::kindOf(flow.indexModel).arrays)
   {
     case filters::IndexArrays::Density:
-      return flow.arrays.size() == 1 ? ofDensity(flow) : Implausible();
+      if (flow.arrays.size() == 1)
+      {
+        return ofDensity(flow);
+      }
+      [[fallthrough]]; // a mixture whose density follows from temperature and pressure
     case filters::IndexArrays::Air:
       return flow.arrays.size() == 2 ? ofMoistAir(flow) : Implausible();
     case filters::IndexArrays::Index:
+      if (flow.isConstant && !flow.arrays.empty() && !exactly(flow.arrays[0]).empty())
+      {
+        return { "constant",
+          "'" + flow.arrays[0].name + "' is " + textOf(flow.arrays[0].range[0]) + " everywhere" +
+            exactly(flow.arrays[0]) + ". Choose another array, or another time step." };
+      }
+      break;
     case filters::IndexArrays::Fields:
       break; // any number may be one of these
   }

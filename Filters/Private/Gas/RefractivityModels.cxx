@@ -5,6 +5,7 @@
 #include "Common/NumberText.h"
 
 #include "Gas/ArrayChoice.h"
+#include "Gas/Fractions.h"
 #include "Gas/GasChoices.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <type_traits>
 
@@ -32,29 +34,57 @@ void requireFinite(const std::string& name, double value)
   }
 }
 
-/// N of a density and the fractions of species.
+void requirePressure(const MediumSettings& settings)
+{
+  requireFinite("PressureScale", settings.PressureScale);
+  if (!(settings.UniformPressure >= 0) || std::isinf(settings.UniformPressure))
+  {
+    throw std::runtime_error("UniformPressure is " + textOf(settings.UniformPressure) +
+      ", which is no pressure. Set it to one in Pa (air in a room: 101325), or to 0 to choose an "
+      "array.");
+  }
+}
+
+/// N of a density, or of temperature and pressure, and the fractions of species.
 class GasMixture : public StateModel
 {
 public:
   schlieren::Mixture mixture;
   double densityScale = 1;
-  bool ofVolumes = false; // volume fractions instead of mass fractions
+  FractionOf fractionsOf = FractionOf::Mass;
+  bool usesGasLaw = false;
+  int states = 1;                                 // values before the fractions
+  double temperatureScale = 1, pressureScale = 1; // of the gas law
+  double uniformPressure = 0;                     // 0: a value
 
   double refractivity(const double* values) const override
   {
-    const double constant = this->ofVolumes ? this->mixture.constantByVolume(values + 1)
-                                            : this->mixture.constantByMass(values + 1);
+    const double* fractions = values + this->states;
+    const double constant = this->fractionsOf == FractionOf::Volume
+      ? this->mixture.constantByVolume(fractions)
+      : this->mixture.constantByMass(fractions);
+    if (this->usesGasLaw)
+    {
+      constexpr double gasConstant = 8.31446261815324;
+      const double kelvins = this->temperatureScale * values[0];
+      const double pascals =
+        this->uniformPressure > 0 ? this->uniformPressure : this->pressureScale * values[1];
+      return kelvins > 0 && pascals >= 0
+        ? constant * this->molarMass(fractions) * pascals / (gasConstant * kelvins)
+        : std::nan("");
+    }
+    if (this->fractionsOf == FractionOf::Density) // what is not of the species is of the background
+    {
+      return this->densityScale * (constant + this->mixture.background.constant * (values[0] - 1));
+    }
     return schlieren::gladstoneDaleRefractivity(constant, this->densityScale * values[0]);
   }
 
   bool isDoubtful(const double* values) const override
   {
-    double sum = 0;
-    for (std::size_t i = 1; i <= this->mixture.species.size(); ++i)
-    {
-      sum += values[i];
-    }
-    return sum > maxOfAll;
+    const double* fractions = values + this->states;
+    const double sum = std::accumulate(fractions, fractions + this->mixture.species.size(), 0.);
+    return sum > maxOfAll * (this->fractionsOf == FractionOf::Density ? values[0] : 1);
   }
 
   std::string warning(const std::string& fraction) const override
@@ -63,6 +93,24 @@ public:
       fraction +
       " of the points, which leaves less than nothing to the background gas. Check that they "
       "are fractions of 1 and do not include the background.";
+  }
+
+private:
+  double molarMass(const double* fractions) const
+  {
+    const bool ofVolumes = this->fractionsOf == FractionOf::Volume;
+    double sum = 0, rest = 1;
+    const auto add = [&](double fraction, double mass)
+    {
+      sum += ofVolumes ? fraction * mass : fraction / mass;
+      rest -= fraction;
+    };
+    for (std::size_t i = 0; i < this->mixture.species.size(); ++i)
+    {
+      add(fractions[i], this->mixture.species[i].molarMass);
+    }
+    add(rest, this->mixture.background.molarMass);
+    return ofVolumes ? sum : 1 / sum;
   }
 };
 
@@ -156,7 +204,24 @@ Model gasMixture(const MediumSettings& settings)
 
   auto model = std::make_shared<GasMixture>();
   model->densityScale = settings.DensityScale;
-  model->ofVolumes = settings.FractionType == 1;
+  model->fractionsOf = arePartialDensities(settings.MixtureArrays) ? FractionOf::Density
+    : settings.FractionType == 1                                   ? FractionOf::Volume
+                                                                   : FractionOf::Mass;
+  if (settings.usesGasLaw())
+  {
+    if (model->fractionsOf == FractionOf::Density)
+    {
+      throw std::runtime_error(
+        "MixtureArrays has partial densities, but there is no whole one. Choose an array for "
+        "Density, which may be their sum (Calculator).");
+    }
+    requirePressure(settings);
+    model->usesGasLaw = true;
+    model->states = settings.hasUniformPressure() ? 1 : 2;
+    model->temperatureScale = kelvinsOf(settings);
+    model->pressureScale = settings.PressureScale;
+    model->uniformPressure = settings.UniformPressure;
+  }
   for (const std::string& gas : settings.MixtureGases)
   {
     model->mixture.species.push_back(componentFrom("MixtureGases", gas, settings));
@@ -167,13 +232,7 @@ Model gasMixture(const MediumSettings& settings)
 
 Model ciddorAir(const MediumSettings& settings)
 {
-  requireFinite("PressureScale", settings.PressureScale);
-  if (!(settings.UniformPressure >= 0) || std::isinf(settings.UniformPressure))
-  {
-    throw std::runtime_error("UniformPressure is " + textOf(settings.UniformPressure) +
-      ", which is no pressure. Set it to one in Pa (air in a room: 101325), or to 0 to choose an "
-      "array.");
-  }
+  requirePressure(settings);
   requireFinite("StagnationTemperature", settings.StagnationTemperature);
   if (settings.isIsentropic() &&
     (!(settings.StagnationPressure > 0) || std::isinf(settings.StagnationPressure)))

@@ -50,6 +50,12 @@ const schlieren::Technique& techniqueOf(const SchlierenSettings& optics)
   return schlieren::techniqueOf(static_cast<schlieren::Cutoff>(optics.Cutoff));
 }
 
+/// Returns the k eps over the width that SourceWidth is: of a colour filter's image from -1 to 1, else of the source's.
+double kOfWidth(const SchlierenSettings& optics)
+{
+  return techniqueOf(optics).cutoff == schlieren::Cutoff::ColorFilter ? 2 : 1;
+}
+
 } // namespace
 
 bool usesK(const SchlierenSettings& optics) { return techniqueOf(optics).hasK(); }
@@ -64,7 +70,7 @@ bool choosesK(const SchlierenSettings& optics)
 double kOfOptics(const SchlierenSettings& optics)
 {
   return optics.FocalLength > 0 && optics.SourceWidth > 0
-    ? optics.FocalLength / (metresPerMillimetre * optics.SourceWidth)
+    ? optics.FocalLength * kOfWidth(optics) / (metresPerMillimetre * optics.SourceWidth)
     : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -80,7 +86,16 @@ void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
   if (optics.KMode == SchlierenSettings::K_BENCH)
   {
     requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
-    requirePositive("SourceWidth", optics.SourceWidth, "mm", "the source's image");
+    const bool isOfFilter = kOfWidth(optics) > 1;
+    requirePositive("SourceWidth", optics.SourceWidth, "mm",
+      isOfFilter ? "the colour filter" : "the source's image");
+    if (isOfFilter && schlieren::SourceShape(optics.SourceShape) != schlieren::SourceShape::Point)
+    {
+      throw std::runtime_error(
+        "SourceWidth is the width of the colour filter where KMode is Bench, so that of an "
+        "extended source is not "
+        "known. Set KMode to Value and KScale to 2 FocalLength over the filter's width.");
+    }
     if (!std::isfinite(optics.CutoffPosition))
     {
       refuse("CutoffPosition", optics.CutoffPosition, "mm",
@@ -133,8 +148,9 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
     textOf(1e3 * technique.fullScale / k, 4) + " mrad";
   if (focalLength > 0)
   {
-    words += "; optics: " + textOf(focalLength, 4) + " m focal length, source " +
-      textOf(focalLength / k / metresPerMillimetre, 4) + " mm wide";
+    words += "; optics: " + textOf(focalLength, 4) + " m focal length, " +
+      (kOfWidth(settings) > 1 ? "filter " : "source ") +
+      textOf(kOfWidth(settings) * focalLength / k / metresPerMillimetre, 4) + " mm wide";
   }
   if (settings.KMode == SchlierenSettings::K_BENCH && technique.hasEdge)
   {

@@ -7,9 +7,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,9 @@ const std::string encoding = ";base64,";
 
 /// Maximum number of pixels; larger images are treated as damaged.
 constexpr std::uint64_t maxPixels = std::uint64_t{ 1 } << 28;
+
+/// Maximum size of a file.
+constexpr std::uintmax_t maxBytes = std::uintmax_t{ 64 } << 20;
 
 using Bytes = std::vector<unsigned char>;
 
@@ -61,16 +65,27 @@ Bytes bytesFromText(const std::string& property, const std::string& text)
 
 Bytes bytesFromFile(const std::string& property, const std::string& name)
 {
-  std::ostringstream content;
-  content << std::ifstream(name, std::ios::binary).rdbuf();
-  const std::string read = content.str();
-  if (read.empty())
+  // Devices and pipes may have no end.
+  std::error_code failed;
+  const bool isFile = std::filesystem::is_regular_file(name, failed);
+  const std::uintmax_t size = isFile ? std::filesystem::file_size(name, failed) : 0;
+  const bool isRead = isFile && !failed && 0 < size && size <= maxBytes;
+  Bytes bytes(isRead ? static_cast<std::size_t>(size) : 0);
+  if (isRead)
+  {
+    std::ifstream file(name, std::ios::binary);
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+  }
+  if (bytes.empty())
   {
     throw std::runtime_error(property + " names the file '" + name +
-      "', which cannot be read. Give the name of a PNG file that the process which computes can "
-      "read, or its content as data:image/png;base64,...");
+      (size > maxBytes ? "', which is larger than 64 MB. Give a smaller PNG file, or"
+                       : "', which cannot be read. Give the name of a PNG file that the process "
+                         "which computes can read, or") +
+      " its content as data:image/png;base64,...");
   }
-  return { read.begin(), read.end() };
+  return bytes;
 }
 
 /// Frees libpng's memory.

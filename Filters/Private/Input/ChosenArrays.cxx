@@ -129,9 +129,8 @@ void throwNotFound(const std::vector<Selection>& selections,
   const std::string names = namesOfArrays(dataSets);
   if (names.empty())
   {
-    throw ArraysMissing("The input has no arrays with one component, so there is nothing to "
-                        "take " +
-      property +
+    throw ArraysMissing(note +
+      "The input has no arrays with one component, so there is nothing to take " + property +
       " from. Choose an input that has the field, or switch its arrays on in the reader.");
   }
   if (selection.name.empty() && selection.attribute < 0)
@@ -158,9 +157,12 @@ void requireScalars(const Leaf& leaf, const std::vector<Selection>& selections,
     const std::string name = nameOf(array, selections[i]);
     if (array->GetNumberOfComponents() != 1)
     {
+      const std::string scalars = namesOfArrays(dataSets);
       throw std::runtime_error("The array '" + name + "' has " +
         std::to_string(array->GetNumberOfComponents()) + " components, but " +
-        selections[i].property + " is a scalar. Choose one of: " + namesOfArrays(dataSets) + ".");
+        selections[i].property + " is a scalar. " +
+        (scalars.empty() ? "Make an array of one of them with Calculator."
+                         : "Choose one of: " + scalars + "."));
     }
     if (array->GetNumberOfTuples() !=
       (leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints()))

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/Flow.h"
 
+#include "Common/NumberText.h"
 #include "Gas/GasChoices.h"
 #include "Input/ChosenArrays.h"
 #include "Input/InputDescription.h"
 #include "Input/OneLayer.h"
 #include "Input/RefractivityValues.h"
+#include "Input/VoxelJumps.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -22,6 +24,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -33,30 +36,31 @@ namespace filters
 namespace
 {
 
-/// Throws for data without points or cells.
-void requireSpace(vtkDataObject* input)
+/// Returns what is wrong with data without points or cells, of which `subject` says what they are; mostly empty.
+std::string lackOfSpace(vtkDataObject* input, const std::string& subject)
 {
   for (vtkDataObject* leaf : leavesOf(input))
   {
     if (vtkHyperTreeGrid::SafeDownCast(leaf))
     {
-      throw std::runtime_error(
-        "The input is a hyper-tree grid, whose cells light cannot be sent through as they are. "
-        "Make cells of it with the filter Hyper Tree Grid To Unstructured Grid.");
+      return subject +
+        " is a hyper-tree grid, whose cells light cannot be sent through as they are. "
+        "Make cells of it with the filter Hyper Tree Grid To Unstructured Grid.";
     }
     if (vtkTable::SafeDownCast(leaf))
     {
-      throw std::runtime_error(
-        "The input is a table, so it is not known where its values are. Make a grid of it with "
+      return subject +
+        " is a table, so it is not known where its values are. Make a grid of it with "
         "the filter Table To Structured Grid, or points with Table To Points and a volume of "
-        "these with Point Volume Interpolator.");
+        "these with Point Volume Interpolator.";
     }
     if (!vtkDataSet::SafeDownCast(leaf))
     {
-      throw std::runtime_error("The input is a " + std::string(leaf->GetClassName()) +
-        ", which has no cells for light to cross. Use data that fill a volume, or a plane.");
+      return subject + " is a " + std::string(leaf->GetClassName()) +
+        ", which has no cells for light to cross. Use data that fill a volume, or a plane.";
     }
   }
+  return "";
 }
 
 /// Returns the array Refractivity if the image is used as it is: IndexModel does not choose other
@@ -212,10 +216,11 @@ Flow chooseFlow(
   const std::vector<vtkDataSet*> dataSets = dataSetsOf(input);
   if (dataSets.empty())
   {
-    requireSpace(input);
-    throw std::runtime_error(
-      "The input is empty: it has no points. Check that its source was read or "
-      "updated and that no filter has removed everything.");
+    const std::string lack = lackOfSpace(input, "The input");
+    throw std::runtime_error(!lack.empty()
+        ? lack
+        : "The input is empty: it has no points. Check that its source was read or "
+          "updated and that no filter has removed everything.");
   }
   Flow flow;
   flow.choice = choiceFor(given, known, dataSets);
@@ -231,10 +236,12 @@ Flow chooseFlow(
   else
   {
     flow.model = modelFrom(settings);
-    flow.noteOnGases = noteOnGases(settings);
+    flow.notes = notesOn(flow.choice);
     flow.leaves = leavesWith(selections, dataSets);
   }
 
+  const std::string leftOut = lackOfSpace(input, "A block of the input, which is left out,");
+  flow.notes += (flow.notes.empty() || leftOut.empty() ? "" : " ") + leftOut;
   if (flow.leaves.empty())
   {
     throwNotFound(selections, dataSets, flow.choice.note);
@@ -247,6 +254,12 @@ Flow chooseFlow(
   applyMask(settings, given.Arrays[MediumSettings::MaskArray].isChosen(), dataSets, flow);
   flattenLayers(settings, flow, like);
   return flow;
+}
+
+std::string notesOn(const MediumChoice& choice)
+{
+  const std::string ofGases = noteOnGases(choice.settings);
+  return choice.warning + (choice.warning.empty() || ofGases.empty() ? "" : " ") + ofGases;
 }
 
 std::vector<std::string> arraysOf(const MediumSettings& settings)
@@ -272,7 +285,7 @@ Implausible implausibleIn(const Flow& flow)
   used.isScaleGiven = flow.choice.isScaleKnown;
   const bool isIndex = settings.IndexModel == MediumSettings::REFRACTIVE_INDEX ||
     settings.IndexModel == MediumSettings::REFRACTIVITY;
-  used.scales = settings.IndexModel == MediumSettings::CIDDOR
+  used.scales = settings.IndexModel == MediumSettings::CIDDOR || settings.usesGasLaw()
     ? std::vector<double>{ kelvinsOf(settings), settings.PressureScale }
     : std::vector<double>{ isIndex ? 1 : settings.DensityScale };
   const bool isOfTable = !isCustom(settings.Gas);
@@ -284,11 +297,14 @@ Implausible implausibleIn(const Flow& flow)
   }
   const std::vector<std::size_t> indices = arraysOfModel(settings);
   const bool isUniform = settings.hasUniformPressure(), isIsentropic = settings.isIsentropic();
-  for (std::size_t i = 0; i < (isUniform || isIsentropic ? 1 : used.scales.size()); ++i)
+  used.isConstant = true;
+  const std::size_t count = isUniform || isIsentropic ? 1 : used.scales.size();
+  for (std::size_t i = 0; i < flow.leaves[0].arrays.size(); ++i)
   {
-    const ArraySelection& selection = settings.Arrays[indices[i]];
+    const ArraySelection& selection = settings.Arrays[indices[std::min(i, count - 1)]];
     FlowArray array{ selection.name, selection.cellsFirst ? FlowArray::Cells : FlowArray::Points, 1,
       { std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest() } };
+    bool areSingles = false;
     for (const Leaf& leaf : flow.leaves)
     {
       double range[2];
@@ -300,12 +316,20 @@ Implausible implausibleIn(const Flow& flow)
              : leaf.arrays[i]->GetFiniteRange(range, 0);
       array.range[0] = std::min(array.range[0], range[0]);
       array.range[1] = std::max(array.range[1], range[1]);
+      areSingles = areSingles || leaf.arrays[i]->GetDataType() == VTK_FLOAT;
       if (array.name.empty() && leaf.arrays[i]->GetName())
       {
         array.name = leaf.arrays[i]->GetName();
       }
     }
-    used.arrays.push_back(std::move(array));
+    const double rounding = areSingles ? 1e-6 : 1e-13; // of some operations
+    used.isConstant = used.isConstant &&
+      array.range[1] - array.range[0] <=
+        rounding * std::max(std::abs(array.range[0]), std::abs(array.range[1]));
+    if (i < count)
+    {
+      used.arrays.push_back(std::move(array));
+    }
   }
   if (isUniform)
   {
@@ -320,7 +344,20 @@ Implausible implausibleIn(const Flow& flow)
       { "StagnationTemperature", FlowArray::Points, 1,
         { settings.StagnationTemperature, settings.StagnationTemperature } });
   }
-  return implausible(used);
+  Implausible found = implausible(used);
+  const std::array<double, 2> range = used.arrays[0].range;
+  const double jump = found.text.empty() ? jumpOfVoxels(flow.leaves, flow.model, range) : 0;
+  if (jump > 0)
+  {
+    found = { "voxels",
+      "n jumps by " + textOf(jump, 3) +
+        " from sample to sample with nothing between, as of glass in voxels: a face that is "
+        "oblique to the grid is "
+        "stairs, which bend light by as much as the glass does. Give each voxel the share of it "
+        "that is glass, spread "
+        "the face over three voxels, or use cells that follow it (Documentation/density.md)." };
+  }
+  return found;
 }
 
 } // namespace filters

@@ -33,7 +33,7 @@ struct Flow
   bool isDepthGiven = false;   // by the user
   bool isOneCellThick = false; // whether flattenLayer() has flattened `leaves`
   int axisOfWedge = -1;        // whether flattenWedge() has; -1: no
-  std::string noteOnGases;     // note for the user, mostly empty
+  std::string notes;           // for the user, mostly empty
   std::string label;           // for messages: "array 'rho'" or "arrays 'T', 'p'"
   bool isComputed = false;     // whether the input has Refractivity
   MediumChoice choice;         // the settings in use
@@ -61,6 +61,9 @@ Flow chooseFlow(const MediumSettings& settings, KnownArrays& known, vtkDataObjec
 
 /// Lists all arrays that complete settings may read.
 std::vector<std::string> arraysOf(const MediumSettings& settings);
+
+/// Returns notes on the gases and arrays of a choice; mostly empty.
+std::string notesOn(const MediumChoice& choice);
 
 /// Checks the values that are used.
 Implausible implausibleIn(const Flow& flow);

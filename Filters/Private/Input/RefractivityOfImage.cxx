@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/RefractivityOfImage.h"
 
+#include "Common/NumberText.h"
 #include "Input/FlatData.h"
 #include "Input/RefractivityValues.h"
 
@@ -177,8 +178,7 @@ void gridOfImage(vtkImageData* image, bool ofCells, double depth, vtkImageData* 
     if (!(spacing[axis] > 0) || !std::isfinite(spacing[axis]) || !std::isfinite(origin[axis]))
     {
       throw std::runtime_error(std::string("The input's spacing along its ") + "xyz"[axis] +
-        " axis is " + std::to_string(spacing[axis]) + " and its origin " +
-        std::to_string(origin[axis]) +
+        " axis is " + textOf(spacing[axis]) + " and its origin " + textOf(origin[axis]) +
         "; the spacing must be positive and both finite. Correct the input.");
     }
   }

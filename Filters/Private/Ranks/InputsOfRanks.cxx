@@ -211,10 +211,10 @@ std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
   put(hasFields, request);
   putAll(ofBodies, request);
   this->requestOfAll(request);
-  const MediumSettings settings = this->Maker->choice().settings;
+  const MediumChoice choice = this->Maker->choice();
   Flow flow;
-  flow.model = modelFrom(settings);
-  flow.noteOnGases = noteOnGases(settings);
+  flow.model = modelFrom(choice.settings);
+  flow.notes = notesOn(choice);
   if (!this->Made.source)
   {
     throw std::runtime_error(noGas(this->Made.label));

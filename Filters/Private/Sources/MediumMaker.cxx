@@ -162,11 +162,11 @@ std::string MediumMaker::warningOf(const Flow& flow, const Tally& tally, bool bo
     addText(warning, found.text);
   }
   this->ToldOfValues = found.kind;
-  if (flow.noteOnGases != this->ToldOfGases)
+  if (flow.notes != this->ToldNotes)
   {
-    addText(warning, flow.noteOnGases);
+    addText(warning, flow.notes);
   }
-  this->ToldOfGases = flow.noteOnGases;
+  this->ToldNotes = flow.notes;
   return warning;
 }
 

@@ -96,7 +96,7 @@ private:
   Progress Report;
   KnownArrays Known;
   std::shared_ptr<MeshCache> Mesh = std::make_shared<MeshCache>();
-  std::string ToldOfGases, ToldOfValues; // the last notes, not repeated for every time step
+  std::string ToldNotes, ToldOfValues; // the last notes, not repeated for every time step
 };
 
 /// Makes the piece of an image, or of a rank's piece of it, on whose grid `refractivity` has been made of `input`.

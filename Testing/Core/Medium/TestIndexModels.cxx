@@ -390,6 +390,23 @@ TEST(GladstoneDale, AgreesWithThePolarizabilityOfAtoms)
   EXPECT_NEAR(constantOf("He", 2050) * 4.002602e-3 / (perVolume * 1.38376), 1, 3e-3);
   EXPECT_NEAR(constantOf("Ar", 2050) * 39.948e-3 / (perVolume * 11.083), 1, 3e-3);
   EXPECT_NEAR(constantOf("Kr", 1700) * 83.798e-3 / (perVolume * 16.78), 1, 3e-3);
+  EXPECT_NEAR(constantOf("Xe", 1700) * 131.293e-3 / (perVolume * 27.32), 1, 0.01);
+  // of N to 3 %, of O to 4 %
+  EXPECT_NEAR(constantOf("N", 589.3) * 14.0067e-3 / (perVolume * 7.4), 1, 0.05);
+  EXPECT_NEAR(constantOf("O", 589.3) * 15.9994e-3 / (perVolume * 5.3), 1, 0.05);
+}
+
+TEST(GladstoneDale, AgreesWithWhatOthersUse)
+{
+  // Dissociated air: Karl, Schramm & Hannemann 2003, in m^3/kg.
+  for (const auto& [gas, constant] : { std::pair{ "N2", 2.38e-4 }, std::pair{ "O2", 1.90e-4 },
+         std::pair{ "NO", 2.21e-4 }, std::pair{ "N", 3.01e-4 }, std::pair{ "O", 1.82e-4 } })
+  {
+    EXPECT_NEAR(constantOf(gas, 589.3) / constant, 1, 0.015) << gas;
+  }
+  // Molar refractions of hydrocarbons by Vogel's increments (1946): 4.647 for CH2, 1.028 for H, in cm^3/mol.
+  EXPECT_NEAR(constantOf("C2H6", 589.3) * 30.069e-3 / (1.5e-6 * (2 * 4.647 + 2 * 1.028)), 1, 0.02);
+  EXPECT_NEAR(constantOf("C3H8", 589.3) * 44.096e-3 / (1.5e-6 * (3 * 4.647 + 2 * 1.028)), 1, 0.02);
 }
 
 TEST(GladstoneDale, AgreesWithTheConstantsOfThePaper)

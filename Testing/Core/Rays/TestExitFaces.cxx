@@ -267,6 +267,25 @@ TEST_P(ExitFacesOfTank, SeeNothingOfLayersAcrossTheLight)
 
 INSTANTIATE_TEST_SUITE_P(, ExitFacesOfTank, bothDevices(), deviceName);
 
+// Blocks of the medium reach beyond a grid of two points.
+TEST(SteepestPlace, LiesInTheData)
+{
+  Grid grid;
+  grid.dimensions = { 33, 33, 2 };
+  grid.spacing = { 1, 1, 32 };
+  grid.origin = { -16, -16, -16 };
+  const SampledField<double> rod(
+    grid, [](double x, double y, double) { return std::hypot(x, y) < 8 ? 0.5 : 0; });
+  Scene scene = tankScene(Device::Cpu);
+  scene.view.parallelScale = 16;
+  const Image image = Bench().render(rod.field, scene);
+  EXPECT_GT(image.steepestChange, 0.3);
+  for (const double x : image.steepestPlace)
+  {
+    EXPECT_LE(std::abs(x), 16);
+  }
+}
+
 /// A pane's faces take one voxel, with gas before and behind it.
 class GlassInGas : public OnDevice
 {

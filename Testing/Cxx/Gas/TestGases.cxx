@@ -178,6 +178,62 @@ TEST(Mixture, OfVolumes)
   EXPECT_NEAR(arrayOf(filter, "Refractivity")->GetComponent(centre, 0), 1.2 * 2.22e-4, 1.2 * 3e-7);
 }
 
+// N = sum K_i rho_i over the partial densities.
+TEST(Mixture, OfPartialDensities)
+{
+  auto data = flow();
+  addPointArray(data, "rho_He", [](const Vec& x) { return density(x) * fraction(x); });
+  auto filter = automatic(data);
+  filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE);
+  filter->AddMixtureArray("rho_He");
+  filter->AddMixtureGas("1.95e-4");
+  filter->SetBackgroundGas("2.26e-4");
+  EXPECT_LT(largestError(filter, mixtureOf), 2 * rounding);
+  filter->SetDensityScale(2);
+  EXPECT_LT(largestError(filter, [](const Vec& x) { return 2 * mixtureOf(x); }), 2 * rounding);
+}
+
+// rho = p / (R T sum Y_i / M_i), by volume p sum X_i M_i / (R T).
+TEST(Mixture, OfTemperatureAndPressureIsAnIdealGas)
+{
+  auto data = flow();
+  data->GetPointData()->RemoveArray("rho");
+  data->GetPointData()->RemoveArray("RH");
+  const auto gas = [](const char* name) { return schlieren::findGas(name); };
+  const double one = gas("He")->constantAt(632.8e-9), other = gas("air")->constantAt(632.8e-9);
+  const double M = gas("He")->molarMass, airM = gas("air")->molarMass;
+  const auto truth = [&](double pascals, const Vec& x)
+  {
+    const double y = fraction(x);
+    return pascals / (8.31446261815324 * temperature(x)) * (one * y + other * (1 - y)) /
+      (y / M + (1 - y) / airM);
+  };
+  auto filter = automatic(data);
+  EXPECT_LT(
+    largestError(filter, [&](const Vec& x) { return truth(pressure(x), x); }), 4 * rounding);
+  EXPECT_STREQ(filter->GetArraysUsed(),
+    "Temperature: 'T'; Pressure: 'p'; fractions: 'Y_He'; density: that of an ideal gas.");
+  filter->SetUniformPressure(5e4);
+  EXPECT_LT(largestError(filter, [&](const Vec& x) { return truth(5e4, x); }), 4 * rounding);
+  filter->SetUniformPressure(0);
+  filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE);
+  filter->AddMixtureArray("Y_He");
+  filter->AddMixtureGas("He");
+  filter->SetFractionType(1);
+  EXPECT_LT(largestError(filter,
+              [&](const Vec& x)
+              {
+                const double X = fraction(x);
+                return pressure(x) / (8.31446261815324 * temperature(x)) *
+                  (one * X * M + other * (1 - X) * airM);
+              }),
+    4 * rounding);
+  // A gas of the user's own is no mixture.
+  auto single = automatic(data);
+  single->SetGas("helium");
+  EXPECT_LT(largestError(single, [](const Vec& x) { return ciddorOf(x, 0); }), rounding);
+}
+
 TEST(Mixture, OfCells) { EXPECT_LT(largestError(mixture(flowInCells()), mixtureOf), rounding); }
 
 TEST(Mixture, OfBlocksThatHaveAllArrays)

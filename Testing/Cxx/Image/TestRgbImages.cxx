@@ -7,6 +7,7 @@
 #include "vtkPNGWriter.h"
 #include "vtkUnsignedShortArray.h"
 
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
@@ -135,6 +136,12 @@ TEST(RgbImages, WhatCannotBeReadIsSaid)
   const std::string whole = text(png(bytes(3, 3, six)));
   EXPECT_NE(errorOf("/nowhere/at all.png").find("'/nowhere/at all.png'"), std::string::npos);
   EXPECT_NE(errorOf(SCHLIEREN_TEST_OUTPUT).find("cannot be read"), std::string::npos); // a folder
+  EXPECT_NE(errorOf("/dev/zero").find("cannot be read"), std::string::npos);           // has no end
+  const std::string large = SCHLIEREN_TEST_OUTPUT "/large.png";
+  std::ofstream(large).put('\0');
+  std::filesystem::resize_file(large, (std::uintmax_t{ 64 } << 20) + 1);
+  EXPECT_NE(errorOf(large).find("larger than 64 MB"), std::string::npos);
+  std::filesystem::remove(large);
   EXPECT_NE(errorOf(SCHLIEREN_TEST_DATA "/README.md").find("no complete PNG"), std::string::npos);
   for (const std::string& given : { std::string("data:"), std::string("data:image/png;base64,"),
          std::string("data:image/png,iVBORw0KGgo="), "data:image/png;base64,*" + whole.substr(23),

@@ -133,6 +133,20 @@ TEST_F(Scene, SensitivityIsStatedInWords)
   EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 4000), "");
 }
 
+// The image of a colour filter covers k eps from -1 to 1: light that f eps = w / 2 moves, from its middle, reaches the edge.
+TEST_F(Scene, AFilterIsAsWideAsSourceWidth)
+{
+  this->filter->SetCutoff(Filter::COLOR_FILTER);
+  this->filter->SetKMode(Filter::K_BENCH);
+  this->filter->SetFocalLength(0.75);
+  this->filter->SetSourceWidth(3);
+  EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 500);
+  EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 500),
+    "k = 500: full scale is a deflection of 2 mrad; optics: 0.75 m focal length, filter 3 mm wide");
+  this->filter->SetSourceShape(Filter::DISC);
+  EXPECT_NE(this->error().find("SourceWidth is the width of the colour filter"), std::string::npos);
+}
+
 // An interferogram has no k: a fringe is a wavelength.
 TEST_F(Scene, SensitivityOfAnInterferogramIsItsWavelength)
 {

@@ -6,6 +6,7 @@
 
 #include "vtkDoubleArray.h"
 #include "vtkHyperTreeGrid.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
@@ -281,6 +282,90 @@ TEST(ArrayChoice, ImplausibleValuesAreSaidOnce)
     filter->SetOutside(Medium::OUTSIDE_PASSES); // the same is said once
     EXPECT_EQ(warningsOf(filter), std::vector<std::string>()) << words;
   }
+}
+
+TEST(ArrayChoice, WhatIsConstantUpToRoundingIsSaid)
+{
+  auto flow = cube(9);
+  addPointArray(flow, "rho", [](const Vec& x) { return 1.2 * (1 + 1e-14 * x[0]); });
+  auto filter = filterOf(flow);
+  const std::vector<std::string> warnings = warningsOf(filter);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("up to rounding"), std::string::npos) << warnings[0];
+  addPointArray(flow, "rho", [](const Vec& x) { return 1.2 * (1 + 1e-11 * x[0]); });
+  flow->Modified();
+  EXPECT_EQ(warningsOf(filterOf(flow)), std::vector<std::string>());
+}
+
+TEST(ArrayChoice, GlassInVoxelsIsSaid)
+{
+  const auto glass = [](double width)
+  {
+    auto flow = cube(17);
+    addPointArray(flow, "n",
+      [width](const Vec& x)
+      { return 1 + 0.5 * std::clamp(0.5 + (0.51 - std::hypot(x[0], x[1])) / width, 0., 1.); });
+    return flow;
+  };
+  auto filter = filterOf(glass(1e-9));
+  filter->SetExitInto(Filter::EXIT_AIR);
+  const std::vector<std::string> warnings = warningsOf(filter);
+  ASSERT_GE(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("n jumps by 0.5"), std::string::npos) << warnings[0];
+  filter->SetInputDataObject(glass(0.4)); // three voxels
+  for (const std::string& warning : warningsOf(filter))
+  {
+    EXPECT_EQ(warning.find("n jumps by"), std::string::npos) << warning;
+  }
+}
+
+TEST(ArrayChoice, FractionsThatAreNotUsedAreSaidOnce)
+{
+  auto flow = cube(9);
+  addPointArray(flow, "rho", bump(1, 1.2));
+  addPointArray(flow, "Y_N2", bump(0.7, 0.77));
+  addPointArray(flow, "N2", bump(0.7, 0.77)); // the same gas
+  addPointArray(flow, "Y_SiH4", bump(0, 0.3));
+  addPointArray(flow, "Y_OH", bump(0, 1e-3)); // too little
+  addPointArray(flow, "yPlus", bump(0, 1));
+  addPointArray(flow, "mixture fraction", bump(0, 1));
+  addCellArray(flow, "Y_He", bump(0, 1)); // not where the density is
+  auto filter = filterOf(flow);
+  const std::vector<std::string> warnings = warningsOf(filter);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find(": 'Y_SiH4', 'Y_He' look like fractions of gases"), std::string::npos)
+    << warnings[0];
+  filter->SetOutside(Medium::OUTSIDE_PASSES);
+  EXPECT_EQ(warningsOf(filter), std::vector<std::string>());
+  // The user's own choice needs no word.
+  auto chosen = filterOf(flow);
+  chosen->SetGas("nitrogen");
+  EXPECT_EQ(warningsOf(chosen), std::vector<std::string>());
+}
+
+TEST(ArrayChoice, BlocksThatAreLeftOutAreSaid)
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  blocks->SetBlock(0, flowWithRho());
+  blocks->SetBlock(1, vtkSmartPointer<vtkHyperTreeGrid>::New());
+  const std::vector<std::string> warnings = warningsOf(filterOf(blocks));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("A block of the input, which is left out, is a hyper-tree grid"),
+    std::string::npos)
+    << warnings[0];
+}
+
+TEST(ArrayChoice, MessagesAreShort)
+{
+  auto flow = cube(3);
+  addPointArray(flow, (std::string(4999, 'x') + "\xc3\xa9").c_str(), bump(0, 9));
+  auto filter = filterOf(flow);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_LT(complaints->Errors[0].size(), 2200u); // with VTK's own words
+  EXPECT_NE(complaints->Errors[0].find(" [...] "), std::string::npos);
+  EXPECT_NE(complaints->Errors[0].find("StagnationTemperature"), std::string::npos);
 }
 
 TEST(ArrayChoice, CelsiusAndGaugePressuresAreSaid)

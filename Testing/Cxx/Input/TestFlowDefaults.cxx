@@ -119,7 +119,13 @@ TEST(FlowDefaults, FractionsByTheirNames)
   const std::pair<const char*, const char*> names[] = { { "mass fraction of He", "He" },
     { "MassFraction_CO2", "CO2" }, { "massFractionCH4", "CH4" }, { "He", "He" }, { "SF6", "SF6" },
     { "Y_helium", "helium" }, { "Mass Fraction of Carbon Dioxide", "carbon dioxide" },
-    { "carbonDioxide", "carbon dioxide" }, { "YH2O", "H2O" }, { "y_n2", "" }, { "Co", "" },
+    { "carbonDioxide", "carbon dioxide" }, { "YH2O", "H2O" }, { "y_n2", "N2" }, { "Co", "" },
+    // Fluent, CONVERGE and others
+    { "ch4", "CH4" }, { "molef-ch4", "CH4" }, { "mass_fraction_of_ch4", "CH4" },
+    { "MASSFRAC_CH4", "CH4" }, { "Yi_CH4", "CH4" }, { "rho_CH4", "CH4" }, { "rhoY(CH4)", "CH4" },
+    { "c3h8", "C3H8" }, { "Y_NH3", "NH3" }, { "Y_O", "O" }, { "NO", "NO" }, { "AR", "Ar" },
+    // Of a letter or two it is not known alone.
+    { "N", "" }, { "O", "" }, { "no", "" }, { "he", "" }, { "rho_u", "" }, { "y_plus", "" },
     { "Y", "" }, { "YMean", "" }, { "Xenomorph", "" } };
   for (const auto& [name, gas] : names)
   {
@@ -139,6 +145,46 @@ TEST(FlowDefaults, VolumeFractionsOnlyWhereThereAreNoOfMass)
     scalar("mole fraction of CO2", 0, 1), scalar("Y_He", 0, 1), scalar("He", 0, 1) });
   EXPECT_FALSE(both.ofVolume);
   EXPECT_EQ(both.fractions, (Strings{ "Y_He" }));
+}
+
+TEST(FlowDefaults, LettersAreGasesBesideOthers)
+{
+  const FlowDefaults air = flowDefaults({ scalar("rho", 1e-3, 1), scalar("N2", 0, 0.77),
+    scalar("N", 0, 0.3), scalar("O", 0, 0.2), scalar("NO", 0, 0.1), scalar("n", 0, 0.5) });
+  EXPECT_EQ(air.gases, (Strings{ "N2", "N", "O", "NO" }));
+}
+
+TEST(FlowDefaults, PartialDensitiesWhereThereAreNoFractions)
+{
+  const FlowArray density = scalar("rho", 1, 40), partial = scalar("rho_CH4", 0, 30);
+  EXPECT_EQ(flowDefaults({ density, partial }).fractions, (Strings{ "rho_CH4" }));
+  EXPECT_EQ(
+    flowDefaults({ density, partial, scalar("Y_N2", 0, 1) }).fractions, (Strings{ "Y_N2" }));
+  // Without the whole density nothing is known.
+  EXPECT_TRUE(flowDefaults({ partial, scalar("rho_air", 0, 1) }).fractions.empty());
+}
+
+TEST(FlowDefaults, DensityOfAnIdealGasWhereThereAreFractions)
+{
+  const std::vector<FlowArray> flame = { scalar("T", 290, 2100), scalar("p", 1e5, 1e5),
+    scalar("CH4", 0, 1), scalar("O2", 0, 0.23), scalar("RH", 0, 0.5) };
+  const FlowDefaults chosen = flowDefaults(flame);
+  EXPECT_EQ(chosen.indexModel, MediumSettings::GLADSTONE_DALE_MIXTURE);
+  EXPECT_EQ(chosen.arrays, (Arrays{ { "Temperature", "T" }, { "Pressure", "p" } }));
+  EXPECT_EQ(chosen.fractions, (Strings{ "CH4", "O2" }));
+  EXPECT_NE(chosen.message.find("density: that of an ideal gas"), std::string::npos);
+  EXPECT_EQ(flowDefaults(flame, MediumSettings::CIDDOR).indexModel, MediumSettings::CIDDOR);
+  EXPECT_EQ(flowDefaultsFromRest({ flame[1], flame[2] }, 293).indexModel, MediumSettings::CIDDOR);
+}
+
+TEST(FlowDefaults, ArraysOfSeveralQuantitiesAndHolesAreSaid)
+{
+  FlowArray state = scalar("Q", 0, 0);
+  state.components = 5;
+  EXPECT_NE(flowDefaults({ state }).message.find("'Q_0'"), std::string::npos);
+  EXPECT_EQ(flowDefaults({ velocity }).message.find("_0'"), std::string::npos);
+  EXPECT_NE(noteOnOverset({ scalar("cellTypes", 0, 2) }).find("Threshold"), std::string::npos);
+  EXPECT_EQ(noteOnOverset({ scalar("cellTypes", 0, 1) }), "");
 }
 
 TEST(FlowDefaults, MoistAirWhereThereIsNoDensity)

@@ -115,6 +115,14 @@ std::vector<Mistake> mistakes()
       [](Filter* f) { chooseArray(f, "N"); } },
     input("NoArrays", [] { return cube(16); }, { "no arrays", "IndexArray" }),
     input("Vectors", vectors, { "'N' has 3 components", "point arrays p" }),
+    input("OnlyVectors",
+      []
+      {
+        const auto image = vectors();
+        vtkDataSet::SafeDownCast(image)->GetPointData()->RemoveArray("p");
+        return image;
+      },
+      { "'N' has 3 components", "Calculator" }),
     input("EmptyGrid", [] { return vtkSmartPointer<vtkUnstructuredGrid>::New(); }, { "empty" }),
     input("EmptyImage", [] { return vtkSmartPointer<vtkImageData>::New(); }, { "empty" }),
     input(
