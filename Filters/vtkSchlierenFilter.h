@@ -138,9 +138,9 @@ public:
   vtkSetMacro(LengthScale, double);
   vtkGetMacro(LengthScale, double);
 
-  /// Refractivity n - 1 of the surroundings; air at room conditions has 2.7e-4. -1: it is found, as
-  /// the median over the domain's boundary, for the first image, and kept while the time changes,
-  /// so that the fringes of a series are counted from the same reference. Default: -1.
+  /// Refractivity n - 1 of the surroundings; air at room conditions has 2.7e-4. -1: it is found for
+  /// the first image, and kept while the time changes, so that the fringes of a series are counted
+  /// from the same reference. Default: -1.
   vtkSetMacro(AmbientRefractivity, double);
   vtkGetMacro(AmbientRefractivity, double);
 

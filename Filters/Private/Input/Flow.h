@@ -31,6 +31,7 @@ struct Flow
   Model model;
   double depth = 0;            // depth of flat data, see depthOf(); 0: to be chosen
   bool isDepthGiven = false;   // by the user
+  double sizeInFarField = 0;   // of what has decided the depth, see chooseDepth()
   bool isOneCellThick = false; // whether flattenLayer() has flattened `leaves`
   int axisOfWedge = -1;        // whether flattenWedge() has; -1: no
   std::string noteOnGases;     // note for the user, mostly empty

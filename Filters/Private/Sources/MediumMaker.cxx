@@ -70,7 +70,7 @@ std::shared_ptr<const PieceSource> sourceOf(
 std::shared_ptr<const PieceSource> sourceOf(
   std::unique_ptr<const AmrPiece> piece, vtkDataObject* bodies, Outside outside)
 {
-  const double ambient = weightedMedian(piece->refractivity().outerValues());
+  const double ambient = schlieren::ambientOf(piece->refractivity().outerValues());
   BoundaryFaces faces = piece->refractivity().faces();
   sortTriangles(faces.surface, faces.hidesBehind);
   auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
@@ -140,6 +140,10 @@ Choice MediumMaker::choose(vtkDataObject* input)
   const int flat = flatAxisOf(flow); // throws without volume and plane
   const bool isTurned = flow.image && !flow.image->GetDirectionMatrix()->IsIdentity();
   choice.flatAxis = isTurned ? -1 : flat;
+  if (flat >= 0 && !choice.revolution)
+  {
+    chooseDepth(flow, flat);
+  }
   return choice;
 }
 
