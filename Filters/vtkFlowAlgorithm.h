@@ -215,12 +215,13 @@ public:
   /// Values of Symmetry.
   enum Symmetries
   {
+    SYMMETRY_AUTO = -1,
     SYMMETRY_NONE = 0,
     SYMMETRY_AXISYMMETRIC = 1
   };
 
-  /// What 2-D data are a section of. Default: None.
-  vtkSetClampMacro(Symmetry, int, SYMMETRY_NONE, SYMMETRY_AXISYMMETRIC);
+  /// What 2-D data are a section of. Default: Auto.
+  vtkSetClampMacro(Symmetry, int, SYMMETRY_AUTO, SYMMETRY_AXISYMMETRIC);
   vtkGetMacro(Symmetry, int);
 
   /// Values of SymmetryAxis.

@@ -8,7 +8,9 @@
 
 #include "vtkType.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace filters
@@ -26,9 +28,11 @@ struct PieceFacts
     std::uint64_t places;
     PointExtent extent;
     LayerBounds layer;
+    std::array<double, 3> wedge; // axis, -1: none; angles of the planes
   } numbers;
 };
 
-PieceFacts factsOf(const DatasetPiece& piece);
+/// `origin`: of wedges; unset: they do not matter.
+PieceFacts factsOf(const DatasetPiece& piece, const std::optional<std::array<double, 3>>& origin);
 
 } // namespace filters

@@ -4,10 +4,10 @@
 
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
+#include "Common/NumberText.h"
 #include "Common/Threads.h"
 #include "Input/FlatBodies.h"
 #include "Input/FlatData.h"
-#include "Input/OneLayer.h"
 #include "Input/RefractivityOfImage.h"
 #include "Sources/AmrPiece.h"
 #include "Sources/FieldTints.h"
@@ -77,15 +77,12 @@ std::shared_ptr<const PieceSource> sourceOf(
   return std::make_shared<PieceSource>(std::move(piece), std::move(boundary), ambient);
 }
 
-/// Returns a note on 3-D data that are a wedge; else empty.
-std::string noteOnWedge(const Flow& flow)
+/// Returns what is revolved if that is a wedge; else an empty text.
+std::string wedgeInWords(const Flow& flow)
 {
-  const std::optional<Wedge> wedge = findWedge(flow, flow.choice.settings.symmetryOrigin());
-  return wedge ? "The data are a wedge of " + std::to_string(std::lround(wedge->degrees)) +
-      " degrees around the " + "xyz"[wedge->axis] +
-      " axis, as of an axisymmetric flow, and light crosses no more than that; set Symmetry to "
-      "Axisymmetric for all of the flow."
-               : "";
+  return flow.axisOfWedge < 0 ? ""
+                              : "a wedge of " + textOf(flow.degreesOfWedge, 3) +
+      " degrees is revolved around the " + "xyz"[flow.axisOfWedge] + " axis (Symmetry)";
 }
 
 } // namespace
@@ -133,7 +130,7 @@ Choice MediumMaker::choose(vtkDataObject* input)
   {
     mean->findRanges(flow.leaves);
   }
-  if (this->settings.isAxisymmetric())
+  if (this->settings.isAxisymmetric() || flow.axisOfWedge >= 0)
   {
     choice.revolution = revolutionOf(flow); // throws if there is none
   }
@@ -179,6 +176,7 @@ std::shared_ptr<MadeRefractivity> MediumMaker::make(
 {
   auto made = std::make_shared<MadeRefractivity>();
   made->FlatAxis = choice.flatAxis;
+  made->Wedge = wedgeInWords(choice.flow);
   const auto work = [&]
   {
     if (!choice.keepsGrid())
@@ -214,7 +212,7 @@ void MediumMaker::makeImage(const Choice& choice, MadeRefractivity& made)
     flow, this->settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, image);
   made.Warning = this->warningOf(flow, tally, false);
   const int flat = flatAxisOf(flow);
-  addText(made.Warning, flat < 0 ? noteOnWedge(flow) : warningOfExtrusion(flow, flat));
+  addText(made.Warning, flat < 0 ? "" : warningOfExtrusion(flow, flat));
   if (!hasGas(image))
   {
     throw std::runtime_error(noGas(flow.label));
@@ -297,9 +295,10 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfCells(
   Flow flow = choice.flow;
   const int flat = choice.flatAxis;
   const double depth = flat < 0 ? 0 : depthOf(flow, flat);
-  const std::string ofShape = choice.revolution ? choice.revolution->note
-    : flat >= 0                                 ? warningOfExtrusion(flow, flat)
-                                                : noteOnWedge(flow);
+  const std::string ofShape = choice.revolution && this->settings.isAxisymmetric()
+    ? choice.revolution->note
+    : choice.revolution || flat < 0 ? ""
+                                    : warningOfExtrusion(flow, flat);
   std::vector<Flow> fields;
   if (withFields)
   {
