@@ -36,6 +36,11 @@ public:
     , First(flat == 0 ? 1 : 0)
     , Second(flat == 2 ? 1 : 2)
   {
+    for (int i = 0; flow.image && i < 2; ++i)
+    {
+      this->Counts[i] = flow.image->GetDimensions()[i == 0 ? this->First : this->Second] - 1;
+      this->Ids->SetNumberOfIds(4);
+    }
     Tally tally;
     for (const Leaf& leaf : flow.leaves)
     {
@@ -78,7 +83,18 @@ private:
     }
     std::array<double, 2> range{ std::numeric_limits<double>::infinity(),
       -std::numeric_limits<double>::infinity() };
-    this->Of.leaves[leaf].data->GetCellPoints(cell, this->Ids);
+    if (this->Of.image)
+    {
+      const vtkIdType row = cell / this->Counts[0], point = cell + row;
+      for (int corner = 0; corner < 4; ++corner)
+      {
+        this->Ids->SetId(corner, point + corner % 2 + corner / 2 * (this->Counts[0] + 1));
+      }
+    }
+    else
+    {
+      this->Of.leaves[leaf].data->GetCellPoints(cell, this->Ids);
+    }
     for (const vtkIdType point : *this->Ids)
     {
       range = { std::fmin(range[0], values->GetValue(point)),
@@ -88,23 +104,22 @@ private:
   }
   std::array<double, 4> boundsOf(vtkDataSet* data, vtkIdType cell) const
   {
+    if (this->Of.image) // along its own axes
+    {
+      const double* spacing = this->Of.image->GetSpacing();
+      const double i = static_cast<double>(cell % this->Counts[0]) * spacing[this->First],
+                   j = static_cast<double>(cell / this->Counts[0]) * spacing[this->Second];
+      return { i, i + spacing[this->First], j, j + spacing[this->Second] };
+    }
     double bounds[6];
     data->GetCellBounds(cell, bounds);
-    vtkIdType rest = cell;
-    for (int axis = 0; this->Of.image && axis < 3; ++axis) // an image's own axes
-    {
-      const vtkIdType count = std::max(1, this->Of.image->GetDimensions()[axis] - 1);
-      const double spacing = this->Of.image->GetSpacing()[axis];
-      bounds[2 * axis] = static_cast<double>(rest % count) * spacing;
-      bounds[2 * axis + 1] = bounds[2 * axis] + spacing;
-      rest /= count;
-    }
     return { bounds[2 * this->First], bounds[2 * this->First + 1], bounds[2 * this->Second],
       bounds[2 * this->Second + 1] };
   }
 
   const Flow& Of;
   int First, Second;
+  vtkIdType Counts[2] = { 0, 0 }; // of cells, of an image
   std::vector<vtkSmartPointer<vtkDoubleArray>> Values;
   vtkNew<vtkIdList> Ids;
 };
@@ -114,13 +129,22 @@ private:
 double sizeOfFlow(const Flow& flow, int flat)
 {
   const CellsOfPlane cells(flow, flat);
+  vtkIdType all = 0, number = 0;
+  for (const Leaf& leaf : flow.leaves)
+  {
+    all += leaf.data->GetNumberOfCells();
+  }
+  const vtkIdType every = 1 + all / static_cast<vtkIdType>(schlieren::mostOuterValues);
   std::vector<schlieren::WeightedValue> values;
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   cells.forAll(
     [&](const std::array<double, 4>& bounds, double low, double high)
     {
       const double area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2]);
-      values.push_back({ 0.5 * (low + high), area });
+      if (number++ % every == 0)
+      {
+        values.push_back({ 0.5 * (low + high), area });
+      }
       lowest = std::min(lowest, low);
       highest = std::max(highest, high);
     });
