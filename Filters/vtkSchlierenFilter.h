@@ -563,12 +563,15 @@ public:
   static double CutoffWhite(int cutoff);
 
   ///@{
-  /// The automatic k kept from an earlier image, and the ambient refractivity; else 0. Setting them (as
-  /// state files do) sets those of the next image, which are then kept; 0 means automatic.
+  /// The automatic k kept from an earlier image, the ambient refractivity, and the depth of a plane;
+  /// else 0. Setting them (as state files do) sets those of the next image, which are then kept; 0
+  /// means automatic.
   void SetLockedK(double k);
   double GetLockedK() const;
   void SetLockedAmbient(double ambient);
   double GetLockedAmbient() const;
+  void SetLockedDepth(double depth);
+  double GetLockedDepth() const;
   ///@}
 
   /// Finds an automatic k again for the next image, whatever has been kept.

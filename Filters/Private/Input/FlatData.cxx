@@ -278,10 +278,6 @@ double depthOf(const Flow& flow, int flat)
 
 void chooseDepth(Flow& flow, int flat)
 {
-  if (flow.depth > 0)
-  {
-    return;
-  }
   const double shorter = depthOf(flow, flat), size = sizeOfFlow(flow, flat);
   flow.depth = shorter;
   while (size > 0 && size <= 0.5 * flow.depth)

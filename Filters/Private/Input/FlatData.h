@@ -35,8 +35,8 @@ int flatAxisOf(const Flow& flow);
 /// Returns the depth of flat data: the flow's, or the plane's shorter side. Throws if that is 0.
 double depthOf(const Flow& flow, int flat);
 
-/// Sets a depth that is not known: the plane's shorter side, or, with a far field, half of it, a
-/// quarter and so on, as long as the flow is not larger. So it rarely changes over time.
+/// Finds a depth: the plane's shorter side, or, with a far field, half of it, a quarter and so on, as
+/// long as the flow is not larger.
 void chooseDepth(Flow& flow, int flat);
 
 /// Returns the depth of a flat image. `given`: 0 for the plane's shorter side.

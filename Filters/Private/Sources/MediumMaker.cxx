@@ -124,7 +124,7 @@ WorkProgress MediumMaker::progressOf(double from, double to) const
 
 Choice MediumMaker::choose(vtkDataObject* input)
 {
-  Choice choice{ input, chooseFlow(this->settings, this->Known, input), {}, -1 };
+  Choice choice{ input, chooseFlow(this->settings, this->Known, input), {} };
   Flow& flow = choice.flow;
   if (auto* mean = std::get_if<FieldMean>(&flow.model))
   {
@@ -137,7 +137,8 @@ Choice MediumMaker::choose(vtkDataObject* input)
   const int flat = flatAxisOf(flow); // throws without volume and plane
   const bool isTurned = flow.image && !flow.image->GetDirectionMatrix()->IsIdentity();
   choice.flatAxis = isTurned ? -1 : flat;
-  if (flat >= 0 && !choice.revolution)
+  choice.isDepthFound = flat >= 0 && !choice.revolution && !(flow.depth > 0);
+  if (choice.isDepthFound)
   {
     chooseDepth(flow, flat);
   }
@@ -177,6 +178,7 @@ std::shared_ptr<MadeRefractivity> MediumMaker::make(
   auto made = std::make_shared<MadeRefractivity>();
   made->FlatAxis = choice.flatAxis;
   made->Wedge = wedgeInWords(choice.flow);
+  made->Depth = choice.isDepthFound ? choice.flow.depth : 0;
   const auto work = [&]
   {
     if (!choice.keepsGrid())
