@@ -15,6 +15,7 @@
 #include "vtkPointData.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace filters
 {
@@ -118,6 +119,18 @@ PieceFacts factsOf(const DatasetPiece& piece, const std::optional<std::array<dou
     facts.numbers.extent = extentOf(piece.data, false);
   }
   return facts;
+}
+
+bool areOneWedge(const std::vector<std::array<double, 3>>& pieces)
+{
+  constexpr double tolerance = 1e-3; // radians
+  return !pieces.empty() && pieces[0][0] >= 0 &&
+    std::all_of(pieces.begin(), pieces.end(),
+      [&](const std::array<double, 3>& piece)
+      {
+        return piece[0] == pieces[0][0] && std::abs(piece[1] - pieces[0][1]) < tolerance &&
+          std::abs(piece[2] - pieces[0][2]) < tolerance;
+      });
 }
 
 } // namespace filters

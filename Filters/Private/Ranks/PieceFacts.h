@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace filters
 {
@@ -34,5 +35,8 @@ struct PieceFacts
 
 /// `origin`: of wedges; unset: they do not matter.
 PieceFacts factsOf(const DatasetPiece& piece, const std::optional<std::array<double, 3>>& origin);
+
+/// Returns whether pieces lie between the same two planes through an axis, see PieceFacts.
+bool areOneWedge(const std::vector<std::array<double, 3>>& pieces);
 
 } // namespace filters

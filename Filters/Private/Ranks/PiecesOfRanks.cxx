@@ -66,19 +66,6 @@ bool areInTouch(const std::array<double, 6>& a, const std::array<double, 6>& b)
   return are;
 }
 
-/// Returns whether pieces lie between the same two planes through an axis, see PieceFacts.
-bool areOneWedge(const std::vector<std::array<double, 3>>& pieces)
-{
-  constexpr double tolerance = 1e-3; // radians
-  return !pieces.empty() && pieces[0][0] >= 0 &&
-    std::all_of(pieces.begin(), pieces.end(),
-      [&](const std::array<double, 3>& piece)
-      {
-        return piece[0] == pieces[0][0] && std::abs(piece[1] - pieces[0][1]) < tolerance &&
-          std::abs(piece[2] - pieces[0][2]) < tolerance;
-      });
-}
-
 } // namespace
 
 PiecesOfRanks::PiecesOfRanks(const Ranks& ranks, vtkDataObject* own,
