@@ -12,6 +12,7 @@
 #include "Film/Image.h"
 #include "Film/Sensor.h"
 #include "Medium/Index/IndexModels.h"
+#include "Medium/Samples/Ambient.h"
 #include "Medium/Samples/Field.h"
 #include "Medium/Samples/FieldGradients.h"
 #include "Medium/Samples/MediumSource.h"

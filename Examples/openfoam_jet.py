@@ -26,8 +26,8 @@ case.CellArrays = ["p", "T"]
 last = case.TimestepValues[-1]
 case.UpdatePipeline(last)
 
-# The case is a wedge of 5 degrees around the x axis; p and T are found by their names, and the gas is air.
-schlieren = Schlieren(Input=case, Symmetry="Axisymmetric", Cutoff="Interferogram", Wavelength=546.1,
+# The case is a wedge of 5 degrees around the x axis, which is revolved; p and T are found by their names, and the gas is air.
+schlieren = Schlieren(Input=case, Cutoff="Interferogram", Wavelength=546.1,
                       ViewDirection=[0, 0, -1], FocalPoint=[0.015, 0, 0], ParallelScale=0.0095,
                       ImageSize=[480, 300], Quality="Fine")
 schlieren.UpdatePipeline(last)

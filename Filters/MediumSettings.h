@@ -105,7 +105,7 @@ struct MediumSettings
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
   int MaskedSide = -1;
-  int Symmetry = 0;
+  int Symmetry = -1;
   int SymmetryAxis = 0;
   double SymmetryOrigin[3] = { 0, 0, 0 };
   // end
@@ -128,6 +128,7 @@ struct MediumSettings
       !this->hasUniformPressure();
   }
   bool isAxisymmetric() const { return this->Symmetry == 1; }
+  bool mayBeWedge() const { return this->Symmetry != 0; } // by default as Symmetry is Auto
   std::array<double, 3> symmetryOrigin() const
   {
     return { this->SymmetryOrigin[0], this->SymmetryOrigin[1], this->SymmetryOrigin[2] };

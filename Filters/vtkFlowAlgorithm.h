@@ -215,12 +215,13 @@ public:
   /// Values of Symmetry.
   enum Symmetries
   {
+    SYMMETRY_AUTO = -1,
     SYMMETRY_NONE = 0,
     SYMMETRY_AXISYMMETRIC = 1
   };
 
-  /// What 2-D data are a section of. Default: None.
-  vtkSetClampMacro(Symmetry, int, SYMMETRY_NONE, SYMMETRY_AXISYMMETRIC);
+  /// What 2-D data are a section of. Default: Auto.
+  vtkSetClampMacro(Symmetry, int, SYMMETRY_AUTO, SYMMETRY_AXISYMMETRIC);
   vtkGetMacro(Symmetry, int);
 
   /// Values of SymmetryAxis.
@@ -284,7 +285,8 @@ public:
   ///@{
   /// Depth of data in one plane, or one cell thick, in data units, half of it on each side of the
   /// plane. Deflection and optical path are proportional to it. 0 (the default): the thickness of
-  /// the cells, or, for a plane, the length of its shorter side. Ignored with Symmetry.
+  /// the cells, or, for a plane, the length of its shorter side, or a part of it in which the flow
+  /// has room. Ignored with Symmetry.
   vtkSetClampMacro(Depth, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(Depth, double);
   ///@}

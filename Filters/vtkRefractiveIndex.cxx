@@ -75,23 +75,6 @@ std::map<vtkDataObject*, vtkDataObject*> copy(vtkDataObject* input, vtkDataObjec
   return copies;
 }
 
-/// Returns a mask of the visible points or cells.
-vtkSmartPointer<vtkUnsignedCharArray> visibleOf(const Leaf& leaf)
-{
-  auto visible =
-    newMask(leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints());
-  vtkUnsignedCharArray* ghosts = leaf.ofCells ? leaf.data->GetCellGhostArray() : nullptr;
-  for (vtkIdType cell = 0; ghosts && cell < visible->GetNumberOfTuples(); ++cell)
-  {
-    visible->SetValue(cell, ghosts->GetValue(cell) & hiddenCellBits ? 0 : 1);
-  }
-  if (!leaf.ofCells)
-  {
-    hidePoints(leaf.data, visible);
-  }
-  return visible;
-}
-
 } // namespace
 
 vtkRefractiveIndex::vtkRefractiveIndex() = default;

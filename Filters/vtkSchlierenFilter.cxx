@@ -191,6 +191,7 @@ MediumMaker& vtkSchlierenFilter::GetMaker()
 {
   MediumMaker& maker = this->Superclass::GetMaker();
   maker.numberOfThreads = this->NumberOfThreads;
+  maker.settings.Depth = this->Depth > 0 ? this->Depth : this->Inside->KeptDepth;
   return maker;
 }
 

@@ -138,9 +138,9 @@ public:
   vtkSetMacro(LengthScale, double);
   vtkGetMacro(LengthScale, double);
 
-  /// Refractivity n - 1 of the surroundings; air at room conditions has 2.7e-4. -1: it is found, as
-  /// the median over the domain's boundary, for the first image, and kept while the time changes,
-  /// so that the fringes of a series are counted from the same reference. Default: -1.
+  /// Refractivity n - 1 of the surroundings; air at room conditions has 2.7e-4. -1: it is found for
+  /// the first image, and kept while the time changes, so that the fringes of a series are counted
+  /// from the same reference. Default: -1.
   vtkSetMacro(AmbientRefractivity, double);
   vtkGetMacro(AmbientRefractivity, double);
 
@@ -563,12 +563,15 @@ public:
   static double CutoffWhite(int cutoff);
 
   ///@{
-  /// The automatic k kept from an earlier image, and the ambient refractivity; else 0. Setting them (as
-  /// state files do) sets those of the next image, which are then kept; 0 means automatic.
+  /// The automatic k kept from an earlier image, the ambient refractivity, and the depth of a plane;
+  /// else 0. Setting them (as state files do) sets those of the next image, which are then kept; 0
+  /// means automatic.
   void SetLockedK(double k);
   double GetLockedK() const;
   void SetLockedAmbient(double ambient);
   double GetLockedAmbient() const;
+  void SetLockedDepth(double depth);
+  double GetLockedDepth() const;
   ///@}
 
   /// Finds an automatic k again for the next image, whatever has been kept.

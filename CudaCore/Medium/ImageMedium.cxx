@@ -6,12 +6,14 @@
 #include "Medium/Medium.h"
 
 #include "Device/Parallel.h"
+#include "Medium/Samples/Ambient.h"
 #include "Medium/Samples/Solids.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace schlieren
 {
@@ -36,60 +38,49 @@ struct Samples
   }
 };
 
-/// Calls visit(index) for the points of the grid's faces.
-template <class Visit>
-void forFaces(const std::array<std::int64_t, 3>& n, const Visit& visit)
-{
-  for (std::int64_t k = 0; k < n[2]; ++k)
-  {
-    for (std::int64_t j = 0; j < n[1]; ++j)
-    {
-      const bool wholeRow = k == 0 || k == n[2] - 1 || j == 0 || j == n[1] - 1;
-      for (std::int64_t i = 0; i < n[0]; i += wholeRow ? 1 : n[0] - 1)
-      {
-        visit((k * n[1] + j) * n[0] + i);
-      }
-    }
-  }
-}
-
-/// Median over the gas on the six faces of the grid; where all of that is solid, over all gas. The
-/// median, because the gas around the flow fills most of the faces, while a mean is pulled by every
-/// jet or wake that passes through one. Needs as much memory as the values that it looks at.
+/// Returns N at the gas on the grid's faces; where all of that is solid, of all gas. Faces across an axis of two points, as
+/// of an extruded plane, have all points: they do not count.
 template <class Value>
-double boundaryMedian(const Samples<Value>& samples, const std::array<std::int64_t, 3>& n)
+std::vector<WeightedValue> outerValues(
+  const Samples<Value>& samples, const std::array<std::int64_t, 3>& n)
 {
-  const std::int64_t all = n[0] * n[1] * n[2];
-  std::vector<Value> values;
-  values.reserve(static_cast<std::size_t>(all - (n[0] - 2) * (n[1] - 2) * (n[2] - 2)));
+  std::vector<WeightedValue> values;
   const auto add = [&](std::int64_t at)
   {
     if (samples.isGas(at))
     {
-      values.push_back(samples.values[at]);
+      values.push_back({ static_cast<double>(samples.values[at]), 1 });
     }
   };
-  forFaces(n, add);
+  const auto isOuter = [&](std::size_t axis, std::int64_t i)
+  { return n[axis] > 2 && (i == 0 || i == n[axis] - 1); };
+  const auto everyOf = [](std::int64_t points)
+  { return static_cast<std::int64_t>(std::ceil(static_cast<double>(points) / mostOuterValues)); };
+  const std::int64_t all = n[0] * n[1] * n[2];
+  std::int64_t every = everyOf(2 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0]));
+  for (std::int64_t k = 0; k < n[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < n[1]; ++j)
+    {
+      const bool isWhole = isOuter(1, j) || isOuter(2, k);
+      for (std::int64_t i = 0; i < n[0]; i += isWhole ? 1 : n[0] - 1)
+      {
+        if ((isWhole || isOuter(0, i)) && (i + j + k) % every == 0)
+        {
+          add((k * n[1] + j) * n[0] + i);
+        }
+      }
+    }
+  }
   if (values.empty())
   {
-    std::int64_t gas = 0;
-    for (std::int64_t at = 0; at < all; ++at)
-    {
-      gas += samples.isGas(at) ? 1 : 0;
-    }
-    values.reserve(static_cast<std::size_t>(gas));
-    for (std::int64_t at = 0; at < all; ++at)
+    every = everyOf(all);
+    for (std::int64_t at = 0; at < all; at += every)
     {
       add(at);
     }
   }
-  if (values.empty())
-  {
-    return 0;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
+  return values;
 }
 
 struct Range
@@ -244,8 +235,12 @@ Medium<Real> build(
 {
   const Samples<Value> samples{ values, field.valid };
   // Before there is a volume: it takes memory, too.
-  const double ambient =
-    field.ambient ? *field.ambient : field.offset + boundaryMedian(samples, field.grid.dimensions);
+  const auto found = [&]
+  {
+    const std::vector<WeightedValue> outer = outerValues(samples, field.grid.dimensions);
+    return field.offset + (outer.empty() ? 0 : ambientOf(outer));
+  };
+  const double ambient = field.ambient ? *field.ambient : found();
   Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {}, nullptr };
   medium.ambient = ambient;
   const Range range = load(samples, field.offset, ambient, medium.volume, threads);

@@ -71,7 +71,7 @@ assert label.isVisible() and label.text() == "<p>Focal Point (data units)</p>", 
 """)
 
 # What is kept over a series, but not its numbers.
-for name in ("LockedAmbient", "LockedK"):
+for name in ("LockedAmbient", "LockedDepth", "LockedK"):
     user.check(name, "visible", "false")
 
 # Notes can be read and copied like other text in a window.

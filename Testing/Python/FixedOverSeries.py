@@ -127,3 +127,29 @@ def check_kept():
 
 
 comes_back("pulse.pvsm", script, check_kept)
+
+# The depth of a plane is that of its first image, though the flow in it grows; others have their own.
+write_series(os.path.abspath("bump.pvd"), TIMES, 41, lambda x, y, z, time: 1 + np.exp(-(x**2 + y**2) / (0.01 * 4**time)))
+bump = simple.PVDReader(FileName=os.path.abspath("bump.pvd"))
+plane = simple.Slice(Input=bump, SliceType="Plane")
+plane.SliceType.Normal = [0, 0, 1]
+plane.UpdatePipeline(0)
+
+
+def path_at(bench, time):
+    bench.UpdatePipeline(time)
+    return image_array(bench, "OpticalPathDifference").max()
+
+
+settings = {"Input": plane, "Density": ["POINTS", "rho"], "ImageSize": [33, 33], "AmbientRefractivity": 2.26e-4}
+own = {time: path_at(Schlieren(**settings), time) for time in (0, 2)}
+assert own[2] > 1.9 * own[0], own
+bench = Schlieren(**settings)
+for time in (0, 2, 1, 0, 2):
+    assert 0.95 < path_at(bench, time) / own[0] < 1.05, (time, own)
+depth = bench.LockedDepth
+assert depth > 0
+again = Schlieren(LockedDepth=depth, **settings)  # as a state has it
+assert path_at(again, 2) == path_at(bench, 2)
+again.LockedDepth = 0
+assert path_at(again, 2) == own[2]

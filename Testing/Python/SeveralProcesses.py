@@ -112,7 +112,7 @@ def sources():
     coarse = {"MediumTolerance": 0.1}
     yield "disk", disk, ["POINTS", "Temp"], None, False, coarse
     yield "fin", fin, ["POINTS", "Density"], None, True, coarse
-    yield "wedge", foam, ["CELLS", "T"], None, False, coarse | {"Symmetry": "Axisymmetric"}
+    yield "wedge", foam, ["CELLS", "T"], None, False, coarse
     yield ("coil", XMLUnstructuredGridReader(FileName=[data + "heating_coil_fluid.vtu"]), ["POINTS", "Temperature"], None,
            None, coarse)
     yield "fractal", HierarchicalFractal(Dimensions=6), ["CELLS", "Fractal Volume Fraction"], None, False, coarse

@@ -58,7 +58,7 @@ def new_medium(reader, array, options):
 
 
 def is_axisymmetric(options):
-    return dict(options.settings).get("Symmetry", "None") != "None"
+    return dict(options.settings).get("Symmetry") == "Axisymmetric"
 
 
 def bounds_of(reader, medium, options):

@@ -44,7 +44,7 @@ struct Field
   /// 0: solid, blocks light. 1: gas (solid where the sample is not finite). 2 (transparent): no data, but
   /// light passes; the sample is not read, the gas around is continued. Null: 1 everywhere.
   const unsigned char* valid = nullptr;
-  std::optional<double> ambient; ///< N outside; unset: the median over the domain's boundary
+  std::optional<double> ambient; ///< N outside; unset: see ambientOf(), at the domain's boundary
   double lengthScale = 1;        ///< metres per data unit
   FieldGradients gradients;      ///< of the fields that Scene::fieldColors belong to
   /// Changes whenever anything that the arrays hold has changed: the same version, the same data.

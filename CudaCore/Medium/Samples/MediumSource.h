@@ -48,7 +48,7 @@ public:
   /// All data lie within; outside of it is ambient gas.
   virtual Box bounds() const = 0;
 
-  /// N of the gas around the flow: the median over the outer boundary of the domain.
+  /// N of the gas around the flow: see ambientOf(), at the outer boundary of the domain.
   virtual double ambient() const = 0;
 
   /// Proportions that voxels should have, e.g. (1, 0.1, 1) where cells are ten times finer along y.

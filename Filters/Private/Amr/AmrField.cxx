@@ -3,7 +3,6 @@
 #include "Amr/AmrField.h"
 
 #include "Amr/AmrReconstruction.h"
-#include "Common/WeightedMedian.h"
 #include "Walls/LatticeDistances.h"
 
 #include <algorithm>
@@ -164,13 +163,13 @@ int AmrField::outerCellsForOne() const
       }
     }
   }
-  return static_cast<int>(std::max(1., std::ceil(cells / mostOuterValues)));
+  return static_cast<int>(std::max(1., std::ceil(cells / schlieren::mostOuterValues)));
 }
 
-std::vector<WeightedValue> AmrField::outerValues() const
+std::vector<schlieren::WeightedValue> AmrField::outerValues() const
 {
   const int every = this->outerCellsForOne();
-  std::vector<WeightedValue> values;
+  std::vector<schlieren::WeightedValue> values;
   for (const Level& level : this->Levels)
   {
     for (const Block& block : level.blocks)

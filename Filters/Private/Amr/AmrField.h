@@ -6,7 +6,6 @@
 #include "Amr/AmrLevels.h"
 #include "Cells/CellTree.h"
 #include "Common/Vectors.h"
-#include "Common/WeightedMedian.h"
 #include "Common/WorkProgress.h"
 
 #include "Schlieren.h"
@@ -46,7 +45,7 @@ public:
   BoundaryFaces faces() const;
 
   /// Returns the values at the domain's border, weighted by area; of more than a million, each nth.
-  std::vector<WeightedValue> outerValues() const;
+  std::vector<schlieren::WeightedValue> outerValues() const;
 
   /// Returns the content of the cells near a box; see CellTree::content(). lowest > highest: none.
   CellTree::Content contentOf(const schlieren::Box& box) const;

@@ -50,4 +50,20 @@ void hidePoints(vtkDataSet* data, vtkUnsignedCharArray* valid)
   }
 }
 
+vtkSmartPointer<vtkUnsignedCharArray> visibleOf(const Leaf& leaf)
+{
+  auto visible =
+    newMask(leaf.ofCells ? leaf.data->GetNumberOfCells() : leaf.data->GetNumberOfPoints());
+  vtkUnsignedCharArray* ghosts = leaf.ofCells ? leaf.data->GetCellGhostArray() : nullptr;
+  for (vtkIdType cell = 0; ghosts && cell < visible->GetNumberOfTuples(); ++cell)
+  {
+    visible->SetValue(cell, ghosts->GetValue(cell) & hiddenCellBits ? 0 : 1);
+  }
+  if (!leaf.ofCells)
+  {
+    hidePoints(leaf.data, visible);
+  }
+  return visible;
+}
+
 } // namespace filters

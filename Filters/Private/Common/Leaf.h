@@ -52,4 +52,7 @@ vtkSmartPointer<vtkUnsignedCharArray> newMask(vtkIdType count);
 /// Clears `valid` at points that are hidden or that a mask among the data's arrays excludes.
 void hidePoints(vtkDataSet* data, vtkUnsignedCharArray* valid);
 
+/// Returns a mask of the visible points or cells that have the values.
+vtkSmartPointer<vtkUnsignedCharArray> visibleOf(const Leaf& leaf);
+
 } // namespace filters

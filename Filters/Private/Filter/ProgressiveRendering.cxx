@@ -345,6 +345,7 @@ bool vtkSchlierenFilter::Show(
   const bool isStillOfRays = this->LightModel == LIGHT_WAVES && (!isWhole || !image.finished);
   this->Status = std::string(isWhole ? "" : "Preview: ") + (isStillOfRays ? "rays as yet, " : "") +
     inside.Images.GetStatus(image) + (outside.empty() ? "" : ", " + outside) +
+    (inside.Refractivity->Wedge.empty() ? "" : ", " + inside.Refractivity->Wedge) +
     (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(*this, image.kScale, isKept);

@@ -110,8 +110,10 @@ struct vtkSchlierenFilter::Internals
 
   filters::SensitivityLock KLock;
   filters::SensitivityLock AmbientLock;
-  bool FindsAmbient = false;  // for the image that was begun last
-  std::optional<double> Time; // time of the last update; unset: no time steps
+  filters::SensitivityLock DepthLock; // of a plane
+  double KeptDepth = 0;               // what Refractivity is made with; 0: none
+  bool FindsAmbient = false;          // for the image that was begun last
+  std::optional<double> Time;         // time of the last update; unset: no time steps
 
   std::optional<double> RequestedTime;
 

@@ -65,6 +65,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GradedFilter: " << this->GradedFilter << "\n";
   os << indent << "Quality: " << this->GetQuality() << "\n";
   os << indent << "LockedAmbient: " << this->GetLockedAmbient() << "\n";
+  os << indent << "LockedDepth: " << this->GetLockedDepth() << "\n";
   os << indent << "LockedK: " << this->GetLockedK() << "\n";
   os << indent << "KScaleUsed: " << this->KScaleUsed << "\n";
   os << indent << "Sensitivity: " << this->Sensitivity << "\n";
@@ -333,4 +334,18 @@ void vtkSchlierenFilter::SetLockedAmbient(double ambient)
 double vtkSchlierenFilter::GetLockedAmbient() const
 {
   return this->Inside->AmbientLock.GetKept().value_or(0);
+}
+
+void vtkSchlierenFilter::SetLockedDepth(double depth)
+{
+  if (depth != this->GetLockedDepth())
+  {
+    this->Inside->DepthLock.Give(depth > 0 ? std::make_optional(depth) : std::nullopt);
+    this->Modified();
+  }
+}
+
+double vtkSchlierenFilter::GetLockedDepth() const
+{
+  return this->Inside->DepthLock.GetKept().value_or(0);
 }

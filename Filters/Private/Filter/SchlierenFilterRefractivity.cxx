@@ -85,8 +85,12 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   Internals& inside = *this->Inside;
   inside.Chosen.reset();
   std::vector<double> description = this->DescribeInputs(input, bodies);
+  MediumSettings settings = this->GetMediumSettings();
+  settings.Wavelength = MediumSettings().Wavelength; // without influence on a flow's size
+  inside.DepthLock.For(K_AUTOMATIC, { inside.Time, description, std::move(settings), {}, {} });
+  const double kept = inside.DepthLock.GetKept().value_or(0);
   if (inside.holdsRefractivityOf(description, this->GetMediumSettings(), this->ColorByField) &&
-    this->UseOwnRanks())
+    kept == inside.KeptDepth && this->UseOwnRanks())
   {
     return true;
   }
@@ -94,12 +98,17 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   inside.FieldGradients.clear();
   inside.Refractivity = std::make_shared<MadeRefractivity>(); // what was, goes first
   inside.Grid.clear();
+  inside.KeptDepth = kept;
   const auto made = this->FindOrMakeRefractivity(input, bodies, description);
   if (!made)
   {
     return false;
   }
   inside.Refractivity = made;
+  if (made->Depth > 0)
+  {
+    inside.DepthLock.Found(made->Depth);
+  }
   if (!made->Warning.empty())
   {
     vtkWarningMacro(<< shortened(made->Warning) << noteOnView(*this, made->FlatAxis));

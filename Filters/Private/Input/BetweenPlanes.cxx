@@ -131,7 +131,8 @@ void flattenStructured(const Leaf& leaf, std::array<int, 3> points, int across,
 }
 
 /// Returns the ordered corners of a cell's front face; empty: none.
-std::vector<vtkIdType> frontOf(vtkGenericCell* cell, const Sides& sides)
+template <class SideOf>
+std::vector<vtkIdType> frontOf(vtkGenericCell* cell, const SideOf& sideOf)
 {
   for (int i = 0; i < cell->GetNumberOfFaces(); ++i)
   {
@@ -146,8 +147,8 @@ std::vector<vtkIdType> frontOf(vtkGenericCell* cell, const Sides& sides)
     for (vtkIdType corner = 0; corner < ids->GetNumberOfIds(); ++corner)
     {
       const vtkIdType point = ids->GetId(corner);
-      first = std::min(first, sides[static_cast<std::size_t>(point)]);
-      last = std::max(last, sides[static_cast<std::size_t>(point)]);
+      first = std::min(first, sideOf(point));
+      last = std::max(last, sideOf(point));
       if (std::find(corners.begin(), corners.end(), point) == corners.end()) // else collapsed
       {
         corners.push_back(point);
@@ -168,8 +169,9 @@ bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Re
   vtkDataSet* data = leaf.data;
   vtkNew<vtkGenericCell> cell;
   const auto placeAt = [&](vtkIdType point) { return planes.onPlane(placeOf(data, point)); };
-  /// Returns the cell's point behind one in front; -1: none.
-  const auto behind = [&](vtkIdType point)
+  const auto sideOf = [&](vtkIdType point) { return sides[static_cast<std::size_t>(point)]; };
+  /// Returns the cell's point on the other side of one; the same on both; -1: none.
+  const auto opposite = [&](vtkIdType point)
   {
     const Place place = placeAt(point);
     vtkIdType found = -1;
@@ -177,7 +179,7 @@ bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Re
     for (int i = 0; i < cell->GetNumberOfPoints(); ++i)
     {
       const vtkIdType other = cell->GetPointId(i);
-      const double distance = sides[static_cast<std::size_t>(other)] == Back
+      const double distance = sideOf(other) == -sideOf(point)
         ? vtkMath::Distance2BetweenPoints(place.data(), placeAt(other).data())
         : std::numeric_limits<double>::infinity();
       found = distance <= least ? other : found;
@@ -185,6 +187,12 @@ bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Re
     }
     return found;
   };
+  /// Returns whether a point is of both planes.
+  const auto isOfBoth = [&](vtkIdType point) {
+    return sideOf(point) == Both || (opposite(point) < 0 && planes.areOneAt(placeOf(data, point)));
+  };
+  const auto sideOrBoth = [&](vtkIdType point)
+  { return isOfBoth(point) ? static_cast<signed char>(Both) : sideOf(point); };
   std::vector<vtkIdType> numbers(sides.size(), -1);
   vtkNew<vtkPoints> places;
   places->SetDataTypeToDouble();
@@ -198,7 +206,8 @@ bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Re
       continue;
     }
     data->GetCell(id, cell);
-    std::vector<vtkIdType> face = frontOf(cell, sides);
+    std::vector<vtkIdType> face = frontOf(cell, sideOf);
+    face = face.empty() ? frontOf(cell, sideOrBoth) : face; // a point of both planes is behind
     if (face.empty())
     {
       return false;
@@ -208,8 +217,7 @@ bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Re
       vtkIdType& number = numbers[static_cast<std::size_t>(corner)];
       if (number < 0)
       {
-        const bool isOnAxis = sides[static_cast<std::size_t>(corner)] == Both;
-        const vtkIdType other = isOnAxis ? corner : behind(corner);
+        const vtkIdType other = isOfBoth(corner) ? corner : opposite(corner);
         if (other < 0)
         {
           return false;

@@ -31,11 +31,13 @@ enum Side : signed char
   Neither = 2
 };
 
-/// Two planes: the side of a point, and its projection to the plane halfway between them.
+/// Two planes: the side of a point, its projection to the plane halfway between them, and whether
+/// they are so close there that a mesh may have one point for both.
 struct Planes
 {
   std::function<Side(const Place&)> sideAt;
   std::function<Place(const Place&)> onPlane;
+  std::function<bool(const Place&)> areOneAt;
   double tolerance; // of distances
 };
 

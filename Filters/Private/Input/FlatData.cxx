@@ -4,6 +4,7 @@
 
 #include "Common/AvailableMemory.h"
 #include "Common/CellTypes.h"
+#include "Input/SizeOfFlow.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCell.h"
@@ -275,6 +276,17 @@ double depthOf(const Flow& flow, int flat)
   return shorterSide(lengths, flat);
 }
 
+void chooseDepth(Flow& flow, int flat)
+{
+  const double shorter = depthOf(flow, flat), size = sizeOfFlow(flow, flat);
+  flow.depth = shorter;
+  while (size > 0 && size <= 0.5 * flow.depth)
+  {
+    flow.depth *= 0.5;
+  }
+  flow.sizeInFarField = flow.depth < shorter ? size : 0;
+}
+
 std::string warningOfExtrusion(const Flow& flow, int flat)
 {
   if (flow.isDepthGiven)
@@ -282,11 +294,20 @@ std::string warningOfExtrusion(const Flow& flow, int flat)
     return ""; // the user knows
   }
   std::ostringstream text;
+  text << std::setprecision(4)
+       << (flow.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
+       << "xyz"[flat] << ": they become " << depthOf(flow, flat) << " data units deep, ";
+  if (flow.sizeInFarField > 0)
+  {
+    text << "a part of their shorter side, because the flow in them is " << flow.sizeInFarField
+         << " in size (where the refractivity differs by more than " << 100 * leastOfFlow
+         << " % of the largest difference)";
+  }
+  else
+  {
+    text << (flow.isOneCellThick ? "as their cells are" : "as their shorter side is long");
+  }
   text
-    << std::setprecision(4)
-    << (flow.isOneCellThick ? "The data are one cell thick along " : "The data are 2-D, across ")
-    << "xyz"[flat] << ": they become " << depthOf(flow, flat) << " data units deep, "
-    << (flow.isOneCellThick ? "as their cells are" : "as their shorter side is long")
     << ". Deflection and optical path are in proportion to it; set Depth to the depth of the real "
        "flow.";
   return text.str();

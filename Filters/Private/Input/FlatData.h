@@ -35,6 +35,10 @@ int flatAxisOf(const Flow& flow);
 /// Returns the depth of flat data: the flow's, or the plane's shorter side. Throws if that is 0.
 double depthOf(const Flow& flow, int flat);
 
+/// Finds a depth: the plane's shorter side, or, with a far field, half of it, a quarter and so on, as
+/// long as the flow is not larger.
+void chooseDepth(Flow& flow, int flat);
+
 /// Returns the depth of a flat image. `given`: 0 for the plane's shorter side.
 double depthOfImage(vtkImageData* image, int flat, double given);
 

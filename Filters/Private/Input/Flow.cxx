@@ -4,6 +4,7 @@
 
 #include "Common/NumberText.h"
 #include "Gas/GasChoices.h"
+#include "Input/BetweenPlanes.h"
 #include "Input/ChosenArrays.h"
 #include "Input/InputDescription.h"
 #include "Input/OneLayer.h"
@@ -171,14 +172,30 @@ void flattenLayers(const MediumSettings& settings, Flow& flow, const Flow* like)
 {
   flow.depth = settings.Depth;
   flow.isDepthGiven = flow.depth > 0;
-  if (settings.isAxisymmetric())
+  if (settings.mayBeWedge() && (!like || like->axisOfWedge >= 0))
   {
-    const std::array<double, 3> origin = settings.symmetryOrigin();
-    if (const std::optional<Wedge> wedge = findWedge(flow, origin))
+    std::vector<vtkDataSet*> layers;
+    for (const Leaf& leaf : flow.leaves)
     {
-      flattenWedge(flow, *wedge, origin);
+      if (isLayerLeaf(leaf))
+      {
+        layers.push_back(leaf.data);
+      }
+    }
+    const std::array<double, 3> origin = settings.symmetryOrigin();
+    const std::optional<Wedge> wedge = findWedge(layers, origin);
+    if (wedge && flattenWedge(flow, *wedge, origin))
+    {
       flow.axisOfWedge = wedge->axis;
+      flow.degreesOfWedge = wedge->degrees;
       return;
+    }
+    if (wedge && settings.isAxisymmetric())
+    {
+      throw std::runtime_error(
+        "Symmetry is Axisymmetric, and the input lies between two planes through the " +
+        std::string(1, "xyz"[wedge->axis]) +
+        " axis, but it is more than one layer of cells. Use a plane (Slice) of it.");
     }
   }
   flattenLayer(flow, like);

@@ -31,12 +31,14 @@ struct Flow
   Model model;
   double depth = 0;            // depth of flat data, see depthOf(); 0: to be chosen
   bool isDepthGiven = false;   // by the user
+  double sizeInFarField = 0;   // of what has decided the depth, see chooseDepth()
   bool isOneCellThick = false; // whether flattenLayer() has flattened `leaves`
   int axisOfWedge = -1;        // whether flattenWedge() has; -1: no
-  std::string notes;           // for the user, mostly empty
-  std::string label;           // for messages: "array 'rho'" or "arrays 'T', 'p'"
-  bool isComputed = false;     // whether the input has Refractivity
-  MediumChoice choice;         // the settings in use
+  double degreesOfWedge = 0;
+  std::string notes;       // for the user, mostly empty
+  std::string label;       // for messages: "array 'rho'" or "arrays 'T', 'p'"
+  bool isComputed = false; // whether the input has Refractivity
+  MediumChoice choice;     // the settings in use
 };
 
 /// Thrown if no dataset has the needed arrays; those of other ranks may have them.

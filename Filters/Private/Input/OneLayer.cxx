@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,6 +21,9 @@ namespace
 constexpr double angleTolerance = 1e-4; // radians
 /// Wider wedges are sectors of flows that need not be axisymmetric.
 constexpr double widestWedge = 30; // degrees
+constexpr double nearAxis = 0.01;  // of the radius
+/// Distance between points that may have been merged, in tolerances.
+constexpr double merged = 10;
 
 /// Polar coordinates of a point around an axis.
 struct Polar
@@ -41,18 +42,27 @@ struct Polar
 double turn(double from, double to) { return std::remainder(to - from, 2 * vtkMath::Pi()); }
 
 /// Returns the two angles at which all points lie; nothing if there are not exactly two.
-std::optional<std::array<double, 2>> anglesOf(
-  const Flow& flow, std::size_t axis, const Place& origin, double size)
+std::optional<std::array<double, 2>> anglesOf(const std::vector<vtkDataSet*>& pieces,
+  std::size_t axis, const Place& origin, const vtkBoundingBox& box)
 {
-  std::vector<double> angles;
-  for (const Leaf& leaf : flow.leaves)
+  double most[3]; // distance from the origin
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    const vtkIdType count = isLayerLeaf(leaf) ? leaf.data->GetNumberOfPoints() : 0;
-    for (vtkIdType point = 0; point < count; ++point)
+    const int low = 2 * static_cast<int>(i);
+    most[i] = std::max(
+      std::abs(box.GetBound(low) - origin[i]), std::abs(box.GetBound(low + 1) - origin[i]));
+  }
+  // Points of both planes may have been merged near the axis.
+  const double least = nearAxis * std::hypot(most[(axis + 1) % 3], most[(axis + 2) % 3]);
+  std::vector<double> angles;
+  for (vtkDataSet* data : pieces)
+  {
+    for (vtkIdType point = 0; point < data->GetNumberOfPoints(); ++point)
     {
-      const Polar polar(placeOf(leaf.data, point), axis, origin);
-      const double tolerance = angleTolerance + planeTolerance * size / polar.distance;
-      if (polar.distance <= planeTolerance * size ||
+      const Polar polar(placeOf(data, point), axis, origin);
+      const double tolerance =
+        angleTolerance + planeTolerance * box.GetMaxLength() / polar.distance;
+      if (polar.distance <= least ||
         std::any_of(angles.begin(), angles.end(),
           [&](double known) { return std::abs(turn(known, polar.angle)) <= tolerance; }))
       {
@@ -110,7 +120,8 @@ void flattenLayer(Flow& flow, const Flow* like)
       place[axis] = 0.5 * (low + high);
       return place;
     };
-    if (flatten(flow, { sideAt, onPlane, tolerance }, like != nullptr))
+    const auto areOneAt = [](const Place&) { return false; };
+    if (flatten(flow, { sideAt, onPlane, areOneAt, tolerance }, like != nullptr))
     {
       flow.isOneCellThick = true;
       flow.depth = flow.isDepthGiven ? flow.depth : high - low;
@@ -161,12 +172,17 @@ bool areOneLayer(const std::vector<LayerBounds>& pieces)
   return !pieces.empty() && (isLayerAlong(0) || isLayerAlong(1) || isLayerAlong(2));
 }
 
-std::optional<Wedge> findWedge(const Flow& flow, const std::array<double, 3>& origin)
+std::optional<Wedge> findWedge(
+  const std::vector<vtkDataSet*>& pieces, const std::array<double, 3>& origin)
 {
-  const double size = boundsOfLayers(flow).GetMaxLength();
+  vtkBoundingBox box;
+  for (vtkDataSet* data : pieces)
+  {
+    box.AddBounds(data->GetBounds());
+  }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (const auto angles = anglesOf(flow, axis, origin, size))
+    if (const auto angles = anglesOf(pieces, axis, origin, box))
     {
       const double middle = (*angles)[0] + 0.5 * turn((*angles)[0], (*angles)[1]);
       const bool isAlongNext = std::abs(std::cos(middle)) >= std::abs(std::sin(middle));
@@ -177,7 +193,7 @@ std::optional<Wedge> findWedge(const Flow& flow, const std::array<double, 3>& or
   return std::nullopt;
 }
 
-void flattenWedge(Flow& flow, const Wedge& wedge, const std::array<double, 3>& origin)
+bool flattenWedge(Flow& flow, const Wedge& wedge, const std::array<double, 3>& origin)
 {
   const auto axis = static_cast<std::size_t>(wedge.axis),
              across = static_cast<std::size_t>(wedge.across);
@@ -200,13 +216,10 @@ void flattenWedge(Flow& flow, const Wedge& wedge, const std::array<double, 3>& o
     on[away] += nearer * Polar(place, axis, origin).distance;
     return on;
   };
-  if (!flatten(flow, { sideAt, onPlane, planeTolerance * size }, true))
-  {
-    throw std::runtime_error(
-      "Symmetry is Axisymmetric, and the input lies between two planes through the " +
-      std::string(1, "xyz"[axis]) +
-      " axis, but it is more than one layer of cells. Use a plane (Slice) of it.");
-  }
+  const double tolerance = planeTolerance * size;
+  const auto areOneAt = [=, width = 2 * std::sin(0.5 * turn(front, back))](const Place& place)
+  { return width * Polar(place, axis, origin).distance <= merged * tolerance; };
+  return flatten(flow, { sideAt, onPlane, areOneAt, tolerance }, true);
 }
 
 } // namespace filters

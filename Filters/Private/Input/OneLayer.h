@@ -36,9 +36,11 @@ struct Wedge
 };
 
 /// Returns nothing if the 3-D cells are no wedge.
-std::optional<Wedge> findWedge(const Flow& flow, const std::array<double, 3>& origin);
+std::optional<Wedge> findWedge(
+  const std::vector<vtkDataSet*>& pieces, const std::array<double, 3>& origin);
 
 /// Replaces the wedge by flat data across `across`, with the coordinates x along the axis and r.
-void flattenWedge(Flow& flow, const Wedge& wedge, const std::array<double, 3>& origin);
+/// Returns false if it is not one layer of cells.
+bool flattenWedge(Flow& flow, const Wedge& wedge, const std::array<double, 3>& origin);
 
 } // namespace filters

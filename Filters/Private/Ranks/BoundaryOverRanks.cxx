@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/BoundaryOverRanks.h"
 
-#include "Common/WeightedMedian.h"
 #include "Sources/ImagePiece.h"
 #include "Sources/MeshCache.h"
 
@@ -112,7 +111,7 @@ void putBoundary(const ImagePiece& piece, Ranks::Bytes& message)
   const double ofFaces = 2. *
     (static_cast<double>(whole[0]) * whole[1] + static_cast<double>(whole[1]) * whole[2] +
       static_cast<double>(whole[2]) * whole[0]);
-  const auto every = static_cast<std::int64_t>(std::ceil(ofFaces / mostOuterValues));
+  const auto every = static_cast<std::int64_t>(std::ceil(ofFaces / schlieren::mostOuterValues));
   std::vector<ImagePiece::OuterValue> values;
   for (const ImagePiece::OuterValue& outer : piece.outer())
   {

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -271,8 +272,11 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
     case Gather:
     {
       const auto port = static_cast<std::size_t>(reader.Get<int>());
+      const MediumSettings& settings = this->Maker->settings;
       PiecesOfRanks pieces(ranks, this->Own[port],
-        port == 0 ? arraysOf(this->Maker->choice().settings) : std::vector<std::string>());
+        port == 0 ? arraysOf(this->Maker->choice().settings) : std::vector<std::string>(),
+        port == 0 && settings.mayBeWedge() ? std::optional(settings.symmetryOrigin())
+                                           : std::nullopt);
       if (Reader(request).Get<std::uint32_t>() == Gather)
       {
         this->Gathered[port] = pieces.gather();

@@ -15,6 +15,7 @@
 #include "vtkPointData.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace filters
 {
@@ -99,17 +100,37 @@ std::string arraysIn(vtkDataSet* data)
 
 } // namespace
 
-PieceFacts factsOf(const DatasetPiece& piece)
+PieceFacts factsOf(const DatasetPiece& piece, const std::optional<std::array<double, 3>>& origin)
 {
+  const int dimension = dimensionOf(piece.data);
+  std::optional<Wedge> wedge;
+  if (origin && dimension == 3)
+  {
+    wedge = findWedge({ piece.data }, *origin);
+  }
   PieceFacts facts{ piece.slot, arraysIn(piece.data),
-    { piece.data->GetDataObjectType(), dimensionOf(piece.data),
+    { piece.data->GetDataObjectType(), dimension,
       hasCellValues(piece.data) || hasPolyhedra(piece.data) ? layersForMeans : layersForPoints,
-      piece.data->GetNumberOfCells(), placesOf(piece.data), noPoints, layerBoundsOf(piece.data) } };
+      piece.data->GetNumberOfCells(), placesOf(piece.data), noPoints, layerBoundsOf(piece.data),
+      wedge ? std::array<double, 3>{ double(wedge->axis), wedge->angles[0], wedge->angles[1] }
+            : std::array<double, 3>{ -1, 0, 0 } } };
   if (isGrid(piece.data))
   {
     facts.numbers.extent = extentOf(piece.data, false);
   }
   return facts;
+}
+
+bool areOneWedge(const std::vector<std::array<double, 3>>& pieces)
+{
+  constexpr double tolerance = 1e-3; // radians
+  return !pieces.empty() && pieces[0][0] >= 0 &&
+    std::all_of(pieces.begin(), pieces.end(),
+      [&](const std::array<double, 3>& piece)
+      {
+        return piece[0] == pieces[0][0] && std::abs(piece[1] - pieces[0][1]) < tolerance &&
+          std::abs(piece[2] - pieces[0][2]) < tolerance;
+      });
 }
 
 } // namespace filters

@@ -8,8 +8,11 @@
 
 #include "vtkType.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace filters
 {
@@ -26,9 +29,14 @@ struct PieceFacts
     std::uint64_t places;
     PointExtent extent;
     LayerBounds layer;
+    std::array<double, 3> wedge; // axis, -1: none; angles of the planes
   } numbers;
 };
 
-PieceFacts factsOf(const DatasetPiece& piece);
+/// `origin`: of wedges; unset: they do not matter.
+PieceFacts factsOf(const DatasetPiece& piece, const std::optional<std::array<double, 3>>& origin);
+
+/// Returns whether pieces lie between the same two planes through an axis, see PieceFacts.
+bool areOneWedge(const std::vector<std::array<double, 3>>& pieces);
 
 } // namespace filters

@@ -68,8 +68,8 @@ bool areInTouch(const std::array<double, 6>& a, const std::array<double, 6>& b)
 
 } // namespace
 
-PiecesOfRanks::PiecesOfRanks(
-  const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays)
+PiecesOfRanks::PiecesOfRanks(const Ranks& ranks, vtkDataObject* own,
+  const std::vector<std::string>& arrays, const std::optional<std::array<double, 3>>& ofWedge)
   : All(ranks)
 {
   std::vector<std::vector<PieceFacts>> all;
@@ -83,7 +83,7 @@ PiecesOfRanks::PiecesOfRanks(
       put(vtkUniformGridAMR::SafeDownCast(own) != nullptr, bytes);
       for (const DatasetPiece& piece : this->Own)
       {
-        const PieceFacts facts = factsOf(piece);
+        const PieceFacts facts = factsOf(piece, ofWedge);
         putAll(facts.slot, bytes);
         putAll(facts.arrays, bytes);
         put(facts.numbers, bytes);
@@ -124,6 +124,7 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<PieceFacts>>& all
   std::map<Slot, Dataset> datasets;
   std::map<Slot, std::string> arrays;
   std::vector<LayerBounds> layers; // of all pieces with 3-D cells
+  std::vector<std::array<double, 3>> wedges;
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
     for (const PieceFacts& facts : all[rank])
@@ -147,6 +148,7 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<PieceFacts>>& all
       if (numbers.dimension == 3)
       {
         layers.push_back(numbers.layer);
+        wedges.push_back(numbers.wedge);
       }
       for (std::size_t low = 0; low < 6; low += 2)
       {
@@ -179,7 +181,7 @@ void PiecesOfRanks::findDatasets(const std::vector<std::vector<PieceFacts>>& all
   {
     this->Datasets.push_back(std::move(entry.second));
   }
-  this->IsOneLayer = areOneLayer(layers);
+  this->IsOneLayer = areOneLayer(layers) || areOneWedge(wedges);
 }
 
 bool PiecesOfRanks::meetsOthers(const Dataset& dataset) const

@@ -9,8 +9,10 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,17 +27,18 @@ namespace filters
 class PiecesOfRanks
 {
 public:
-  /// Describes the named arrays of `own`, which may be null. Throws std::runtime_error, as all
-  /// functions do.
-  PiecesOfRanks(const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays);
+  /// Describes the named arrays of `own`, which may be null. `ofWedge`: a point of the axis of
+  /// wedges that are to be gathered. Throws std::runtime_error, as all functions do.
+  PiecesOfRanks(const Ranks& ranks, vtkDataObject* own, const std::vector<std::string>& arrays,
+    const std::optional<std::array<double, 3>>& ofWedge = {});
 
   double cells() const;
   bool areOnRank0() const;
   /// Kinds of three-dimensional data that need not be gathered.
   enum class Kind
   {
-    Gathered, // others: adaptive blocks, surfaces, planes, data that are one cell thick, datasets
-              // that meet others on other ranks or themselves (O-grids)
+    Gathered, // others: adaptive blocks, surfaces, planes, data that are one cell thick, wedges,
+              // datasets that meet others on other ranks or themselves (O-grids)
     Meshes,
     Image
   };

@@ -5,6 +5,7 @@
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
 #include "Gas/RefractivityModels.h"
+#include "Input/FlatData.h"
 #include "Input/Flow.h"
 #include "Input/RefractivityOfImage.h"
 #include "Input/RefractivityValues.h"
@@ -224,6 +225,10 @@ void forFieldImages(const MediumSettings& medium, vtkDataObject* input, vtkImage
   {
     Flow field = flowOfField(settingsOfField(medium, number, ranges), input);
     std::get<FieldMean>(field.model).findRanges(field.leaves);
+    if (const int flat = flatAxisOf(field); flat >= 0)
+    {
+      field.depth = refractivity->GetSpacing()[flat]; // between its two layers
+    }
     vtkNew<vtkImageData> values;
     convertImage(field, Numbers::Singles, values);
     if (!isSameGrid(grid, gridFrom(values)))

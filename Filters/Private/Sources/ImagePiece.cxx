@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace filters
 {
@@ -149,7 +148,9 @@ void ImagePiece::findOuter(const schlieren::Field& field)
       const Counts inWhole{ this->First[0] + i, this->First[1] + j, this->First[2] + k };
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        if (inWhole[axis] == 0 || inWhole[axis] == this->Whole[axis] - 1)
+        // Of two points, as of an extruded plane, all would be on the faces across the axis.
+        const int last = this->Whole[axis] - 1;
+        if (last > 1 && (inWhole[axis] == 0 || inWhole[axis] == last))
         {
           const CellBox whole{ { 0, 0, 0 }, this->Whole };
           this->Outer.push_back(
@@ -207,14 +208,12 @@ double ImagePiece::ambientOf(std::vector<OuterValue> values)
   values.erase(std::unique(values.begin(), values.end(),
                  [](const OuterValue& a, const OuterValue& b) { return a.point == b.point; }),
     values.end());
-  if (values.empty())
+  std::vector<schlieren::WeightedValue> weighted;
+  for (const OuterValue& outer : values)
   {
-    return std::numeric_limits<double>::quiet_NaN();
+    weighted.push_back({ outer.value, 1 });
   }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end(),
-    [](const OuterValue& a, const OuterValue& b) { return a.value < b.value; });
-  return middle->value;
+  return schlieren::ambientOf(std::move(weighted));
 }
 
 schlieren::Place ImagePiece::kindOf(const Counts& point) const

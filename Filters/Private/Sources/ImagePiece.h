@@ -62,7 +62,7 @@ public:
     std::int64_t point; // in the whole image
     double value;
   };
-  /// Returns the ambient N, the median over the faces with each point once. NaN: no points.
+  /// Returns the ambient N, see schlieren::ambientOf(), of the faces with each point once. NaN: no points.
   static double ambientOf(std::vector<OuterValue> values);
   const std::vector<OuterValue>& outer() const { return this->Outer; }
 

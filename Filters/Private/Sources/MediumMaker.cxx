@@ -4,10 +4,10 @@
 
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
+#include "Common/NumberText.h"
 #include "Common/Threads.h"
 #include "Input/FlatBodies.h"
 #include "Input/FlatData.h"
-#include "Input/OneLayer.h"
 #include "Input/RefractivityOfImage.h"
 #include "Sources/AmrPiece.h"
 #include "Sources/FieldTints.h"
@@ -70,22 +70,19 @@ std::shared_ptr<const PieceSource> sourceOf(
 std::shared_ptr<const PieceSource> sourceOf(
   std::unique_ptr<const AmrPiece> piece, vtkDataObject* bodies, Outside outside)
 {
-  const double ambient = weightedMedian(piece->refractivity().outerValues());
+  const double ambient = schlieren::ambientOf(piece->refractivity().outerValues());
   BoundaryFaces faces = piece->refractivity().faces();
   sortTriangles(faces.surface, faces.hidesBehind);
   auto boundary = std::make_shared<const GasBoundary>(std::move(faces), bodies, outside);
   return std::make_shared<PieceSource>(std::move(piece), std::move(boundary), ambient);
 }
 
-/// Returns a note on 3-D data that are a wedge; else empty.
-std::string noteOnWedge(const Flow& flow)
+/// Returns what is revolved if that is a wedge; else an empty text.
+std::string wedgeInWords(const Flow& flow)
 {
-  const std::optional<Wedge> wedge = findWedge(flow, flow.choice.settings.symmetryOrigin());
-  return wedge ? "The data are a wedge of " + std::to_string(std::lround(wedge->degrees)) +
-      " degrees around the " + "xyz"[wedge->axis] +
-      " axis, as of an axisymmetric flow, and light crosses no more than that; set Symmetry to "
-      "Axisymmetric for all of the flow."
-               : "";
+  return flow.axisOfWedge < 0 ? ""
+                              : "a wedge of " + textOf(flow.degreesOfWedge, 3) +
+      " degrees is revolved around the " + "xyz"[flow.axisOfWedge] + " axis (Symmetry)";
 }
 
 } // namespace
@@ -127,19 +124,24 @@ WorkProgress MediumMaker::progressOf(double from, double to) const
 
 Choice MediumMaker::choose(vtkDataObject* input)
 {
-  Choice choice{ input, chooseFlow(this->settings, this->Known, input), {}, -1 };
+  Choice choice{ input, chooseFlow(this->settings, this->Known, input), {} };
   Flow& flow = choice.flow;
   if (auto* mean = std::get_if<FieldMean>(&flow.model))
   {
     mean->findRanges(flow.leaves);
   }
-  if (this->settings.isAxisymmetric())
+  if (this->settings.isAxisymmetric() || flow.axisOfWedge >= 0)
   {
     choice.revolution = revolutionOf(flow); // throws if there is none
   }
   const int flat = flatAxisOf(flow); // throws without volume and plane
   const bool isTurned = flow.image && !flow.image->GetDirectionMatrix()->IsIdentity();
   choice.flatAxis = isTurned ? -1 : flat;
+  choice.isDepthFound = flat >= 0 && !choice.revolution && !(flow.depth > 0);
+  if (choice.isDepthFound)
+  {
+    chooseDepth(flow, flat);
+  }
   return choice;
 }
 
@@ -175,6 +177,8 @@ std::shared_ptr<MadeRefractivity> MediumMaker::make(
 {
   auto made = std::make_shared<MadeRefractivity>();
   made->FlatAxis = choice.flatAxis;
+  made->Wedge = wedgeInWords(choice.flow);
+  made->Depth = choice.isDepthFound ? choice.flow.depth : 0;
   const auto work = [&]
   {
     if (!choice.keepsGrid())
@@ -210,7 +214,7 @@ void MediumMaker::makeImage(const Choice& choice, MadeRefractivity& made)
     flow, this->settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, image);
   made.Warning = this->warningOf(flow, tally, false);
   const int flat = flatAxisOf(flow);
-  addText(made.Warning, flat < 0 ? noteOnWedge(flow) : warningOfExtrusion(flow, flat));
+  addText(made.Warning, flat < 0 ? "" : warningOfExtrusion(flow, flat));
   if (!hasGas(image))
   {
     throw std::runtime_error(noGas(flow.label));
@@ -293,9 +297,10 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfCells(
   Flow flow = choice.flow;
   const int flat = choice.flatAxis;
   const double depth = flat < 0 ? 0 : depthOf(flow, flat);
-  const std::string ofShape = choice.revolution ? choice.revolution->note
-    : flat >= 0                                 ? warningOfExtrusion(flow, flat)
-                                                : noteOnWedge(flow);
+  const std::string ofShape = choice.revolution && this->settings.isAxisymmetric()
+    ? choice.revolution->note
+    : choice.revolution || flat < 0 ? ""
+                                    : warningOfExtrusion(flow, flat);
   std::vector<Flow> fields;
   if (withFields)
   {

@@ -33,6 +33,7 @@ struct Choice
   vtkDataObject* input = nullptr;
   Flow flow;
   std::optional<Revolution> revolution; ///< of axisymmetric data
+  bool isDepthFound = false;            ///< of a plane, see chooseDepth()
   int flatAxis = -1; ///< coordinate axis across the plane of the data; -1: no plane
 
   /// Returns whether data are an image, whose grid is kept.

@@ -40,6 +40,8 @@ struct MadeRefractivity
   std::shared_ptr<filters::MeshCache> Mesh; ///< of Source
   std::string Grid;                         ///< about Image, as text
   int FlatAxis = -1;                        ///< see Choice
+  double Depth = 0;                         ///< of a plane, if it was found; else 0
+  std::string Wedge;                        ///< what of the data is revolved by itself, as text
   std::string Warning;                      ///< for each filter that uses it
 };
 

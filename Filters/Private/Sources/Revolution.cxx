@@ -37,9 +37,11 @@ constexpr double axisTolerance = 1e-6;
 struct Candidate
 {
   int axis, radial;
-  double low, high;  // distances from it; negative on its other side
-  double slope = 0;  // of the first array at the axis, relative to the mean: 0 for the right one
-  double change = 0; // of the array along the radius
+  double low, high;     // distances from it; negative on its other side
+  double length;        // along it
+  double slope = 0;     // of the first array at the axis, relative to that in the next cells
+  double change = 0;    // of the array along the radius
+  double variation = 0; // of the array in the cells at the axis, relative to that in all
 
   double radius() const { return std::max(std::abs(this->low), std::abs(this->high)); }
   bool touches(double tolerance) const
@@ -48,11 +50,13 @@ struct Candidate
   }
 };
 
-/// Finds the slopes of the first array at the axis, by the nearest layers of cells.
+/// Finds the slopes of the first array at the axis, by the nearest cells and those within three
+/// times their height: of a field that is even about the axis they are as 1 to 4, else about equal.
 void measure(const Flow& flow, const std::array<double, 3>& origin, Candidate& candidate)
 {
   const auto radial = static_cast<std::size_t>(candidate.radial);
-  double near = 0, nearLength = 0, all = 0, allLength = 0;
+  double near = 0, nearLength = 0, next = 0, nextLength = 0, all = 0;
+  vtkBoundingBox nearRange, range; // of values
   vtkNew<vtkIdList> ids;
   for (const Leaf& leaf : flow.leaves)
   {
@@ -71,12 +75,15 @@ void measure(const Flow& flow, const std::array<double, 3>& origin, Candidate& c
                    high = bounds[2 * radial + 1] - origin[radial];
       double sums[2] = { 0, 0 };
       int counts[2] = { 0, 0 };
+      vtkBoundingBox own;
       for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
       {
         leaf.data->GetPoint(ids->GetId(i), x);
         const int side = x[radial] - origin[radial] < 0.5 * (low + high) ? 0 : 1;
-        sums[side] += leaf.arrays[0]->GetComponent(ids->GetId(i), 0);
+        const double value = leaf.arrays[0]->GetComponent(ids->GetId(i), 0);
+        sums[side] += value;
         ++counts[side];
+        own.AddPoint(value, 0, 0);
       }
       const double difference = std::abs(sums[1] / counts[1] - sums[0] / counts[0]);
       if (!(high > low) || !std::isfinite(difference))
@@ -84,16 +91,25 @@ void measure(const Flow& flow, const std::array<double, 3>& origin, Candidate& c
         continue;
       }
       all += difference;
-      allLength += high - low;
-      if (std::min(std::abs(low), std::abs(high)) < 0.5 * (high - low))
+      range.AddBox(own);
+      const double from = std::min(std::abs(low), std::abs(high));
+      if (from >= 0.5 * (high - low) && from < 3 * (high - low))
+      {
+        next += difference;
+        nextLength += high - low;
+      }
+      if (from < 0.5 * (high - low))
       {
         near += difference;
         nearLength += high - low;
+        nearRange.AddBox(own);
       }
     }
   }
-  candidate.slope = nearLength > 0 && all > 0 ? near / nearLength / (all / allLength) : 0;
+  candidate.slope = next > 0 && nearLength > 0 ? near / nearLength / (next / nextLength) : 1;
   candidate.change = all;
+  candidate.variation =
+    all > 0 && nearRange.IsValid() ? nearRange.GetLength(0) / range.GetLength(0) : 0;
 }
 
 /// Averages cell values at points, because slopes need neighbours.
@@ -135,7 +151,7 @@ std::vector<Candidate> candidatesFor(
     }
     const double from = origin[static_cast<std::size_t>(radial)];
     const Candidate candidate{ axis, radial, box.GetBound(2 * radial) - from,
-      box.GetBound(2 * radial + 1) - from };
+      box.GetBound(2 * radial + 1) - from, box.GetLength(axis) };
     const bool isOnOneSide = candidate.low >= -tolerance || candidate.high <= tolerance;
     if (isOnOneSide ||
       std::abs(candidate.low + candidate.high) <= centred * (candidate.high - candidate.low))
@@ -146,7 +162,14 @@ std::vector<Candidate> candidatesFor(
   return candidates;
 }
 
-Candidate bestOf(std::vector<Candidate> candidates, const Flow& flow,
+/// The best axis, and another one that may be meant; -1: none.
+struct Best
+{
+  Candidate candidate;
+  int other;
+};
+
+Best bestOf(std::vector<Candidate> candidates, const Flow& flow,
   const std::array<double, 3>& origin, double tolerance)
 {
   const auto touching = [&](const Candidate& one) { return one.touches(tolerance); };
@@ -157,7 +180,7 @@ Candidate bestOf(std::vector<Candidate> candidates, const Flow& flow,
   }
   if (candidates.size() < 2)
   {
-    return candidates.at(0);
+    return { candidates.at(0), -1 };
   }
   const Flow atPoints = withValuesAtPoints(flow);
   for (Candidate& candidate : candidates)
@@ -170,12 +193,19 @@ Candidate bestOf(std::vector<Candidate> candidates, const Flow& flow,
   {
     if (candidates[one].change < little * candidates[1 - one].change)
     {
-      return candidates[1 - one];
+      return { candidates[1 - one], -1 };
     }
   }
+  // Of uniform gas at an axis, a slope of 0 says nothing.
   constexpr double smooth = 0.5; // slopes at the axis that count as none
-  return candidates[0].slope < smooth || candidates[0].slope <= candidates[1].slope ? candidates[0]
-                                                                                    : candidates[1];
+  const auto isKnown = [=](const Candidate& one)
+  { return one.variation >= little && one.slope < smooth; };
+  if (isKnown(candidates[0]) != isKnown(candidates[1]))
+  {
+    return { candidates[isKnown(candidates[0]) ? 0 : 1], -1 };
+  }
+  const std::size_t longer = candidates[0].length >= candidates[1].length ? 0 : 1;
+  return { candidates[longer], candidates[1 - longer].axis };
 }
 
 } // namespace
@@ -195,7 +225,7 @@ schlieren::Box Revolution::box() const
 Revolution revolutionOf(const Flow& flow)
 {
   const MediumSettings& settings = flow.choice.settings;
-  const int given = settings.SymmetryAxis - 1; // -1: not given
+  const int given = settings.isAxisymmetric() ? settings.SymmetryAxis - 1 : -1; // -1: not given
   const std::array<double, 3> origin = settings.symmetryOrigin();
   if (!std::all_of(origin.begin(), origin.end(), [](double x) { return std::isfinite(x); }))
   {
@@ -223,12 +253,13 @@ Revolution revolutionOf(const Flow& flow)
   const double tolerance = axisTolerance * box.GetMaxLength();
   const int chosen = given >= 0 ? given : flow.axisOfWedge;
   std::optional<Candidate> found;
+  int other = -1;
   if (chosen >= 0)
   {
     const int radial = 3 - chosen - flat;
     const double from = origin[static_cast<std::size_t>(radial)];
     found = Candidate{ chosen, radial, box.GetBound(2 * radial) - from,
-      box.GetBound(2 * radial + 1) - from };
+      box.GetBound(2 * radial + 1) - from, box.GetLength(chosen) };
   }
   else
   {
@@ -239,7 +270,9 @@ Revolution revolutionOf(const Flow& flow)
         "Symmetry is Axisymmetric, but the plane of the data lies on both sides of each coordinate "
         "axis. Set SymmetryAxis to the axis, and SymmetryOrigin to a point of it.");
     }
-    found = bestOf(candidates, flow, origin, tolerance);
+    const Best best = bestOf(candidates, flow, origin, tolerance);
+    found = best.candidate;
+    other = best.other;
   }
   const bool isPositive = found->high > tolerance;
   Revolution revolution{ found->axis, found->radial, flat, origin, box.GetBound(2 * found->axis),
@@ -254,7 +287,13 @@ Revolution revolutionOf(const Flow& flow)
          << "xyz"[found->radial] << " = " << origin[static_cast<std::size_t>(found->radial)];
   }
   text << ", up to a radius of " << revolution.radius << " data units.";
-  if (chosen < 0)
+  if (other >= 0)
+  {
+    text << " It is not clear from the field whether they should be revolved around the "
+         << "xyz"[other] << " axis instead: their side along the "
+         << "xyz"[found->axis] << " axis is the longer one. Set SymmetryAxis.";
+  }
+  else if (chosen < 0)
   {
     text << " SymmetryAxis can set another one.";
   }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Walls/GasBoundary.h"
 
-#include "Common/WeightedMedian.h"
 #include "Walls/LatticeSampling.h"
 
 #include <algorithm>
@@ -44,7 +43,7 @@ double GasBoundary::ambient(const std::vector<vtkDataSet*>& leaves) const
 double GasBoundary::ambient(const std::vector<double>& values) const
 {
   const Triangles& surface = this->Faces.surface;
-  std::vector<WeightedValue> parts; // N, area
+  std::vector<schlieren::WeightedValue> parts; // N, area
   for (const bool ofAll : { false, true })
   {
     for (std::size_t t = 0; t < surface.size(); ++t)
@@ -64,7 +63,7 @@ double GasBoundary::ambient(const std::vector<double>& values) const
       break;
     }
   }
-  return weightedMedian(std::move(parts));
+  return schlieren::ambientOf(std::move(parts));
 }
 
 GasBoundary::Kinds GasBoundary::facesIn(const schlieren::Box& box) const

@@ -35,7 +35,7 @@ public:
   GasBoundary(const GasBoundary&) = delete;
   GasBoundary& operator=(const GasBoundary&) = delete;
 
-  /// Returns the ambient N: the median over the area of the outer boundary, or of all of the
+  /// Returns the ambient N, see schlieren::ambientOf(): of the outer boundary, or of all of the
   /// boundary without one. NaN: no boundary. `leaves`: these or others on the same mesh.
   double ambient(const std::vector<vtkDataSet*>& leaves) const;
   /// Returns the ambient of N at the points of surface().

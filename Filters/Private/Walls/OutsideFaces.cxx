@@ -132,7 +132,7 @@ void OutsidePlaces::findOuter(const Triangles& own, const std::vector<unsigned c
   for (std::size_t t = 0; t < own.size(); ++t)
   {
     const int vote = found[t] == between ? votes[classes.rootOf(t)] : found[t];
-    this->AreOuter[t] |= vote > 0 ? 1 : 0;
+    this->AreOuter[t] = vote > 0 ? 1 : 0;
   }
 }
 

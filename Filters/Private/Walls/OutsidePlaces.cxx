@@ -30,9 +30,8 @@ OutsidePlaces::OutsidePlaces(const BoundaryFaces& faces)
   const PlaneSides sides(faces.surface);
   this->Tolerance = sides.tolerance();
   const std::vector<PlaneSide> largest = sides.largest();
-  const bool isWedge = faces.extent == Extent::Volume && sides.isWedge(largest);
-  const bool isLayer = isWedge || faces.extent == Extent::Layer;
-  this->Axes = isWedge ? axesOfWedge(largest) : axesAlong(largest, isLayer);
+  const bool isLayer = faces.extent == Extent::Layer;
+  this->Axes = axesAlong(largest, isLayer);
   Triangles own = faces.surface;
   std::transform(own.points.begin(), own.points.end(), own.points.begin(),
     [&](const Point& point) { return this->turned(point); });
@@ -41,20 +40,11 @@ OutsidePlaces::OutsidePlaces(const BoundaryFaces& faces)
     this->AreClosed[2 * axis] = sides.at(-1. * this->Axes[axis]).part > leastPart;
     this->AreClosed[2 * axis + 1] = sides.at(this->Axes[axis]).part > leastPart;
   }
-  if (isWedge)
-  {
-    this->AreClosed[2] = true; // the axis
-    for (std::size_t t = 0; t < own.size(); ++t)
-    {
-      this->AreOuter[t] = sides.isIn(largest[0], t) || sides.isIn(largest[1], t) ? 1 : 0;
-    }
-  }
   if (own.size() > 0)
   {
     this->layGrid(own, isLayer);
-    this->markCrossed(own, this->AreOuter);
-    Triangles ends{ own.points, faces.ends };
-    this->markCrossed(ends, std::vector<unsigned char>(ends.size(), 0));
+    this->markCrossed(own);
+    this->markCrossed({ own.points, faces.ends });
     this->findGas(own);
     const Parts parts = this->partsOf(Kind::Passes);
     this->findBodies(parts);
@@ -137,14 +127,10 @@ void OutsidePlaces::layGrid(const Triangles& own, bool isLayer)
   this->Kinds.assign(all, Kind::Passes);
 }
 
-void OutsidePlaces::markCrossed(const Triangles& own, const std::vector<unsigned char>& leaveOut)
+void OutsidePlaces::markCrossed(const Triangles& own)
 {
   for (std::size_t t = 0; t < own.size(); ++t)
   {
-    if (leaveOut[t])
-    {
-      continue;
-    }
     std::array<std::size_t, 3> first, last;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {

@@ -21,7 +21,7 @@ namespace filters
  * Places that hang together are treated alike. They are a body if the mesh encloses them, or if
  * they reach the sides of the mesh's box only at sides in which the mesh has flat faces, too: a
  * floor, a symmetry plane, an inlet or outlet. Otherwise light passes. The box lies along the
- * mesh's largest plane sides. Layers and wedges of one cell are looked at in their plane. Parts of
+ * mesh's largest plane sides. Layers of one cell are looked at in their plane. Parts of
  * whose surface within the mesh's convex hull less than a tenth is open are bodies, too.
  *
  * Faces divide a grid over the box into parts. Where they are nearer than its spacing they decide
@@ -64,7 +64,7 @@ private:
   void forNeighbours(std::size_t n, const Visit& visit) const;
 
   void layGrid(const Triangles& own, bool isLayer);
-  void markCrossed(const Triangles& own, const std::vector<unsigned char>& leaveOut);
+  void markCrossed(const Triangles& own);
   Parts partsOf(Kind kind) const;
   std::size_t lookFrom(const Triangles& own, std::size_t triangle, bool isOutward) const;
   void findGas(const Triangles& own);

@@ -18,7 +18,6 @@ constexpr double inPlane = 1e-5; // of the size
 constexpr double sineOfFlat = 1e-4;
 constexpr double leastOfLargest = 0.01; // area
 constexpr std::size_t mostSides = 30;   // that are looked at
-constexpr double mostOfWedge = 0.5;     // sine of 30 degrees
 constexpr double acrossFirst = 0.1;     // cosine of the angle of the second axis
 constexpr double rounded = 1e-11;       // 1 - cosine, and of areas
 constexpr std::array<Point, 3> coordinateAxes{ Point{ 1, 0, 0 }, Point{ 0, 1, 0 },
@@ -173,42 +172,6 @@ std::vector<PlaneSide> PlaneSides::largest() const
   std::stable_sort(sides.begin(), sides.end(),
     [](const PlaneSide& a, const PlaneSide& b) { return a.area > b.area; });
   return sides;
-}
-
-bool PlaneSides::isIn(const PlaneSide& side, std::size_t triangle) const
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    least = std::min(least, dot(side.normal, this->Surface.corner(triangle, i)));
-  }
-  return least > side.offset - this->Tolerance;
-}
-
-bool PlaneSides::isWedge(const std::vector<PlaneSide>& sides) const
-{
-  if (sides.size() < 2 || dot(sides[0].normal, sides[1].normal) > 0)
-  {
-    return false;
-  }
-  const double angle = norm(cross(sides[0].normal, sides[1].normal));
-  bool isAtAxis = false;
-  const bool areAll = std::all_of(this->Surface.points.begin(), this->Surface.points.end(),
-    [&](const Point& point)
-    {
-      const bool isInOne = dot(sides[0].normal, point) > sides[0].offset - this->Tolerance;
-      const bool isInOther = dot(sides[1].normal, point) > sides[1].offset - this->Tolerance;
-      isAtAxis = isAtAxis || (isInOne && isInOther);
-      return isInOne || isInOther;
-    });
-  return areAll && isAtAxis && angle > sineOfFlat && angle < mostOfWedge;
-}
-
-std::array<Point, 3> axesOfWedge(const std::vector<PlaneSide>& sides)
-{
-  const Point away = unit(-1. * (sides[0].normal + sides[1].normal));
-  const Point across = unit(sides[0].normal - sides[1].normal);
-  return { cross(away, across), away, across };
 }
 
 bool isAlong(const Point& direction, const std::array<Point, 3>& axes)

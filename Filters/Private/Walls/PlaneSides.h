@@ -40,11 +40,6 @@ public:
   PlaneSide at(const Point& normal) const;
   /// Returns sides with flat faces, those with the largest area first.
   std::vector<PlaneSide> largest() const;
-  /// Returns whether a triangle is in a side.
-  bool isIn(const PlaneSide& side, std::size_t triangle) const;
-  /// Returns whether all points are in one or both of the first two sides, which meet in an axis at
-  /// less than 30 degrees.
-  bool isWedge(const std::vector<PlaneSide>& sides) const;
 
   /// Calls visit(one, other) for triangles at the same edge.
   template <class Visit>
@@ -74,9 +69,6 @@ private:
 /// Returns the axes, by rows, along which there are the largest sides; those of the data rather than
 /// others. `isLayer`: z stays.
 std::array<Point, 3> axesAlong(const std::vector<PlaneSide>& sides, bool isLayer);
-
-/// Returns the axis of a wedge, the direction away from it, and that across.
-std::array<Point, 3> axesOfWedge(const std::vector<PlaneSide>& sides);
 
 /// Returns whether a direction is along an axis, but for rounding.
 bool isAlong(const Point& direction, const std::array<Point, 3>& axes);

@@ -324,3 +324,164 @@ TEST(Flat, ThePlaneIsSeenFromInFront)
     EXPECT_EQ(valuesOf(filter, "OpticalPathDifference"), fromTheSide);
   }
 }
+
+namespace
+{
+
+/// A disturbance of 1.3 in diameter, in a plane of 40 by 48 across an axis, in units of so many mm.
+vtkSmartPointer<vtkStructuredGrid> farField(int axis, double unit, bool ofCells)
+{
+  const auto across = static_cast<std::size_t>(axis);
+  constexpr int points = 121;
+  auto mesh = vtkSmartPointer<vtkStructuredGrid>::New();
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  const auto at = [](int i) // points become denser towards the middle
+  { return 20 * std::copysign(std::pow(std::abs(i / 60. - 1), 3), i - 60.); };
+  for (int j = 0; j < points; ++j)
+  {
+    for (int i = 0; i < points; ++i)
+    {
+      Vec x{};
+      x[(across + 1) % 3] = at(i) / unit;
+      x[(across + 2) % 3] = 1.2 * at(j) / unit;
+      places->InsertNextPoint(x.data());
+    }
+  }
+  int dimensions[3] = { points, points, 1 };
+  mesh->SetDimensions(dimensions);
+  mesh->SetPoints(places);
+  const auto field = [=](const Vec& x)
+  {
+    const double r = std::sqrt(dot(x, x)) * unit;
+    // Beyond it there are waves of 2 % of the largest difference.
+    return 2.7e-4 + 1e-4 * (r < 0.65 ? std::cos(pi * r / 1.3) + 0.06 : 0.02 * std::sin(9 * r));
+  };
+  ofCells ? addCellArray(mesh, "N", field) : static_cast<void>(addPointArray(mesh, "N", field));
+  return mesh;
+}
+
+std::string warningAbout(vtkDataObject* input, bool ofCells, double& depth)
+{
+  auto filter = bench(input, 33);
+  filter->SetInputArrayToProcess(vtkRefractiveIndex::INDEX_ARRAY, 0, 0,
+    ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
+    "N");
+  filter->SetAmbientRefractivity(2.7e-4);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(complaints->Errors.empty());
+  const std::string text = complaints->Warnings.at(0);
+  const std::string before = "they become ";
+  depth = std::stod(text.substr(text.find(before) + before.size()));
+  return text;
+}
+
+} // namespace
+
+// A plane is not as deep as its far field is wide, but 1.25, 2.5 or 5: what is in it has room in it.
+TEST(Flat, AFarFieldIsAsDeepAsTheFlowInIt)
+{
+  for (const int axis : { 0, 1, 2 })
+  {
+    for (const bool ofCells : { false, true })
+    {
+      for (const double unit : { 1., 25.4 })
+      {
+        SCOPED_TRACE(testing::Message() << axis << ofCells << unit);
+        const auto mesh = farField(axis, unit, ofCells);
+        double depth;
+        const std::string text = warningAbout(mesh, ofCells, depth);
+        EXPECT_NEAR(depth * unit, 2.5, 1e-3) << text;
+        EXPECT_NE(text.find("the flow in them is"), std::string::npos) << text;
+        // The order of cells does not matter.
+        vtkNew<vtkDataSetTriangleFilter> triangles;
+        triangles->SetInputData(mesh);
+        triangles->Update();
+        double ofOther;
+        warningAbout(triangles->GetOutput(), ofCells, ofOther);
+        EXPECT_EQ(ofOther, depth);
+      }
+    }
+  }
+}
+
+TEST(Flat, APlaneThatIsFullIsAsDeepAsItIsHigh)
+{
+  const std::pair<const char*, std::function<double(const Vec&)>> flows[] = {
+    { "channel", [](const Vec& x) { return 1e-4 * (1 - x[1] * x[1]); } },
+    { "mixing layer", [](const Vec& x) { return 1e-4 * std::tanh(8 * x[1] / (1.5 + x[0])); } },
+    { "jet", [](const Vec& x) { return 1e-4 * std::exp(-x[1] * x[1] / 0.1); } },
+    { "shock", [](const Vec& x) { return x[0] > 0.4 * x[1] ? 3e-4 : 1e-4; } },
+    { "still gas", [](const Vec&) { return 1e-4; } }
+  };
+  for (const auto& [name, field] : flows)
+  {
+    auto image = plane(2, 65);
+    addPointArray(image, "N", field);
+    double depth;
+    const std::string text = warningAbout(image, false, depth);
+    EXPECT_EQ(depth, 2) << name << text;
+    EXPECT_NE(text.find("as their shorter side is long"), std::string::npos) << name << text;
+  }
+}
+
+// An image's own axes may be turned, and fields that tint it are as deep as it.
+TEST(Flat, TurnedAndTintedFarFieldsAreAsDeep)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(201, 161, 1);
+  image->SetOrigin(-5, -4, 0);
+  image->SetSpacing(0.05, 0.05, 1);
+  addPointArray(
+    image, "N", [](const Vec& x) { return 1e-4 * std::exp(-(x[0] * x[0] + x[1] * x[1]) / 0.1); });
+  addPointArray(image, "f", [](const Vec& x) { return x[0]; });
+  double depth, ofTurned;
+  warningAbout(image, false, depth);
+  EXPECT_NEAR(depth, 2, 1e-9);
+  vtkNew<vtkMatrix3x3> turn;
+  turn->SetElement(0, 0, 0.8);
+  turn->SetElement(0, 1, -0.6);
+  turn->SetElement(1, 0, 0.6);
+  turn->SetElement(1, 1, 0.8);
+  image->SetDirectionMatrix(turn);
+  warningAbout(image, false, ofTurned);
+  EXPECT_EQ(ofTurned, depth);
+
+  auto filter = bench(image, 33);
+  filter->AddField("f");
+  filter->ColorByFieldOn();
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(complaints->Errors.empty());
+  EXPECT_NE(arrayOf(filter, "Color"), nullptr);
+}
+
+// A patch of other gas, in planes of all kinds.
+TEST(Flat, SurroundingsAreThoseAtTheEdges)
+{
+  for (const bool ofCells : { false, true })
+  {
+    auto image = plane(1, 65);
+    image->GetPointData()->Initialize();
+    const auto patch = [](const Vec& x) { return std::hypot(x[0], x[2]) < 0.9 ? 4e-4 : 2.7e-4; };
+    ofCells ? addCellArray(image, "N", patch) : static_cast<void>(addPointArray(image, "N", patch));
+    double spacing[3];
+    image->GetSpacing(spacing);
+    spacing[1] = 1;
+    image->SetSpacing(spacing);
+    std::vector<vtkSmartPointer<vtkDataObject>> inputs = asMeshes(image);
+    inputs.emplace_back(image);
+    for (const auto& input : inputs)
+    {
+      auto filter = bench(input, 33);
+      filter->SetInputArrayToProcess(vtkRefractiveIndex::INDEX_ARRAY, 0, 0,
+        ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
+        "N");
+      filter->SetAmbientRefractivity(-1);
+      filter->Update();
+      EXPECT_NEAR(fieldValue(filter, "AmbientRefractivity"), 2.7e-4, 1e-9)
+        << input->GetClassName() << ofCells;
+    }
+  }
+}

@@ -70,18 +70,23 @@ std::string warningOf(vtkSchlierenFilter* filter)
   return complaints->Warnings.empty() ? "" : complaints->Warnings[0];
 }
 
-/// A wedge of 5 degrees around an axis, one cell wide, of points from r = 0 to 1 and -1 to 1 along it.
-vtkSmartPointer<vtkDataSet> wedge(int axis, bool isStructured, bool ofCells)
+/// A wedge around an axis, one cell wide, of points from r = 0 to 1 and -1 to 1 along it. `merged`:
+/// the radius within which some points of both planes are one, `at` the first of these (-1), the
+/// second (1) or between.
+vtkSmartPointer<vtkDataSet> wedge(
+  int axis, bool isStructured, bool ofCells, double degrees = 5, double merged = 0, double at = 0)
 {
   constexpr int away = 81, along = 41;
-  const double half = 2.5 * pi / 180;
+  const double half = 0.5 * degrees * pi / 180;
   const auto b = static_cast<std::size_t>((axis + 1) % 3),
              c = static_cast<std::size_t>((axis + 2) % 3);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
+  const auto radiusAt = [=](int i, int j)
+  { return i == 1 && merged > 0 ? (j % 3 == 1 ? 0.5 : 1.5) * merged : i / (away - 1.); };
   const auto add = [&](int i, int j, double angle)
   {
-    const double r = i / (away - 1.);
+    const double r = radiusAt(i, j);
     Vec x{};
     x[static_cast<std::size_t>(axis)] = -1 + j * 0.05;
     x[b] = r * std::cos(angle);
@@ -112,8 +117,9 @@ vtkSmartPointer<vtkDataSet> wedge(int axis, bool isStructured, bool ofCells)
     {
       for (int i = 0; i < away; ++i)
       {
-        ids[0][j][i] = add(i, j, -half);
-        ids[1][j][i] = i == 0 ? ids[0][j][i] : add(i, j, half);
+        const bool isOne = i > 0 && radiusAt(i, j) < merged;
+        ids[0][j][i] = add(i, j, isOne ? at * half : -half);
+        ids[1][j][i] = i == 0 || isOne ? ids[0][j][i] : add(i, j, half);
       }
     }
     auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -256,13 +262,120 @@ TEST(Revolved, WedgesAreAColumn)
   }
 }
 
-TEST(Revolved, ARawWedgeIsReported)
+// By default, and nothing else is; Status says it.
+TEST(Revolved, WedgesAreByThemselves)
 {
-  auto filter = revolved(wedge(0, false, false));
-  filter->SetSymmetry(vtkRefractiveIndex::SYMMETRY_NONE);
-  const std::string warning = warningOf(filter);
-  EXPECT_NE(warning.find("wedge of 5 degrees around the x axis"), std::string::npos) << warning;
-  EXPECT_NE(warning.find("Symmetry"), std::string::npos);
+  const struct
+  {
+    double degrees;
+    const char* text;
+  } cases[] = { { 5, "a wedge of 5 degrees is revolved around the x axis" },
+    { 0.2, "a wedge of 0.2 degrees is revolved around the x axis" } };
+  for (const auto& [degrees, text] : cases)
+  {
+    auto filter = revolved(wedge(0, false, false, degrees));
+    filter->SetSymmetry(vtkNew<vtkSchlierenFilter>()->GetSymmetry());
+    EXPECT_EQ(warningOf(filter), "");
+    EXPECT_NE(std::string(filter->GetStatus()).find(text), std::string::npos)
+      << filter->GetStatus();
+    const std::vector<double> path = valuesOf(filter, "OpticalPathDifference");
+    filter->SetSymmetry(vtkRefractiveIndex::SYMMETRY_AXISYMMETRIC);
+    filter->Update();
+    EXPECT_EQ(valuesOf(filter, "OpticalPathDifference"), path);
+    filter->SetSymmetry(vtkRefractiveIndex::SYMMETRY_NONE);
+    EXPECT_EQ(warningOf(filter), "");
+    EXPECT_EQ(std::string(filter->GetStatus()).find("revolved"), std::string::npos);
+    EXPECT_LT(largest(valuesOf(filter, "OpticalPathDifference")), 0.2 * largest(path));
+  }
+  auto plane = revolved(section(0));
+  plane->SetSymmetry(vtkRefractiveIndex::SYMMETRY_AUTO);
+  EXPECT_NE(warningOf(plane).find("The data are 2-D, across z"), std::string::npos);
+}
+
+// Some meshers merge the points of both planes where these are closer than a limit: to one of them
+// or between them.
+TEST(Revolved, WedgesMayHaveMergedPointsNearTheAxis)
+{
+  for (const double at : { -1., 0., 1. })
+  {
+    auto filter = revolved(wedge(0, false, false, 0.2, 2e-4, at));
+    filter->SetViewDirection(0, 0, -1);
+    filter->SetViewUp(1, 0, 0);
+    filter->FaceFlatDataOff();
+    EXPECT_NE(warningOf(filter).find("revolved around the x"), std::string::npos) << at;
+    const ColumnErrors errors = compareWithColumn(filter, column);
+    EXPECT_LT(errors.opticalPath, 1e-3) << at;
+    EXPECT_LT(errors.deflection, 4e-3) << at;
+  }
+}
+
+namespace
+{
+
+/// The half plane of a jet along x that begins somewhere, with gas at rest before it.
+vtkSmartPointer<vtkImageData> jet(double start, double uneven, bool isTurned)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  isTurned ? image->SetDimensions(81, 181, 1) : image->SetDimensions(181, 81, 1);
+  isTurned ? image->SetSpacing(0.25, 0.5, 1) : image->SetSpacing(0.5, 0.25, 1);
+  addPointArray(image, "N",
+    [=](const Vec& at)
+    {
+      const double x = at[isTurned ? 1 : 0], r = at[isTurned ? 0 : 1];
+      const double part = std::exp(-r * r / 2.25) / (1 + std::exp(start - x));
+      return 1e-6 * (part * (1 + 0.3 * std::sin(x)) + uneven * part * r * std::sin(3 * x));
+    });
+  return image;
+}
+
+} // namespace
+
+// Uniform gas at an axis has no slope there, but says nothing.
+TEST(Revolved, JetsTurnAroundTheirAxisWhereverTheyBegin)
+{
+  for (const double start : { 30., 1., -20. })
+  {
+    for (const double uneven : { 0., 0.02 })
+    {
+      for (const bool isTurned : { false, true })
+      {
+        const std::string warning = warningOf(revolved(jet(start, uneven, isTurned)));
+        EXPECT_NE(
+          warning.find(isTurned ? "around the y axis" : "around the x axis"), std::string::npos)
+          << start << ' ' << uneven << warning;
+        EXPECT_EQ(warning.find("not clear"), std::string::npos)
+          << start << ' ' << uneven << warning;
+      }
+    }
+  }
+}
+
+// A jet onto a plate is a disc, though that is the longer side; what is smooth at both axes, or at
+// none, is said not to be clear.
+TEST(Revolved, TheAxisMayBeAlongTheShorterSide)
+{
+  const auto plane = [](const std::function<double(double, double)>& field)
+  {
+    auto image = vtkSmartPointer<vtkImageData>::New();
+    image->SetDimensions(181, 81, 1);
+    image->SetSpacing(0.5, 0.25, 1);
+    addPointArray(image, "N", [&](const Vec& at) { return 1e-6 * field(at[0], at[1]); });
+    return image;
+  };
+  const std::string disc = warningOf(
+    revolved(plane([](double r, double z) { return std::exp(-r * r / 30) * std::exp(-z / 4); })));
+  EXPECT_NE(disc.find("around the y axis"), std::string::npos) << disc;
+  EXPECT_EQ(disc.find("not clear"), std::string::npos) << disc;
+  const std::string ball =
+    warningOf(revolved(plane([](double x, double y) { return std::exp(-(x * x + y * y) / 30); })));
+  const std::string oblique =
+    warningOf(revolved(plane([](double x, double y) { return std::exp(-(x + y) / 5); })));
+  for (const std::string& warning : { ball, oblique })
+  {
+    EXPECT_NE(warning.find("around the x axis"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("not clear"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("around the y axis instead"), std::string::npos) << warning;
+  }
 }
 
 // A ball that the mesh leaves out is solid, and its shadow round.

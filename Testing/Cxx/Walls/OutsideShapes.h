@@ -137,21 +137,21 @@ inline std::vector<Data> doubleCone(double wave)
   return between(body, far, 129, 64);
 }
 
-/// One layer of cells around the x axis.
-inline std::vector<Data> wedge(double degrees)
+/// The section of a double cone on an axis, which wedges of one cell become.
+inline std::vector<Data> biconic()
 {
-  const double half = degrees * pi / 360;
   const auto body = [](double x)
   {
     const double kink = 0.09, steep = std::tan(55 * pi / 180), flat = std::tan(25 * pi / 180);
     return std::min(0.13, x < 0 ? 0 : flat * std::min(x, kink) + steep * std::max(0., x - kink));
   };
-  return { curvilinear(161, 61, 2,
-    [&](double i, double j, double k)
-    {
-      const double x = -0.02 + 0.22 * i, r = body(x) + j * (0.2 - body(x));
-      return Vec{ x, r * std::cos(half), (2 * k - 1) * r * std::sin(half) };
-    }) };
+  std::vector<Data> halves;
+  for (const double side : { -1., 1. })
+  {
+    halves.push_back(between(over(-0.02, 0.2, [=](double x) { return side * body(x); }),
+      over(-0.02, 0.2, [=](double) { return side * 0.2; }), 161, 61)[0]);
+  }
+  return halves;
 }
 
 inline std::vector<OutsideShape> inPlanes()
@@ -223,6 +223,9 @@ inline std::vector<OutsideShape> inPlanes()
   return {
     of("cylinder", between(arc(1, 0, 2), arc(20, 0, 2), 97, 60),
       { { { 0, 0.2, 0 }, stops }, { { 18, 18, 0 }, passes } }),
+    of("wedge", biconic(),
+      { { { 0.15, 0.04, 0 }, stops }, { { 0.19, -0.1, 0 }, stops },
+        { { 0.05, 0.19, 0 }, passes } }),
     of("half cylinder", between(arc(1, 0, 1), arc(5, 0, 1), 49, 40),
       { { { 0, 0.4, 0 }, stops }, { { 4.6, 4.6, 0 }, passes } }),
     of("blunt body",
@@ -363,12 +366,6 @@ inline std::vector<OutsideShape> inSpace()
     { "wing from side to side",
       box({ 40, 40, 20 }, { 2, 2, 1 }, [&](const Vec& x) { return beside(x, 0.3, 0.15); }),
       { { { 1, 1, 0.5 }, stops }, { { 1.2, 0.9, 0.01 }, stops } } },
-    { "wedge", wedge(5),
-      { { { 0.15, 0.04, 0 }, stops }, { { 0.19, 0.1, 0 }, stops },
-        { { 0.05, 0.19, 0 }, passes } } },
-    { "wedge", wedge(0.2),
-      { { { 0.15, 0.04, 0 }, stops }, { { 0.19, 0.1, 0 }, stops },
-        { { 0.05, 0.19, 0 }, passes } } },
     { "two blocks", { cube(0, 0), cube(2, 0) }, { { { 1.5, 0.5, 0.5 }, passes } } },
     { "two blocks aside", { cube(0, 0), cube(2, 0.7) },
       { { { 1.5, 0.5, 0.5 }, passes }, { { 0.5, 1.3, 0.5 }, passes } } },
