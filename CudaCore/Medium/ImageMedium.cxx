@@ -57,7 +57,8 @@ std::vector<WeightedValue> outerValues(
   const auto everyOf = [](std::int64_t points)
   { return static_cast<std::int64_t>(std::ceil(static_cast<double>(points) / mostOuterValues)); };
   const std::int64_t all = n[0] * n[1] * n[2];
-  std::int64_t every = everyOf(2 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0]));
+  const std::int64_t ofFaces = 2 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0]);
+  std::int64_t every = everyOf(ofFaces);
   for (std::int64_t k = 0; k < n[2]; ++k)
   {
     for (std::int64_t j = 0; j < n[1]; ++j)
@@ -74,7 +75,7 @@ std::vector<WeightedValue> outerValues(
   }
   if (values.empty())
   {
-    every = everyOf(all);
+    every *= ((all + ofFaces - 1) / ofFaces) | 1; // as many values, of all columns
     for (std::int64_t at = 0; at < all; at += every)
     {
       add(at);
@@ -237,8 +238,8 @@ Medium<Real> build(
   // Before there is a volume: it takes memory, too.
   const auto found = [&]
   {
-    const std::vector<WeightedValue> outer = outerValues(samples, field.grid.dimensions);
-    return field.offset + (outer.empty() ? 0 : ambientOf(outer));
+    std::vector<WeightedValue> outer = outerValues(samples, field.grid.dimensions);
+    return field.offset + (outer.empty() ? 0 : ambientOf(std::move(outer)));
   };
   const double ambient = field.ambient ? *field.ambient : found();
   Medium<Real> medium{ PaddedVolume<Real>(field.grid.dimensions), {}, nullptr };
