@@ -52,7 +52,7 @@ const std::array<QualitySetting, 7> qualitySettings{
 
 const std::array<QualityError, 3> qualityErrors{ {
   { 0.15,  0.1,  0.2,  1 },  // Interactive
-  { 0.02,  0.02, 0.05, 5 },  // Fine
+  { 0.03,  0.02, 0.05, 5 },  // Fine
   { 0.006, 0.01, 0.05, 20 }, // Publication
 } };
 // clang-format on
