@@ -3,6 +3,7 @@
 // What vtkSchlierenFilter makes of its inputs before there is a view.
 #include "Filter/SchlierenFilterInternals.h"
 
+#include "Common/Sentences.h"
 #include "Gas/GasChoices.h"
 #include "Guarded.h"
 #include "Image/SceneFromSettings.h"

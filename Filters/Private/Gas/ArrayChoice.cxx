@@ -3,6 +3,7 @@
 #include "Gas/ArrayChoice.h"
 
 #include "Common/NumberText.h"
+#include "Common/Sentences.h"
 #include "Gas/Fractions.h"
 #include "Gas/GasChoices.h"
 #include "Gas/RefractivityModels.h"
@@ -209,7 +210,7 @@ FlowArray::Association associationIn(const MediumSettings& settings)
 std::string noteOnArrays(
   const MediumSettings& given, const std::vector<FlowArray>& known, const MediumSettings& settings)
 {
-  const std::string note = noteOnOverset(known);
+  std::string note = noteOnOverset(known);
   // What the user has chosen needs no note. The window chooses as flowSpecies() does.
   if (kindOf(settings.IndexModel).gases == IndexGases::None || hasOneGas(given) ||
     (!given.MixtureArrays.empty() &&
@@ -217,8 +218,8 @@ std::string noteOnArrays(
   {
     return note;
   }
-  const std::string more = noteOnFractions(known, settings.MixtureArrays);
-  return note + (note.empty() || more.empty() ? "" : " ") + more;
+  addText(note, noteOnFractions(known, settings.MixtureArrays));
+  return note;
 }
 
 /// Takes mass or volume fractions as a mixture, unless the user has chosen one gas.

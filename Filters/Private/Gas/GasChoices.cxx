@@ -3,6 +3,7 @@
 #include "Gas/GasChoices.h"
 
 #include "Common/NumberText.h"
+#include "Common/Sentences.h"
 #include "Gas/ArrayNames.h"
 #include "Gas/RefractivityModels.h"
 #include "MediumSettings.h"
@@ -218,7 +219,7 @@ std::string noteOnGases(const MediumSettings& settings)
     const double wavelength = 1e-9 * settings.Wavelength;
     if (gas && !isMeasuredNear(*gas, wavelength) && reported.insert(gas->name).second)
     {
-      notes += (notes.empty() ? "" : " ") + noteOn(*gas, wavelength);
+      addText(notes, noteOn(*gas, wavelength));
     }
   }
   return notes;

@@ -3,6 +3,7 @@
 #include "Input/Flow.h"
 
 #include "Common/NumberText.h"
+#include "Common/Sentences.h"
 #include "Gas/GasChoices.h"
 #include "Input/BetweenPlanes.h"
 #include "Input/ChosenArrays.h"
@@ -257,8 +258,7 @@ Flow chooseFlow(
     flow.leaves = leavesWith(selections, dataSets);
   }
 
-  const std::string leftOut = lackOfSpace(input, "A block of the input, which is left out,");
-  flow.notes += (flow.notes.empty() || leftOut.empty() ? "" : " ") + leftOut;
+  addText(flow.notes, lackOfSpace(input, "A block of the input, which is left out,"));
   if (flow.leaves.empty())
   {
     throwNotFound(selections, dataSets, flow.choice.note);
@@ -275,8 +275,9 @@ Flow chooseFlow(
 
 std::string notesOn(const MediumChoice& choice)
 {
-  const std::string ofGases = noteOnGases(choice.settings);
-  return choice.warning + (choice.warning.empty() || ofGases.empty() ? "" : " ") + ofGases;
+  std::string notes = choice.warning;
+  addText(notes, noteOnGases(choice.settings));
+  return notes;
 }
 
 std::vector<std::string> arraysOf(const MediumSettings& settings)

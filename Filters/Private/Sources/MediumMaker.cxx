@@ -5,6 +5,7 @@
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
 #include "Common/NumberText.h"
+#include "Common/Sentences.h"
 #include "Common/Threads.h"
 #include "Input/FlatBodies.h"
 #include "Input/FlatData.h"
@@ -103,11 +104,6 @@ std::string noGas(const std::string& label)
   return "There is no valid value in the " + label +
     " (all are NaN, infinite, hidden, masked or no state of a gas), so there is no gas for light "
     "to cross. Choose another array or check the data.";
-}
-
-void addText(std::string& text, const std::string& more)
-{
-  text += (text.empty() || more.empty() ? "" : " ") + more;
 }
 
 MediumChoice MediumMaker::choice() const { return choiceOf(this->settings, this->Known.Get()); }

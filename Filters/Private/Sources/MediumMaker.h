@@ -106,9 +106,6 @@ std::unique_ptr<ImagePiece> pieceOfImage(const MediumMaker& maker, vtkImageData*
   const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input, bool withFields,
   const std::vector<FieldMean::Range>& ranges = {});
 
-/// Appends a sentence.
-void addText(std::string& text, const std::string& more);
-
 std::string noGas(const std::string& label); // of the arrays
 
 } // namespace filters
