@@ -15,6 +15,9 @@ namespace
 {
 
 constexpr std::int64_t around = 2; ///< pixels, what the film knows of a pixel's neighbours
+/// Pixels by which light may land beside where it starts and comes from no farther than that: a cell between rays is half as
+/// wide.
+constexpr double halfCell = 0.5;
 
 /// Patches of both sets, at the most. Of n independent ones all miss what covers a part f of the pixels with a probability
 /// of (1 - f)^n: of 100, for 2 and 3 %, 0.13 and 0.05. Spread as they are they miss a disc with 0.01 and 0.001, a band along
@@ -341,8 +344,8 @@ bool Planner::findOrigin(Patch& patch) const
   }
   patch.fromColumn = patch.column - moved[0];
   patch.fromRow = patch.row - moved[1];
-  patch.margin = static_cast<std::int64_t>(
-    std::min(static_cast<double>(around) + std::ceil(spreadOf), mostAround));
+  patch.margin = static_cast<std::int64_t>(std::min(
+    static_cast<double>(around) + std::ceil(std::max(0., spreadOf - halfCell)), mostAround));
   return spreadOf <= mostAround && (isFound || scouts_.areOfCamera() || !movesLightAway(patch));
 }
 

@@ -51,6 +51,7 @@ OutsidePlaces::OutsidePlaces(const BoundaryFaces& faces)
     this->findHull(own, largest);
     this->findBodiesWithin();
     this->findOuter(own, faces.hidesBehind, sides, parts);
+    this->freeFromHull();
   }
 }
 
@@ -303,6 +304,29 @@ void OutsidePlaces::findBodiesWithin()
             found.push_back(beside);
           }
         });
+    }
+  }
+}
+
+/// Makes places of bodies that lie wholly within the hull independent of it: it need not be looked at in them any more.
+void OutsidePlaces::freeFromHull()
+{
+  for (std::size_t n = 0; n < this->count(); ++n)
+  {
+    if (this->Kinds[n] == Kind::BodyWithin)
+    {
+      const Point middle = this->middleOf(n);
+      const bool isFree = std::none_of(this->Hull.begin(), this->Hull.end(),
+        [&](const PlaneSide& side)
+        {
+          double farthest = dot(side.normal, middle);
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            farthest += 0.5 * std::abs(side.normal[axis]) * this->Spacing[axis];
+          }
+          return farthest > side.offset - this->Tolerance;
+        });
+      this->Kinds[n] = isFree ? Kind::Body : Kind::BodyWithin;
     }
   }
 }

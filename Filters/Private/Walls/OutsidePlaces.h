@@ -71,6 +71,7 @@ private:
   void findBodies(const Parts& parts);
   void findHull(const Triangles& own, const std::vector<PlaneSide>& sides);
   void findBodiesWithin();
+  void freeFromHull();
   std::size_t indexAt(std::size_t axis, double x) const; // in own axes
   std::size_t numberAt(const Point& own) const;
   Kind kindAt(const Point& own) const;
