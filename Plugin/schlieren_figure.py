@@ -22,6 +22,7 @@ from paraview import servermanager, simple
 from PIL import Image
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow
+from vtkmodules.vtkImagingCore import vtkExtractVOI
 
 ENDINGS = (".png", ".pdf", ".svg")
 
@@ -87,6 +88,20 @@ def pixels_of(image):
     return grey(rows_of(image, "Intensity"), facts_of(image)["WhiteLevel"][0])
 
 
+def cropped(image):
+    """The smallest rectangle of an image that has all light through the data, and what it blocks."""
+    path, blocked = rows_of(image, "OpticalPathDifference"), rows_of(image, "BlockedFraction")
+    covered = (path != 0) | (blocked > 0)
+    if not covered.any():
+        return image
+    extract = vtkExtractVOI()
+    extract.SetInputData(image)
+    first, last = zip(*((found[0], found[-1]) for found in (np.flatnonzero(covered.any(axis=axis)) for axis in (0, 1))))
+    extract.SetVOI(first[0], last[0], first[1], last[1], 0, 0)
+    extract.Update()
+    return extract.GetOutput()
+
+
 class Axes:
     """The place of an image's edges, in a unit that suits it, and the names of its axes."""
 
@@ -101,7 +116,7 @@ class Axes:
     @classmethod
     def of(cls, image, facts):
         pixel = image.GetSpacing()[0]
-        left, bottom = (image.GetOrigin()[i] - pixel / 2 for i in (0, 1))
+        left, bottom = (image.GetBounds()[2 * i] - pixel / 2 for i in (0, 1))
         return cls(left, bottom, pixel, image.GetDimensions()[:2],
                    (axis_name(facts["AxisRight"], "u"), axis_name(facts["AxisUp"], "v")), facts["LengthScale"][0])
 
@@ -164,14 +179,14 @@ class Sheet:
     def legend_height(self, facts):
         return self.PLANE_HEIGHT if facts["LegendSize"][1] > 1 else self.LEGEND_HEIGHT
 
-    def legend(self, left, top, facts, room):
-        """What the light of an image stands for, of its field data: the stop, a scale, and notes."""
+    def legend(self, left, top, facts, room, light=None):
+        """What the light of an image stands for, of its field data: the stop, a scale, and notes. `light`: another note."""
         label, unit = facts["LegendLabel"]
         columns, rows = (int(count) for count in facts["LegendSize"])
         first, last = facts["LegendRange"]
         prefix, factor = prefix_of(max(abs(first), abs(last))) if unit else ("", 1)
         name = label + (f", {prefix}{unit}" if unit else "")
-        notes = ", ".join(facts.get("LegendNotes", []))
+        notes = ", ".join(facts.get("LegendNotes", []) + ([light] if light else []))
         indent = 0
         if columns and rows == 1 and unit == "rad":
             self.stop(left, top + 2, facts)
@@ -218,11 +233,11 @@ class Sheet:
             page[top:top + pixels.shape[0], left:left + pixels.shape[1]] = pixels
         return np.ascontiguousarray(page)
 
-    def write(self, path):
-        """Writes the page as its file's name says: .png, .pdf or .svg."""
+    def write(self, path, dpi=None):
+        """Writes the page as its file's name says: .png, .pdf or .svg. `dpi`: of a .png, default: that of its texts."""
         with writing(path):
             if path.lower().endswith(".png"):
-                Image.fromarray(self.drawn()).save(path, dpi=(100 * self.zoom, 100 * self.zoom))
+                Image.fromarray(self.drawn()).save(path, dpi=2 * (dpi or 100 * self.zoom,))
             else:
                 with rc_context({"svg.fonttype": "none", "pdf.fonttype": 42}):  # texts stay texts
                     self.figure.savefig(path)
@@ -276,7 +291,31 @@ def chosen(view, size):
                       "Schlieren in the Pipeline Browser.")
 
 
-def sheet_of(image, title=""):
+def light_of(bench):
+    """Which light makes an image, in words."""
+    are_waves = bench.Cutoff == "Phase Contrast" or bench.LightModel == "Waves"
+    return f"{'waves' if are_waves else 'rays'} of {bench.Wavelength:g} nm"
+
+
+def time_of(bench):
+    """The time of the data that a filter's image shows; None where these have none."""
+    information = bench.SMProxy.GetDataInformation(0)
+    return information.GetTime() if information.GetHasTime() else None
+
+
+@contextmanager
+def keeping(time):
+    """Has the session's time be that of an image."""
+    keeper = simple.GetTimeKeeper()
+    before = keeper.Time
+    keeper.Time = before if time is None else time
+    try:
+        yield
+    finally:
+        keeper.Time = before
+
+
+def sheet_of(image, title="", light=None):
     """A page with one image, each of its pixels one pixel of the page, or some where there are few."""
     facts = facts_of(image)
     pixels = pixels_of(image)
@@ -290,7 +329,7 @@ def sheet_of(image, title=""):
     sheet = Sheet(sheet.width, math.ceil(top + height + 48 + below), zoom)
     sheet.text(left, 10, title or facts["LegendTitle"][0], 20, room=width)
     sheet.image(left, top, pixels, Axes.of(image, facts), repeat)
-    sheet.legend(left, math.ceil(top + height + 46), facts, width)
+    sheet.legend(left, math.ceil(top + height + 46), facts, width, light)
     return sheet
 
 
@@ -346,8 +385,9 @@ def write_description(path, image, bench, title, files):
         "title": title or facts["LegendTitle"][0],
         "files": files,
         "versions": versions(facts),
-        "time": simple.GetTimeKeeper().Time,
+        "time": time_of(bench),
         "technique": facts["LegendTitle"][0],
+        "light": light_of(bench),
         "legend": {"label": facts["LegendLabel"][0], "unit": facts["LegendLabel"][1], "range": facts["LegendRange"],
                    "notes": facts.get("LegendNotes", [])},
         "axes": {"unit": axes.unit, "left": axes.left, "right": axes.right, "bottom": axes.bottom, "top": axes.top,
@@ -361,7 +401,7 @@ def write_description(path, image, bench, title, files):
         json.dump(description, file, indent=2, ensure_ascii=False)
 
 
-def save(filename, image=None, view=None, title="", size=None):
+def save(filename, image=None, view=None, title="", size=None, dpi=None, crop=False):
     """Saves a figure of a schlieren image, and beside it its numbers and what made it.
 
     filename: .png (pixel by pixel), .pdf or .svg.
@@ -370,6 +410,8 @@ def save(filename, image=None, view=None, title="", size=None):
     view: a render view, default: the active one.
     title: default: the technique.
     size: columns and rows of the image of a flow that a view draws as Schlieren; default: the view's.
+    dpi: pixels per inch that a .png says of itself; default: 100 for each 800 pixels of its width.
+    crop: leaves out what is beside all light through the data.
 
     Returns the names of the files: the figure; NAME_intensity.png and .tif, 16 bits, where 65535 is white; NAME.json with the
     settings; NAME.pvsm, a state that makes the image again. FigureError where there is no image."""
@@ -381,17 +423,20 @@ def save(filename, image=None, view=None, title="", size=None):
     made = servermanager.Fetch(bench)
     if made is None or made.GetNumberOfPoints() == 0:
         raise FigureError("The image could not be made: see the message about its filter.")
+    if crop:
+        made = cropped(made)
     files = [filename] + [base + ending for ending in ("_intensity.png", "_intensity.tif", ".json", ".pvsm")]
-    sheet_of(made, title).write(filename)
+    sheet_of(made, title, light_of(bench)).write(filename, dpi)
     write_numbers(files[1:3], made)
     write_description(files[3], made, bench, title, [os.path.basename(name) for name in files])
-    simple.SaveState(files[4])
+    with keeping(time_of(bench)):
+        simple.SaveState(files[4])
     return files
 
 
-def save_in_window(filename):
-    """Saves a figure of what the active view of the window shows; a mistake is a message."""
+def save_in_window(filename, **options):
+    """Saves a figure of what the active view of the window shows; a mistake is a message. `options`: as of save()."""
     try:
-        save(filename)
+        save(filename, **options)
     except (FigureError, OSError) as problem:
         vtkOutputWindow.GetInstance().DisplayErrorText(f"The figure was not saved. {problem}\n")

@@ -12,9 +12,12 @@
 #include "pqLoadDataReaction.h"
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
+#include "pqProxyWidgetDialog.h"
 #include "pqRenderView.h"
 #include "pqServer.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
 
@@ -32,7 +35,47 @@ QByteArray quoted(const QString& text)
   return ("'" + escaped + "'").toUtf8();
 }
 
+/// Requests the arguments of a figure, and appends them as Python writes them. Returns false if cancelled.
+bool appendOptions(pqView* view, QByteArray& code)
+{
+  vtkSmartPointer<vtkSMProxy> options;
+  options.TakeReference(
+    view->proxyManager()->NewProxy("misc", "SchlierenFigure")); // of the view's session
+  vtkSMPropertyHelper size(options, "Size");
+  const bool isDrawn = !imagesInViews::benchesIn(view).empty();
+  size.Set(vtkSMPropertyHelper(view->getProxy(), "ViewSize").GetIntArray().data(), 2);
+  QStringList rows{ "Title", "Resolution", "Crop" };
+  if (isDrawn) // the image of a filter has its own size
+  {
+    rows.insert(1, "Size");
+  }
+  pqProxyWidgetDialog dialog(options, rows, pqCoreUtilities::mainWidget());
+  dialog.setObjectName("SchlierenFigureOptions");
+  dialog.setWindowTitle("Save Schlieren Figure");
+  if (dialog.exec() != QDialog::Accepted)
+  {
+    return false;
+  }
+  const int dpi = vtkSMPropertyHelper(options, "Resolution").GetAsInt();
+  code += ", title=" + quoted(vtkSMPropertyHelper(options, "Title").GetAsString());
+  code += ", dpi=" + (dpi > 0 ? QByteArray::number(dpi) : QByteArray("None"));
+  code += vtkSMPropertyHelper(options, "Crop").GetAsInt() ? ", crop=True" : "";
+  if (isDrawn)
+  {
+    code += ", size=[" + QByteArray::number(size.GetAsInt(0)) + ", " +
+      QByteArray::number(size.GetAsInt(1)) + "]";
+  }
+  return true;
+}
+
 } // namespace
+
+bool menuActions::hasImage()
+{
+  pqView* view = pqActiveObjects::instance().activeView();
+  return imagesInViews::isSchlieren(pqActiveObjects::instance().activeSource()) ||
+    (view && !(imagesInViews::benchesIn(view).empty() && imagesInViews::imagesIn(view).empty()));
+}
 
 QString menuActions::saveFigure()
 {
@@ -49,8 +92,13 @@ QString menuActions::saveFigure()
   {
     return QString();
   }
-  const QByteArray code = "import schlieren_figure\nschlieren_figure.save_in_window(" +
-    quoted(dialog.getSelectedFiles().front()) + ")\n";
+  QByteArray code = "import schlieren_figure\nschlieren_figure.save_in_window(" +
+    quoted(dialog.getSelectedFiles().front());
+  if (!appendOptions(pqActiveObjects::instance().activeView(), code))
+  {
+    return QString();
+  }
+  code += ")\n";
   return QMetaObject::invokeMethod(python, "executeCode", Q_ARG(QByteArray, code))
     ? QString()
     : "This ParaView does not run Python, which draws figures.";

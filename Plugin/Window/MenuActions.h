@@ -8,7 +8,10 @@
 namespace menuActions
 {
 
-/// Requests a name and saves a figure of what the active view shows. Returns why there is none; empty: there is, or the
+/// Returns whether there is an image that saveFigure() saves.
+bool hasImage();
+
+/// Requests a name, a title, a size and the like, and saves a figure of what the active view shows. Returns why there is none; empty: there is, or the
 /// user has cancelled.
 QString saveFigure();
 

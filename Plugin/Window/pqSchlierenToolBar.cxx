@@ -150,6 +150,8 @@ void pqSchlierenToolBar::addMenu()
   figure->setObjectName("actionSaveFigure");
   figure->setToolTip(
     "Save the image of the active view with axes, legend and title as PNG, PDF or SVG");
+  QObject::connect(
+    menu, &QMenu::aboutToShow, figure, [figure]() { figure->setEnabled(menuActions::hasImage()); });
   QAction* example = menu->addAction("&Example", [this]() { this->showExample(); });
   example->setObjectName("actionExample");
   example->setToolTip("Open an under-expanded air jet and show it as a schlieren image");

@@ -5,6 +5,7 @@
 #include "AnalyticSources.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -51,6 +52,75 @@ public:
 private:
   std::shared_ptr<const MediumSource> source_;
   double factor_;
+};
+
+/// A ball in which something is finer than pixels of a view of 48 to 64: two gratings, of 0.5 to 8 pixels a period, or a sheet
+/// of a tenth to twice a pixel. Cells are a half to a twentieth of a pixel.
+class FineSource : public AnalyticSource
+{
+public:
+  explicit FineSource(Random& random, double height)
+    : height_(height)
+    , isPeriodic_(random.chance(0.5))
+    , cell_(random.logUniform(0.05, 0.5) * pixel)
+  {
+    for (Layers& layers : layers_)
+    {
+      layers.normal = random.direction();
+      layers.width = isPeriodic_ ? random.logUniform(0.5, 8) * pixel / (2 * pi)
+                                 : random.logUniform(0.1, 2) * pixel;
+      layers.at = random.uniform(-0.3, 0.3);
+      layers.height = height * random.logUniform(0.01, 1) * (isPeriodic_ ? 0.5 : 1);
+    }
+  }
+
+  double refractivity(double x, double y, double z) const override
+  {
+    const double ball = std::exp(-(x * x + y * y + z * z) / (radius * radius));
+    double sum = height_ * ball;
+    for (const Layers& layers : layers_)
+    {
+      const double across =
+        (layers.normal[0] * x + layers.normal[1] * y + layers.normal[2] * z - layers.at) /
+        layers.width;
+      sum += layers.height * (isPeriodic_ ? ball * std::sin(across) : std::tanh(across));
+    }
+    return sum;
+  }
+  Range rangeOver(const Box& box) const override
+  {
+    const Range r = distancesTo({ 0, 0, 0 }, box);
+    const auto ball = [](double x) { return std::exp(-x * x / (radius * radius)); };
+    Range sum{ height_ * ball(r.second), height_ * ball(r.first) };
+    for (const Layers& layers : layers_)
+    {
+      double low = -layers.at, high = -layers.at; // along the normal
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const double n = layers.normal[axis];
+        low += n * (n > 0 ? box.low : box.high)[axis];
+        high += n * (n > 0 ? box.high : box.low)[axis];
+      }
+      const double most = layers.height * ball(r.first);
+      sum.first += isPeriodic_ ? -most : layers.height * std::tanh(low / layers.width);
+      sum.second += isPeriodic_ ? most : layers.height * std::tanh(high / layers.width);
+    }
+    return sum;
+  }
+  double cellSizeOver(const Box&) const override { return cell_; }
+
+private:
+  static constexpr double pixel = 0.04, radius = 0.4; // of a box of two
+  struct Layers
+  {
+    Vector normal;
+    double width, at, height;
+  };
+
+  double height_;
+  bool isPeriodic_;
+  double cell_;
+  std::array<Layers, 2> layers_;
 };
 
 /// Of order 1, from weak signals to glass; most are gases.
@@ -284,6 +354,10 @@ void makeSource(RandomData& data, Random& random)
     }
     source = std::make_shared<BallsSource>(balls, 1., random.uniform(0.05, 0.2));
   }
+  else if (data.kind == DataKind::TreeFine)
+  {
+    source = std::make_shared<FineSource>(random, height);
+  }
   else if (data.kind == DataKind::TreeShock)
   {
     source = std::make_shared<ScaledSource>(std::make_shared<ShellSource>(), height / 1e-4);
@@ -365,7 +439,7 @@ Vector Random::direction()
 const char* name(DataKind kind)
 {
   constexpr const char* names[dataKinds] = { "balls", "shock", "column", "waves", "turbulence",
-    "step", "body", "2-D", "tree, balls", "tree, shock", "tree, body" };
+    "step", "body", "2-D", "tree, balls", "tree, shock", "tree, body", "tree, fine" };
   return names[static_cast<int>(kind)];
 }
 

@@ -52,9 +52,10 @@ enum class DataKind
   Flat,       ///< 2-D, one layer of cells
   TreeBalls,
   TreeShock, ///< a thin shell
-  TreeBody   ///< a sphere in a far field, with a bow shock or without
+  TreeBody,  ///< a sphere in a far field, with a bow shock or without
+  TreeFine   ///< gratings or sheets finer than pixels
 };
-constexpr int dataKinds = 11;
+constexpr int dataKinds = 12;
 const char* name(DataKind kind);
 
 /// A grid's samples or a source, and what belongs to them.

@@ -7,18 +7,31 @@ import json
 import os
 
 import numpy as np
+from PIL import Image
 from views_testing import ViewsSession, drawn, load, png, simple, views
 from window_testing import FOLDER
 
 FIGURE, IMAGE = os.path.join(FOLDER, "it's a figure.png"), os.path.join(FOLDER, "image.svg")
 
 
-def save_figure(user, path):
+OPTIONS = "pqClientMainWindow/SchlierenFigureOptions"
+
+
+def save_figure(user, path, **options):
     user.menu("menuSchlieren", "actionSaveFigure")
     user.event("pqClientMainWindow/SaveSchlierenFigure", "filesSelected", path)
+    for name, value in options.items():
+        user.event(f"{OPTIONS}/scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/{name}", "set_string", value)
+    user.event(f"{OPTIONS}/widget/OKButton", "activate")
 
 
 user = ViewsSession()
+user.python("""
+menu = widget().findChild(QtWidgets.QMenu, "menuSchlieren")
+figure = next(action for action in menu.actions() if action.objectName() == "actionSaveFigure")
+menu.aboutToShow.emit()
+assert not figure.isEnabled(), "There is no image"
+""")
 user.menu("menuSchlieren", "actionExample")
 user.python("""
 until(lambda: displays())
@@ -27,7 +40,7 @@ settle_views()
 view = next(view for view in GetRenderViews() if display in view.Representations)
 sources = set(GetSources())
 """)
-save_figure(user, FIGURE)
+save_figure(user, FIGURE, **{"Title/Title": "The jet", "Resolution/LineEdit0": 300})
 user.python("""
 (display,) = displays()
 view = next(view for view in GetRenderViews() if display in view.Representations)
@@ -56,6 +69,10 @@ numbers = png(FIGURE.replace(".png", "_intensity.png"))[..., 0]
 seen = png(os.path.join(FOLDER, "seen.png"))[..., 0]
 assert numbers.shape == seen.shape and np.abs(numbers / 257 - seen).max() < 1.01
 assert png(FIGURE).shape[0] > numbers.shape[0]
+with Image.open(FIGURE) as figure:
+    assert np.allclose(figure.info["dpi"], 300, atol=0.1)
+with open(FIGURE.replace(".png", ".json"), encoding="utf-8") as file:
+    assert json.load(file)["title"] == "The jet"
 with open(IMAGE.replace(".svg", ".json"), encoding="utf-8") as file:
     description = json.load(file)
 assert description["sources"][0]["properties"]["FileName"][0].endswith("ladenburg_jet_3d.vti")

@@ -5,11 +5,13 @@ and what makes it again; of a filter and of a flow that a view draws as Schliere
 
 import json
 import os
+import re
 
 import numpy as np
 from paraview import simple
 from plugin_testing import Schlieren, image_array
 from representation_testing import pixels_of, show
+from series_testing import write_series
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 from PIL import Image
@@ -123,6 +125,23 @@ display.SchlierenLegend = 1
 perspective = view.CameraParallelProjection = 0
 schlieren_figure.save("perspective.png", size=[320, 240])
 assert png("perspective_intensity.png").shape[:2] == (240, 320)
+
+# Cropped to the data, of the time that the image shows, whatever the session's is.
+write_series(os.path.abspath("series.pvd"), [0, 10], 12, lambda x, y, z, time: 1 + 0.01 * time * x)
+series = Schlieren(Input=simple.PVDReader(FileName=os.path.abspath("series.pvd")), ImageSize=[80, 60], ParallelScale=2,
+                   ViewDirection=[0, 0, -1], ViewUp=[0, 1, 0])
+series.UpdatePipeline(10)
+schlieren_figure.save("cropped.png", series, dpi=300, crop=True)
+with open("cropped.json", encoding="utf-8") as file:
+    description = json.load(file)
+assert description["time"] == 10 and simple.GetTimeKeeper().Time == 0, description["time"]
+assert description["light"] == "rays of 632.8 nm", description["light"]
+assert png("cropped_intensity.png").shape[:2] == (30, 30)
+assert all(abs(abs(description["axes"][side]) - 1) < 1e-6 for side in ("left", "right", "bottom", "top"))
+with Image.open("cropped.png") as figure:
+    assert np.allclose(figure.info["dpi"], 300, atol=0.1)
+with open("cropped.pvsm", encoding="utf-8") as file:
+    assert re.search(r'name="Time" id="\d+\.Time" number_of_elements="1">\s*<Element index="0" value="10"', file.read())
 
 # Mistakes.
 for arguments, words in ((("figure.bmp", bench), "name it *.png"),

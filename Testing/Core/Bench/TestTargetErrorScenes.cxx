@@ -102,11 +102,16 @@ struct SceneResult
   bool isWorseForLess = false; ///< half of the target has raised the error
 };
 
-/// Trees take much longer, and are half as frequent.
+/// Trees take much longer, and are half as frequent. From a number on every second scene has what is finer than pixels.
 DataKind kindOf(int number)
 {
-  constexpr int onGrids = static_cast<int>(DataKind::TreeBalls);
-  const int at = number % (onGrids + dataKinds);
+  constexpr int onGrids = static_cast<int>(DataKind::TreeBalls), others = dataKinds - 1;
+  constexpr int firstFine = 30000;
+  if (number >= firstFine && number % 2 == 1)
+  {
+    return DataKind::TreeFine;
+  }
+  const int at = number % (onGrids + others);
   return static_cast<DataKind>(at < onGrids ? at : at - onGrids);
 }
 
