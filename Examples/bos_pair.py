@@ -5,7 +5,8 @@ from a known displacement through the camera back to the displacement.
 
     pvpython Examples/bos_pair.py        (writes bos_with_flow.png and bos_without_flow.png)
 
-Evaluated by least squares (Lucas & Kanade 1981), and by OpenPIV where it is installed (pip install openpiv).
+Evaluated by least squares (Lucas & Kanade 1981), and by OpenPIV where it is installed: Debian has no package, so in a virtual
+environment.
 """
 
 import os
@@ -151,7 +152,7 @@ print(f"least squares, windows of 6 pixels: slope {slope:.4f}, error {error:.4f}
 for windows in ((32,), (32, 16), (32, 16, 16)):
     result = by_open_piv(without, with_flow, windows)
     if result is None:
-        print("OpenPIV is not installed: pip install openpiv")
+        print("Evaluated by least squares alone: OpenPIV is not installed.")
         break
     found, columns, rows = result
     reach = windows[-1] // 2

@@ -136,9 +136,11 @@ Frame frameOf(const Grid& grid, const View& view)
   const Vec3<double> right = cross(forward, unit(vec(view.viewUp)));
   if (!(length(right) > parallelSine))
   {
+    const bool isAlongY = std::abs(forward.y) > std::max(std::abs(forward.x), std::abs(forward.z));
     throw Error(
       "ViewUp is zero or parallel to ViewDirection, so the image has no upward direction. "
-      "Set ViewUp to another direction, for example (0, 1, 0) or (1, 0, 0).");
+      "Set ViewUp to another direction, for example " +
+      std::string(isAlongY ? "(0, 0, 1)." : "(0, 1, 0)."));
   }
   constexpr double widest = 170;
   if (!(view.viewAngle >= 0 && view.viewAngle < widest))

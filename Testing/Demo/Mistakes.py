@@ -42,6 +42,7 @@ with open("broken.vti", "w") as stream:
 fails("broken.vti", saying=("ParaView", "broken.vti"))
 fails(os.path.join(DATA, "bluntfin_plot3d", "bluntfinq.bin"), saying=("no reader for",))
 fails(JET, "--set", "KnifeAngle=3", saying=("no property 'KnifeAngle'", "KnifeEdgeAngle"))
+fails(JET, "--set", "Quality=Best", saying=("'Quality' does not take 'Best'", "Interactive, Fine"))
 fails(JET, "--model", "Refractive Index", "--array", "rho", "--plugin", "nothing.so",
       saying=("nothing.so", "does not load"), run=run_demo)
 

@@ -88,7 +88,17 @@ def configure(proxy, array, options):
     proxy.DensityScale = options.density_scale
     for name, value in options.settings:
         if name in proxy.ListProperties():
-            setattr(proxy, name, value)
+            put(proxy, name, value)
+
+
+def put(proxy, name, value):
+    """Sets a property; a mistake where it does not take the value."""
+    try:
+        setattr(proxy, name, value)
+    except (TypeError, ValueError) as problem:
+        words = getattr(proxy.GetProperty(name), "Available", None)
+        takes = f"It takes {', '.join(map(str, words))}." if words else str(problem)
+        raise DemoError(f"The property '{name}' does not take '{value}'. {takes}") from problem
 
 
 def new_bench(reader, array, frame, options):
@@ -106,7 +116,7 @@ def new_bench(reader, array, frame, options):
         if name not in schlieren.ListProperties():
             raise DemoError(f"The Schlieren filter has no property '{name}'. "
                             f"It has: {', '.join(schlieren.ListProperties())}.")
-        setattr(schlieren, name, value)
+        put(schlieren, name, value)
     return schlieren
 
 
