@@ -305,8 +305,10 @@ private:
 
   double pixelsOfDetail() const
   {
-    return tree_.settings_.interpolation == Interpolation::Cubic ? pixelsOfExactWaves
-                                                                 : pixelsOfWaves;
+    constexpr double further = 0.5; // so that errors of what is too fine for usual voxels show
+    const double usual =
+      tree_.settings_.interpolation == Interpolation::Cubic ? pixelsOfExactWaves : pixelsOfWaves;
+    return column_.parts.empty() ? usual : further * usual;
   }
 
   /// Errors of rays to the viewer, because of gradients along axes that count.
