@@ -112,10 +112,23 @@ assert button.mapToGlobal(QtCore.QPoint(0, 0)) == place, (button.mapToGlobal(QtC
 displays()[0].SchlierenBench.Cutoff = "Knife Edge"
 """)
 
+# The filter, before Apply; the air of a room has a temperature alone.
+OF_FILTER = (["Cutoff"] + OF_TECHNIQUE["Knife Edge"] + ["Quality", "SchlierenCutoff", "Density", "Gas",
+             "UniformPressure", "StagnationTemperature", "ArraysUsed", "LengthScale", "ViewDirection", "ImageSize", "Status"])
+user.python("""
+widget("propertiesPanel", "PropertiesButton").setChecked(True)
+SetActiveSource(FindSource("warm"))
+""")
+user.choose_filter("Schlieren")
+user.python(LOOK + f"""
+pause(0.2)
+found = seen(widget("propertiesPanel", "PropertiesFrame", "ProxyPanel"))
+assert found == {OF_FILTER}, found
+""")
+user.delete()
 user.python("""
 widget("propertiesDock").setMinimumWidth(0)
 widget("propertiesDock").setMaximumWidth(10000)
-widget("propertiesPanel", "PropertiesButton").setChecked(True)
 widget("pipelineBrowserDock").show()
 """)
 
@@ -134,6 +147,7 @@ def flow(name, extent, mesh=False, **arrays):
     Show(source, view)
 flow("density", 3 * [-8, 8], rho="1+1e-3*RTData")
 flow("pt", 3 * [-8, 8], p="101325+RTData", T="300+0.1*RTData")
+flow("warm", 3 * [-8, 8], T="300+0.1*RTData")
 flow("flat", [-8, 8, -8, 8, 0, 0], rho="1+1e-3*RTData")
 flow("mesh", 3 * [-8, 8], mesh=True, rho="1+1e-3*RTData")
 view.ResetCamera()
