@@ -14,12 +14,12 @@ pqFlatDataDecorator::pqFlatDataDecorator(vtkPVXMLElement* element, pqPropertyWid
 
 pqFlatDataDecorator::~pqFlatDataDecorator() = default;
 
-bool pqFlatDataDecorator::canShowWidget(bool) const
+bool pqFlatDataDecorator::canShowWidget(bool showAdvanced) const
 {
   // Cells of other meshes are on the server: those one cell thick, such as wedges of 5 degrees, are thin.
   constexpr double thin = 0.2;
   vtkPVDataInformation* data = inputOf(this->parentWidget()->proxy());
-  if (!data)
+  if (showAdvanced || !data)
   {
     return true;
   }

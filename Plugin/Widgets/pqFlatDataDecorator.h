@@ -4,8 +4,8 @@
 
 #include "pqPropertyWidgetDecorator.h"
 
-/// Shows a property of a filter where its input may be 2-D, in a plane or one cell thick:
-/// `<PropertyWidgetDecorator type="SchlierenFlatData"/>`.
+/// Leaves a property to the advanced ones unless the filter's input may be 2-D, in a plane or one cell thick:
+/// `<PropertyWidgetDecorator type="SchlierenFlatData"/>`. Expressions take no decorators but ParaView's since 6.1.
 class pqFlatDataDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT
