@@ -164,13 +164,14 @@ public:
   vtkSetMacro(RelativeHumidity, double);
   vtkGetMacro(RelativeHumidity, double);
 
-  /// Wavelength of the light in vacuum, nanometres: for gases chosen by name, and for moist air
-  /// (300 to 1700). 632.8 is a helium-neon laser. Default: 632.8.
+  /// Wavelength of the light in vacuum, nanometres: of gases chosen by name, of moist air (300 to
+  /// 1700), and in images of an interferogram and of waves (Light Model). 632.8 is a helium-neon
+  /// laser. Default: 632.8.
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);
 
-  /// The names of the arrays to map through Transfer Functions, any number, all of points or all of
-  /// cells. Default: none.
+  /// The names of the arrays to map through Transfer Functions and to tint an image by, any number,
+  /// all of points or all of cells. Default: none.
   void AddField(const char* text)
   {
     this->Fields.emplace_back(text ? text : "");

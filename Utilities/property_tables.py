@@ -6,7 +6,7 @@
     Utilities/property_tables.py            # write them
     Utilities/property_tables.py --check    # fail where a file differs from them
 
-A table stands between <!-- table: GROUP --> and <!-- end -->; GROUP is the label of a property group, or one of
+A table stands between <!-- table: GROUP --> and <!-- end -->; GROUP is the label of a property group, or its attribute table, or one of
 Inputs, Commands, Information and Others, the properties in no group. The rest of the page is written by hand.
 """
 
@@ -74,7 +74,8 @@ def read(files=None):
     for path in files or FILES:
         proxy = ElementTree.parse(path).getroot().find(".//SourceProxy")
         for group in proxy.findall("PropertyGroup"):
-            groups.update({member.get("name"): group.get("label") for member in group.findall("Property")})
+            groups.update({member.get("name"): group.get("table", group.get("label"))
+                           for member in group.findall("Property")})
         for element in proxy:
             name, help_element = element.get("name"), element.find("Documentation")
             if element.tag != "Property" and not element.tag.endswith("Property"):

@@ -5,12 +5,10 @@
 #include "pqColorFilterImage.h"
 #include "pqCutoffLightFetcher.h"
 #include "pqCutoffView.h"
-#include "pqProxyWidget.h"
 
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
 #include "vtkPiecewiseFunction.h"
-#include "vtkSMPropertyGroup.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSchlierenFilter.h"
@@ -92,8 +90,7 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
 
 } // namespace
 
-pqCutoffWidget::pqCutoffWidget(
-  vtkSMProxy* smProxy, vtkSMPropertyGroup* group, QWidget* parentObject)
+pqCutoffWidget::pqCutoffWidget(vtkSMProxy* smProxy, vtkSMPropertyGroup*, QWidget* parentObject)
   : pqPropertyWidget(smProxy, parentObject)
   , View(new pqCutoffView(this))
   , Numbers(new QLabel(this))
@@ -106,7 +103,6 @@ pqCutoffWidget::pqCutoffWidget(
   this->Numbers->setWordWrap(true);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(pqProxyWidget::newGroupLabelWidget(group->GetXMLLabel(), this));
   column->addWidget(this->View);
   column->addWidget(this->Numbers);
 

@@ -24,7 +24,23 @@ inline void appendToRow(QWidget* row, QWidget* added)
   }
 }
 
-/// Lets the lists of a property's row become so narrow that it fits into ParaView's default panel.
+/// Adds a widget below the others of a property's row, as wide as they are.
+inline void appendBelowRow(QWidget* row, QWidget* added)
+{
+  QLayout* layout = row->layout();
+  if (auto* grid = qobject_cast<QGridLayout*>(layout))
+  {
+    grid->addWidget(added, grid->rowCount(), 0, 1, -1);
+    return;
+  }
+  if (auto* box = qobject_cast<QBoxLayout*>(layout))
+  {
+    box->setDirection(QBoxLayout::TopToBottom); // of one widget
+  }
+  appendToRow(row, added);
+}
+
+/// Lets the lists of properties' rows become so narrow that they fit into ParaView's default panel.
 inline void narrowLists(QWidget* row)
 {
   constexpr int fewestLetters = 4;

@@ -164,10 +164,11 @@ pqFieldsWidget::pqFieldsWidget(
     this->Functions.property(), vtkCommand::ModifiedEvent, this, SLOT(readFunctions()));
   this->readFunctions();
 
-  // Shows all of it where its properties would be shown.
+  // Shows all of it where its properties would be shown: for the index model, which comes first, or the colours.
+  vtkPVXMLElement* shown =
+    smproxy->GetProperty("Fields")->GetHints()->FindNestedElementByName("PropertyWidgetDecorator");
   pqPropertyWidgetDecorator::create(
-    smproxy->GetProperty("Fields")->GetHints()->FindNestedElementByName("PropertyWidgetDecorator"),
-    this);
+    hasColors ? shown : shown->GetNestedElement(0)->GetNestedElement(0), this);
 }
 
 pqFieldsWidget::~pqFieldsWidget() = default;

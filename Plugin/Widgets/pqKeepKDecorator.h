@@ -6,9 +6,10 @@
 
 #include "vtkNew.h"
 
+class QToolButton;
 class vtkEventQtSlotConnect;
 
-/// Sets K Scale to the k in use when the user chooses Value as K Mode in the panel, which keeps the
+/// Adds a button behind K Mode that finds an automatic k again, and sets K Scale to the k in use when the user chooses Value as K Mode in the panel, which keeps the
 /// image. Scripts, undo and state files set both themselves.
 class pqKeepKDecorator : public pqPropertyWidgetDecorator
 {
@@ -23,5 +24,6 @@ private Q_SLOTS:
 
 private:
   bool WasValue;
+  QToolButton* Fit;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

@@ -22,6 +22,7 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
   , Label(new QLabel(this))
 {
   this->setProperty(smProperty);
+  this->setShowLabel(false); // a sentence says what it is about, and takes the width
   this->Label->setObjectName("Note");
   this->Label->setTextFormat(Qt::PlainText);
   this->Label->setTextInteractionFlags(Qt::TextSelectableByMouse);

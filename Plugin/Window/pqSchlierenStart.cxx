@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqSchlierenStart.h"
 
+#include "pqFlowOfView.h"
 #include "pqImageDisplayKeeper.h"
 #include "pqImageProbe.h"
 #include "pqImageProgress.h"
@@ -28,4 +29,5 @@ void pqSchlierenStart::startup()
   new pqImageDisplayKeeper(this);
   new pqImageProgress(this);
   new pqImageProbe(this);
+  new pqFlowOfView(this);
 }

@@ -83,7 +83,7 @@ user.save_state("edge.pvsm")
 # Turned by 60 degrees and a little, in steps of 15; back by 30 with less than a pixel's error.
 R = 0.84 * SIDE / 2
 drag((R, 0), (R * np.cos(np.radians(63)) - R, R * np.sin(np.radians(63))), modifiers=SHIFT)
-user.check("KnifeEdgeAngle/DoubleRangeWidget/DoubleLineEdit", "text", 60)
+user.check("KnifeEdgeAngle/DoubleLineEdit0", "text", 60)
 expect("turned", KnifeEdgeAngle=60)
 user.save_state("turned.pvsm")
 
@@ -101,10 +101,10 @@ assert abs(scaled - 2 * K) < 0.05 * K
 expect("scaled", KScale=scaled)
 user.menu("menu_Edit", "actionEditUndo")
 user.check("KScale/DoubleLineEdit0", "text", K)
-user.check("KnifeEdgeAngle/DoubleRangeWidget/DoubleLineEdit", "text", 60)
+user.check("KnifeEdgeAngle/DoubleLineEdit0", "text", 60)
 expect("undone", KScale=K)
 user.menu("menu_Edit", "actionEditUndo")
-user.check("KnifeEdgeAngle/DoubleRangeWidget/DoubleLineEdit", "text", 0)
+user.check("KnifeEdgeAngle/DoubleLineEdit0", "text", 0)
 user.check("CutoffOffset/DoubleLineEdit0", "text", edge)
 user.menu("menu_Edit", "actionEditRedo")
 

@@ -20,7 +20,8 @@ def blob(x, y, z, time):
 HELPERS = """
 import inside_window
 def fit():
-    click(widget("propertiesPanel", *inside_window.PANEL, "FitKOverSeries").findChild(QtWidgets.QPushButton))
+    QTimer.singleShot(0, widget("propertiesPanel", *inside_window.PANEL).findChild(QAction, "FitKOverSeries").trigger)
+    process_events()
 def k():
     return information(inside_window.BENCH, "KScaleUsed")
 def check():

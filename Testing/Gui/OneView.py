@@ -117,7 +117,7 @@ SetActiveSource(FindSource("jet"))
 
 # Found again.
 user.python(HELPERS + """
-click(widget("propertiesPanel", "SchlierenBench", "FitKAgain").findChild(QtWidgets.QPushButton))
+click(widget("propertiesPanel", "SchlierenBench", "FitKAgain"))
 import inside_window
 settle_views()
 inside_window.found = found = [k_of(display) for display in by_age()]

@@ -53,12 +53,12 @@ FIELDS, FIELD = "SchlierenFields", "SchlierenFields/Table/qt_scrollarea_viewport
 
 # One gas.
 user.choose("Gas/ComboBox", "helium")
-user.check("Wavelength", "visible", "true")
 user.apply()
 user.save_state("gas.pvsm")
 
 # A mixture.
 user.choose("IndexModel/ComboBox", "Gladstone-Dale Mixture")
+user.check("Wavelength", "visible", "true")
 user.python("""
 for name, texts in (("MixtureArrays", ("Y_He", "Y_CO2")), ("MixtureGases", ("helium", "2.2e-4"))):
     found = widget("propertiesPanel", name)

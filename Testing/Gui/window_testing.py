@@ -20,7 +20,7 @@ PROPERTIES = (PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetConten
 
 # Of data that the active view shows: how, and of those drawn as Schlieren the settings of the image.
 DISPLAY = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/DisplayFrame/ProxyPanel"
-BENCH = DISPLAY + "/SchlierenBench/ProxySelectionWidget/frame/ChosenProxyWidget"
+BENCH = DISPLAY + "/SchlierenBench/BenchPanel"
 
 JET = os.path.join(SOURCE, "Testing", "Data", "ladenburg_jet_3d.vti")
 TOOLBAR = "pqClientMainWindow/SchlierenToolBar/"

@@ -71,14 +71,16 @@ WITH_K, WITH_EDGE, WITH_FRINGES, WITH_SCREEN, WITH_BACKGROUND = (
     for feature in ("K", "Edge", "Fringes", "Screen", "Background"))
 shown_with = {}
 for item in properties.values():
+    first_page = {inner for outer in item.element.iter("PropertyWidgetDecorator") if outer.get("type") == "SchlierenFirstPage"
+                  for inner in outer.iter()}
     for decorator in item.element.iter("PropertyWidgetDecorator"):
-        if decorator.get("property") == "Cutoff":
+        if decorator.get("property") == "Cutoff" and decorator not in first_page:
             listed = {int(number) for number in (decorator.get("values") or decorator.get("value")).split()}
             if decorator.get("inverse") == "1":
                 listed = set(CUTOFFS.values()) - listed
             shown_with[item.name] = shown_with.get(item.name, set()) | listed
 for shown, names in (
-        (WITH_K, "KMode KScale FocalLength SourceWidth FitKAgain FitKOverSeries"),
+        (WITH_K, "KMode KScale FocalLength SourceWidth"),
         (WITH_K | WITH_FRINGES, "Sensitivity"),
         (WITH_EDGE, "KnifeEdgeAngle CutoffOffset CutoffPosition"),
         (WITH_EDGE | {vtkSchlierenFilter.PHASE_CONTRAST}, "InvertCutoff"),
