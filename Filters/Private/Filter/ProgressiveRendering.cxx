@@ -342,7 +342,8 @@ bool vtkSchlierenFilter::Show(
   const bool isKept = choosesK(*this) && this->GetLockedK() > 0;
   dropIdleBounds(image);
   // Waves are made of a finished image.
-  const bool isStillOfRays = this->LightModel == LIGHT_WAVES && (!isWhole || !image.finished);
+  const bool isStillOfRays =
+    lightModelOf(*this) == schlieren::LightModel::Waves && (!isWhole || !image.finished);
   this->Status = std::string(isWhole ? "" : "Preview: ") + (isStillOfRays ? "rays as yet, " : "") +
     inside.Images.GetStatus(image) + (outside.empty() ? "" : ", " + outside) +
     (inside.Refractivity->Wedge.empty() ? "" : ", " + inside.Refractivity->Wedge) +
