@@ -323,16 +323,19 @@ bool vtkSchlierenFilter::Show(
   {
     constexpr double most = 0.5;
     if (!outside.empty() && blockedShare(image) > most &&
-      !std::exchange(inside.HasNotedOutside, true))
+      inside.Refractivity->IsForMe("outside", this) && !std::exchange(inside.HasNotedOutside, true))
     {
       vtkWarningMacro(
         << outside
         << ": places that the mesh leaves out are taken for a body. If they are none, "
            "set Outside to Passes, and give bodies as Bodies.");
     }
-    for (const std::string& warning : inside.Images.GetWarnings(image))
+    for (const auto& [kind, warning] : inside.Images.GetWarnings(image))
     {
-      vtkWarningMacro(<< warning);
+      if (inside.Refractivity->IsForMe(kind, this))
+      {
+        vtkWarningMacro(<< warning);
+      }
     }
   }
   if (isWhole)

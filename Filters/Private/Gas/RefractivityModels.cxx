@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <numeric>
@@ -141,17 +140,19 @@ public:
 
   bool isDoubtful(const double* values) const override
   {
-    return !schlieren::isWithinCiddorRange(this->temperatureIn(values), this->pressureIn(values)) ||
-      (this->hasHumidity && this->humidityIn(values) > maxOfAll);
+    return this->hasHumidity && this->humidityIn(values) > maxOfAll;
+  }
+
+  bool isContinued(const double* values) const override
+  {
+    return !schlieren::isWithinCiddorRange(this->temperatureIn(values), this->pressureIn(values));
   }
 
   std::string warning(const std::string& fraction) const override
   {
-    return fraction +
-      " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to "
-      "120 kPa, relative humidity to 1). There they are continued towards the ideal gas. "
-      "If so many surprise you, check that Temperature is in K, that PressureScale gives Pa, and "
-      "that humidity is from 0 to 1.";
+    return "The relative humidity is more than " + textOf(maxOfAll) + " in " + fraction +
+      " of the points, but it is a fraction of saturation. Divide percents by 100 with Calculator "
+      "and choose the result for Humidity.";
   }
 
 private:
@@ -370,7 +371,27 @@ Tally& Tally::operator+=(const Tally& other)
 {
   this->all += other.all;
   this->doubtful += other.doubtful;
+  this->continued += other.continued;
   return *this;
+}
+
+namespace
+{
+
+/// Returns a text such as "12 %".
+std::string fractionOf(long long some, const Tally& tally)
+{
+  return textOf(100 * static_cast<double>(some) / static_cast<double>(tally.all), 3) + " %";
+}
+
+} // namespace
+
+std::string noteOnContinued(const Tally& tally)
+{
+  return tally.continued == 0 ? ""
+                              : fractionOf(tally.continued, tally) +
+      " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to 120 kPa), "
+      "which are continued there towards the ideal gas.";
 }
 
 std::string warningFrom(const Model& model, const Tally& tally)
@@ -379,9 +400,7 @@ std::string warningFrom(const Model& model, const Tally& tally)
   {
     return "";
   }
-  char fraction[32];
-  std::snprintf(fraction, sizeof fraction, "%.3g %%",
-    100 * static_cast<double>(tally.doubtful) / static_cast<double>(tally.all));
+  const std::string fraction = fractionOf(tally.doubtful, tally);
   return std::visit(
     [&fraction](const auto& chosen) -> std::string
     {

@@ -55,6 +55,8 @@ public:
   virtual bool isDoubtful(const double* values) const = 0;
   /// Returns the warning; the fraction is a text such as "12 %".
   virtual std::string warning(const std::string& fraction) const = 0;
+  /// Returns whether the model's formulas are continued to the state from where they are known.
+  virtual bool isContinued(const double* /*values*/) const { return false; }
 };
 
 /// Any of them.
@@ -65,6 +67,7 @@ struct OfState
   double refractivity(const double* values) const { return this->model->refractivity(values); }
   bool isDoubtful(const double* values) const { return this->model->isDoubtful(values); }
   std::string warning(const std::string& fraction) const { return this->model->warning(fraction); }
+  bool isContinued(const double* values) const { return this->model->isContinued(values); }
 };
 
 /// Any model.
@@ -109,16 +112,20 @@ Selection selectionOf(const MediumSettings& settings, std::size_t index);
 /// Lists the arrays that the model reads, at least one, in its order.
 std::vector<Selection> selectionsFrom(const MediumSettings& settings);
 
-/// Counts doubtful points or cells among those that have values.
+/// Counts doubtful points or cells, and those whose state is beyond the model's formulas, among those that have values.
 struct Tally
 {
   long long all = 0;
   long long doubtful = 0;
+  long long continued = 0;
 
   Tally& operator+=(const Tally& other);
 };
 
 /// Returns a warning about doubtful values; empty without any.
 std::string warningFrom(const Model& model, const Tally& tally);
+
+/// Returns a sentence about the values for which the formulas of moist air are continued; empty without any.
+std::string noteOnContinued(const Tally& tally);
 
 } // namespace filters

@@ -254,7 +254,7 @@ Flow chooseFlow(
   else
   {
     flow.model = modelFrom(settings);
-    flow.notes = notesOn(flow.choice);
+    flow.notes = flow.choice.warning;
     flow.leaves = leavesWith(selections, dataSets);
   }
 
@@ -271,13 +271,6 @@ Flow chooseFlow(
   applyMask(settings, given.Arrays[MediumSettings::MaskArray].isChosen(), dataSets, flow);
   flattenLayers(settings, flow, like);
   return flow;
-}
-
-std::string notesOn(const MediumChoice& choice)
-{
-  std::string notes = choice.warning;
-  addText(notes, noteOnGases(choice.settings));
-  return notes;
 }
 
 std::vector<std::string> arraysOf(const MediumSettings& settings)

@@ -417,8 +417,8 @@ TEST(Ciddor, ScalesAndWavelengthCount)
     1e-14);
 }
 
-// The second update uses what there is, and repeats nothing.
-TEST(Ciddor, OutsideItsRangeIsWarnedOfOnce)
+// A line beside the arrays, and nothing to be warned of; percents of humidity are.
+TEST(Ciddor, OutsideItsRangeIsSaidBesideTheArrays)
 {
   auto image = flow(10);
   vtkDataArray* t = image->GetPointData()->GetArray("T");
@@ -428,14 +428,30 @@ TEST(Ciddor, OutsideItsRangeIsWarnedOfOnce)
   }
   auto filter = bench(image);
   chooseCiddor(filter.Get());
+  filter->SetGas("air"); // needs no word on fractions
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   filter->Update();
-  filter->SetKnifeEdgeAngle(90);
+  EXPECT_FALSE(isEmpty(filter));
+  auto other = bench(image); // which takes the medium of the first
+  chooseCiddor(other.Get());
+  other->SetGas("air");
+  other->Update();
+  for (vtkSchlierenFilter* each : { filter.Get(), other.Get() })
+  {
+    const std::string used = each->GetArraysUsed();
+    EXPECT_EQ(used.rfind("Temperature: 'T'; Pressure: 'p'. 25 % of the points", 0), 0u) << used;
+  }
+  EXPECT_TRUE(complaints->Warnings.empty());
+
+  addPointArray(image, "percent", [](const Vec&) { return 40; });
+  choose(filter.Get(), vtkRefractiveIndex::HUMIDITY, "percent");
   filter->Update();
+  filter->SetKnifeEdgeAngle(90);
+  filter->Update(); // uses what there is, and repeats nothing
   EXPECT_TRUE(complaints->Errors.empty());
   ASSERT_EQ(complaints->Warnings.size(), 1u);
-  EXPECT_NE(complaints->Warnings[0].find("25 %"), std::string::npos) << complaints->Warnings[0];
-  EXPECT_FALSE(isEmpty(filter));
+  EXPECT_NE(complaints->Warnings[0].find("percents by 100"), std::string::npos)
+    << complaints->Warnings[0];
 }
 
 // A temperature that cannot be is a solid, not a hole in the sums.
