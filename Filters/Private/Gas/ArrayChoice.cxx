@@ -4,6 +4,7 @@
 
 #include "Common/NumberText.h"
 #include "Common/Sentences.h"
+#include "Gas/ArrayNames.h"
 #include "Gas/Fractions.h"
 #include "Gas/GasChoices.h"
 #include "Gas/RefractivityModels.h"
@@ -66,6 +67,8 @@ std::string inWords(const MediumSettings& settings)
       std::snprintf(factor, sizeof factor, " times %g", scale);
       text += factor;
     }
+    const double zero = index == S::TemperatureArray ? zeroOf(settings) : 0;
+    text += zero > 0 ? " plus " + textOf(zero) : "";
   }
   if (settings.hasUniformPressure())
   {
@@ -126,6 +129,11 @@ double kelvinsOf(const MediumSettings& settings)
 {
   const double byUnit = scaleByUnit("Temperature", settings.Arrays[S::TemperatureArray].name);
   return byUnit != 0 ? byUnit : 1;
+}
+
+double zeroOf(const MediumSettings& settings)
+{
+  return ArrayName(settings.Arrays[S::TemperatureArray].name).ZeroInKelvins();
 }
 
 bool isOpen(const MediumSettings& settings)

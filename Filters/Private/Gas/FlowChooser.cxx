@@ -22,10 +22,12 @@ namespace
 
 const std::set<std::string> refractivities = { "refractivity", "nminus1" };
 
-/// Returns the unit of a quantity's values.
-std::string unitInWords(double scale, const std::string& unit)
+/// Returns the unit of a quantity's values; `zero`: where it begins.
+std::string unitInWords(double scale, const std::string& unit, double zero = 0)
 {
-  return scale == 1 ? " in " + unit : ", " + textOf(scale) + " " + unit + " each";
+  return zero > 0 ? std::string(" in degrees ") + (scale == 1 ? "Celsius" : "Fahrenheit")
+    : scale == 1  ? " in " + unit
+                  : ", " + textOf(scale) + " " + unit + " each";
 }
 
 } // namespace
@@ -114,7 +116,8 @@ FlowChooser::Found FlowChooser::find(Quantity quantity, FlowArray::Association a
       isOfPhase = name.IsOfGas();
       isOfAir = name.Joined().find("air") != std::string::npos;
       const double scale = name.Scale(quantity);
-      found = { &array, scale != 0 || name.HasUnit(quantity) ? scale : 1 };
+      found = { &array, scale != 0 || name.HasUnit(quantity) ? scale : 1,
+        quantity == Quantity::Temperature ? name.ZeroInKelvins() : 0 };
     }
   }
   if (best == Understood::AsSpecies || (best == Understood::AsPart && parts > 1) ||
@@ -282,12 +285,14 @@ bool FlowChooser::state(FlowArray::Association association, bool ofSpecies)
   {
     return false;
   }
-  const auto& t = temperature.array->range;
+  const std::array<double, 2> t = { temperature.array->range[0] * kelvins + temperature.zero,
+    temperature.array->range[1] * kelvins + temperature.zero };
   const auto& p = pressure.array->range;
-  if (kelvins == 0 || t[0] * kelvins < 20 || t[1] * kelvins < 150)
+  if (kelvins == 0 || t[0] < 20 || t[1] < 150)
   {
     this->Note += "The temperature " + quoted(temperature.array->name) + " is not in kelvins (" +
-      rangeInWords(*temperature.array) + "): to degrees Celsius, add 273.15 with Calculator. ";
+      rangeInWords(*temperature.array) + "). If it is in degrees Celsius, say so in its name ('" +
+      temperature.array->name + " [degC]'), or add 273.15 with Calculator. ";
     return false;
   }
   if (pascals == 0)
@@ -315,7 +320,7 @@ bool FlowChooser::state(FlowArray::Association association, bool ofSpecies)
   this->take(MediumSettings::CIDDOR, association,
     { { "Temperature", temperature.array->name }, { "Pressure", pressure.array->name } });
   this->Result.message = "Temperature: " + quoted(temperature.array->name) +
-    unitInWords(kelvins, "K") + "; pressure: " + quoted(pressure.array->name) +
+    unitInWords(kelvins, "K", temperature.zero) + "; pressure: " + quoted(pressure.array->name) +
     unitInWords(pascals, "Pa");
   if (pascals != 1)
   {

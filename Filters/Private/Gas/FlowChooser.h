@@ -47,11 +47,12 @@ public:
   bool has(Quantity quantity) const;
 
 private:
-  /// An array whose name is understood, with its factor to SI units; 0: unknown unit.
+  /// An array whose name is understood, with its factor to SI units, 0: unknown unit; and its unit's zero.
   struct Found
   {
     const FlowArray* array = nullptr;
     double scale = 1;
+    double zero = 0;
   };
 
   /// Finds the array that best matches a quantity, points before cells.

@@ -132,18 +132,19 @@ Implausible ofMoistAir(const FlowInUse& flow)
         (exactly(temperature).empty() ? exactly(pressure) : exactly(temperature)) +
         ", so that nothing bends light. Choose other arrays, or another time step." };
   }
-  const double kelvins[2] = { temperature.range[0] * flow.scales[0],
-    temperature.range[1] * flow.scales[0] };
+  const double kelvins[2] = { temperature.range[0] * flow.scales[0] + flow.zero,
+    temperature.range[1] * flow.scales[0] + flow.zero };
   const double pascals[2] = { pressure.range[0] * flow.scales[1],
     pressure.range[1] * flow.scales[1] };
   // Bodies often have 0; the coldest streams of wind tunnels have about 45 K.
   const bool isBelowAll = kelvins[0] < 0 || (kelvins[0] > 0 && kelvins[0] < 40);
-  if (ArrayName(temperature.name).IsInDegrees() || isBelowAll || kelvins[1] < 150)
+  if (isBelowAll || kelvins[1] < 150)
   {
     return { "Celsius",
       "The temperature " + described(temperature) +
         " seems not to be in kelvins. If it is in degrees Celsius, compute kelvins (+ 273.15) with "
-        "Calculator and choose these for Temperature." };
+        "Calculator and choose these for Temperature, or give it a name with its unit, such as "
+        "'T [degC]'." };
   }
   if (pascals[0] <= 0 || ArrayName(pressure.name).IsGauge())
   {

@@ -52,9 +52,9 @@ public:
   double densityScale = 1;
   FractionOf fractionsOf = FractionOf::Mass;
   bool usesGasLaw = false;
-  int states = 1;                                 // values before the fractions
-  double temperatureScale = 1, pressureScale = 1; // of the gas law
-  double uniformPressure = 0;                     // 0: a value
+  int states = 1; // values before the fractions
+  double temperatureScale = 1, temperatureZero = 0, pressureScale = 1; // of the gas law
+  double uniformPressure = 0;                                          // 0: a value
 
   double refractivity(const double* values) const override
   {
@@ -65,7 +65,7 @@ public:
     if (this->usesGasLaw)
     {
       constexpr double gasConstant = 8.31446261815324;
-      const double kelvins = this->temperatureScale * values[0];
+      const double kelvins = this->temperatureScale * values[0] + this->temperatureZero;
       const double pascals =
         this->uniformPressure > 0 ? this->uniformPressure : this->pressureScale * values[1];
       return kelvins > 0 && pascals >= 0
@@ -125,7 +125,7 @@ class CiddorAir : public StateModel
 {
 public:
   schlieren::MoistAir air{};
-  double temperatureScale = 1, pressureScale = 1;
+  double temperatureScale = 1, temperatureZero = 0, pressureScale = 1;
   double uniformPressure = 0;       // 0: a value
   double stagnationTemperature = 0; // 0: the first value; else it follows from the pressure
   double stagnationPressure = 0;
@@ -158,9 +158,10 @@ public:
 private:
   double temperatureIn(const double* values) const
   {
-    return this->stagnationTemperature > 0 ? isentropicTemperature(this->stagnationTemperature,
-                                               this->pressureIn(values) / this->stagnationPressure)
-                                           : this->temperatureScale * values[0];
+    return this->stagnationTemperature > 0
+      ? isentropicTemperature(
+          this->stagnationTemperature, this->pressureIn(values) / this->stagnationPressure)
+      : this->temperatureScale * values[0] + this->temperatureZero;
   }
   double pressureIn(const double* values) const
   {
@@ -220,6 +221,7 @@ Model gasMixture(const MediumSettings& settings)
     model->usesGasLaw = true;
     model->states = settings.hasUniformPressure() ? 1 : 2;
     model->temperatureScale = kelvinsOf(settings);
+    model->temperatureZero = zeroOf(settings);
     model->pressureScale = settings.PressureScale;
     model->uniformPressure = settings.UniformPressure;
   }
@@ -257,6 +259,7 @@ Model ciddorAir(const MediumSettings& settings)
   auto model = std::make_shared<CiddorAir>();
   model->air = schlieren::MoistAir::at(wavelength);
   model->temperatureScale = kelvinsOf(settings);
+  model->temperatureZero = zeroOf(settings);
   model->pressureScale = settings.PressureScale;
   model->uniformPressure = settings.UniformPressure;
   model->stagnationTemperature = settings.isIsentropic() ? settings.StagnationTemperature : 0;

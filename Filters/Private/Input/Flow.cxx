@@ -299,6 +299,7 @@ Implausible implausibleIn(const Flow& flow)
   used.scales = settings.IndexModel == MediumSettings::CIDDOR || settings.usesGasLaw()
     ? std::vector<double>{ kelvinsOf(settings), settings.PressureScale }
     : std::vector<double>{ isIndex ? 1 : settings.DensityScale };
+  used.zero = zeroOf(settings);
   const bool isOfTable = !isCustom(settings.Gas);
   used.isGas = settings.IndexModel == MediumSettings::GLADSTONE_DALE_MIXTURE || isOfTable ||
     settings.GladstoneDaleConstant == MediumSettings::defaultConstant;
