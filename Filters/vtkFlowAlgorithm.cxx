@@ -78,10 +78,8 @@ const char* vtkFlowAlgorithm::GetArraysUsed()
   const MediumChoice choice = maker.choice();
   this->ArraysUsed = choice.message;
   addText(this->ArraysUsed, noteOnGases(choice.settings));
-  if (choice.settings.IndexModel == MediumSettings::CIDDOR)
-  {
-    addText(this->ArraysUsed, maker.said().Continued);
-  }
+  addText(this->ArraysUsed,
+    maker.said().IndexModel == choice.settings.IndexModel ? maker.said().Continued : "");
   return this->ArraysUsed.c_str();
 }
 

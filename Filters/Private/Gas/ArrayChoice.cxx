@@ -112,6 +112,8 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
       return { S::TemperatureArray, S::PressureArray, S::HumidityArray };
     case IndexArrays::Fields:
       return {};
+    case IndexArrays::Temperature:
+      return { S::TemperatureArray };
     case IndexArrays::Index:
       return { S::IndexArray };
     case IndexArrays::Density:
@@ -220,7 +222,8 @@ std::string noteOnArrays(
 {
   std::string note = noteOnOverset(known);
   // What the user has chosen needs no note. The window chooses as flowSpecies() does.
-  if (kindOf(settings.IndexModel).gases == IndexGases::None || hasOneGas(given) ||
+  const IndexGases gases = kindOf(settings.IndexModel).gases;
+  if (gases == IndexGases::None || gases == IndexGases::Water || hasOneGas(given) ||
     (!given.MixtureArrays.empty() &&
       given.MixtureArrays != flowSpecies(known, associationIn(settings)).fractions))
   {
@@ -285,8 +288,13 @@ void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, Med
 
 } // namespace
 
-MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>& known)
+MediumChoice choiceOf(const MediumSettings& all, const std::vector<FlowArray>& known)
 {
+  MediumSettings given = all;
+  if (given.IndexModel == S::AUTO && given.Gas == waterName)
+  {
+    given.IndexModel = S::WATER;
+  }
   MediumChoice choice;
   choice.settings = given;
   MediumSettings& settings = choice.settings;

@@ -66,6 +66,8 @@ bool FlowChooser::choose(MediumSettings::IndexModels model)
                                                        : this->refractivity();
     case IndexArrays::Air:
       return this->state(false);
+    case IndexArrays::Temperature:
+      return this->temperature();
     case IndexArrays::Density:
       return this->density(kind.gases == IndexGases::Mixture) ||
         (kind.gases == IndexGases::Mixture && this->state(true));
@@ -268,6 +270,37 @@ void FlowChooser::species(bool withDensity)
   this->Result.message += list;
 }
 
+bool FlowChooser::areKelvins(const Found& temperature)
+{
+  const auto& range = temperature.array->range;
+  const auto kelvins = [&](double value) { return value * temperature.scale + temperature.zero; };
+  if (temperature.scale != 0 && kelvins(range[0]) >= 20 && kelvins(range[1]) >= 150)
+  {
+    return true;
+  }
+  const std::string& name = temperature.array->name;
+  this->Note += "The temperature " + quoted(name) + " is not in kelvins (" +
+    rangeInWords(*temperature.array) + "). If it is in degrees Celsius, say so in its name ('" +
+    name + " [degC]'), or add 273.15 with Calculator. ";
+  return false;
+}
+
+bool FlowChooser::temperature()
+{
+  for (const FlowArray::Association association : associations)
+  {
+    const Found found = this->find(Quantity::Temperature, association);
+    if (found.array && this->areKelvins(found))
+    {
+      this->take(MediumSettings::WATER, association, { { "Temperature", found.array->name } });
+      this->Result.message = "Water; temperature: " + quoted(found.array->name) +
+        unitInWords(found.scale, "K", found.zero) + ".";
+      return true;
+    }
+  }
+  return false;
+}
+
 bool FlowChooser::state(bool ofSpecies)
 {
   return std::any_of(std::begin(associations), std::end(associations),
@@ -285,14 +318,9 @@ bool FlowChooser::state(FlowArray::Association association, bool ofSpecies)
   {
     return false;
   }
-  const std::array<double, 2> t = { temperature.array->range[0] * kelvins + temperature.zero,
-    temperature.array->range[1] * kelvins + temperature.zero };
   const auto& p = pressure.array->range;
-  if (kelvins == 0 || t[0] < 20 || t[1] < 150)
+  if (!this->areKelvins(temperature))
   {
-    this->Note += "The temperature " + quoted(temperature.array->name) + " is not in kelvins (" +
-      rangeInWords(*temperature.array) + "). If it is in degrees Celsius, say so in its name ('" +
-      temperature.array->name + " [degC]'), or add 273.15 with Calculator. ";
     return false;
   }
   if (pascals == 0)
@@ -307,7 +335,9 @@ bool FlowChooser::state(FlowArray::Association association, bool ofSpecies)
     return false;
   }
   // Accepts the units of weather models where the values are those of the atmosphere.
-  const bool isOfAtmosphere = t[0] > 150 && t[1] < 350 && p[1] < 1100;
+  const auto& t = temperature.array->range;
+  const bool isOfAtmosphere = t[0] * kelvins + temperature.zero > 150 &&
+    t[1] * kelvins + temperature.zero < 350 && p[1] < 1100;
   const bool hasUnit = ArrayName(pressure.array->name).HasUnit(Quantity::Pressure);
   if (!hasUnit && isOfAtmosphere && p[1] > 500)
   {

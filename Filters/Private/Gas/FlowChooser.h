@@ -66,6 +66,10 @@ private:
   bool refractiveIndex();
   bool density(bool ofSpecies);
   void species(bool withDensity);
+  /// Returns whether a temperature is in a known unit; else notes it.
+  bool areKelvins(const Found& temperature);
+  /// Chooses a temperature, of water.
+  bool temperature();
   /// Chooses a temperature and a pressure, of moist air or, `ofSpecies`, of a mixture.
   bool state(bool ofSpecies);
   bool state(FlowArray::Association association, bool ofSpecies);

@@ -148,6 +148,13 @@ public:
     return !schlieren::isWithinCiddorRange(this->temperatureIn(values), this->pressureIn(values));
   }
 
+  std::string noteOnContinued(const std::string& fraction) const override
+  {
+    return fraction +
+      " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to 120 kPa), "
+      "which are continued there towards the ideal gas.";
+  }
+
   std::string warning(const std::string& fraction) const override
   {
     return "The relative humidity is more than " + textOf(maxOfAll) + " in " + fraction +
@@ -175,6 +182,54 @@ private:
     return this->hasHumidity ? values[hasOneOther ? 1 : 2] : this->relativeHumidity;
   }
 };
+
+/// N of a temperature.
+class Water : public StateModel
+{
+public:
+  double wavelength = 0; // m
+  double temperatureScale = 1, temperatureZero = 0;
+
+  double refractivity(const double* values) const override
+  {
+    return schlieren::waterRefractivity(this->temperatureIn(values), this->wavelength);
+  }
+
+  bool isDoubtful(const double*) const override { return false; }
+  std::string warning(const std::string&) const override { return ""; }
+
+  bool isContinued(const double* values) const override
+  {
+    return !schlieren::isLiquidWater(this->temperatureIn(values));
+  }
+
+  std::string noteOnContinued(const std::string& fraction) const override
+  {
+    return fraction +
+      " of the points lie outside 0 to 100 C, where water is liquid, and have the index of the "
+      "nearer end.";
+  }
+
+private:
+  double temperatureIn(const double* values) const
+  {
+    return this->temperatureScale * values[0] + this->temperatureZero;
+  }
+};
+
+Model water(const MediumSettings& settings)
+{
+  auto model = std::make_shared<Water>();
+  model->wavelength = 1e-9 * settings.Wavelength;
+  if (!schlieren::isWithinWaterWavelengths(model->wavelength))
+  {
+    throw std::runtime_error("Wavelength is " + textOf(settings.Wavelength) +
+      " nm, where the formula for water does not hold. Set it between 200 and 1900 nm.");
+  }
+  model->temperatureScale = kelvinsOf(settings);
+  model->temperatureZero = zeroOf(settings);
+  return OfState{ model };
+}
 
 Model gladstoneDale(const MediumSettings& settings)
 {
@@ -283,6 +338,7 @@ constexpr IndexModelKind kinds[] = {
   { MediumSettings::REFRACTIVITY, IndexArrays::Index, IndexGases::None, refractivity },
   { MediumSettings::GLADSTONE_DALE_MIXTURE, IndexArrays::Density, IndexGases::Mixture, gasMixture },
   { MediumSettings::CIDDOR, IndexArrays::Air, IndexGases::MoistAir, ciddorAir },
+  { MediumSettings::WATER, IndexArrays::Temperature, IndexGases::Water, water },
   { MediumSettings::TRANSFER_FUNCTIONS, IndexArrays::Fields, IndexGases::None, transferFunctions },
 };
 
@@ -389,12 +445,12 @@ std::string fractionOf(long long some, const Tally& tally)
 
 } // namespace
 
-std::string noteOnContinued(const Tally& tally)
+std::string noteOnContinued(const Model& model, const Tally& tally)
 {
-  return tally.continued == 0 ? ""
-                              : fractionOf(tally.continued, tally) +
-      " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to 120 kPa), "
-      "which are continued there towards the ideal gas.";
+  const auto* ofState = std::get_if<OfState>(&model);
+  return ofState && tally.continued > 0
+    ? ofState->model->noteOnContinued(fractionOf(tally.continued, tally))
+    : "";
 }
 
 std::string warningFrom(const Model& model, const Tally& tally)

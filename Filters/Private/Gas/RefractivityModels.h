@@ -24,6 +24,7 @@ enum class IndexArrays
   Density,
   Index, ///< n or N itself
   Air,   ///< temperature, pressure and humidity
+  Temperature,
   Fields
 };
 
@@ -31,9 +32,10 @@ enum class IndexArrays
 enum class IndexGases
 {
   None,
-  One,     ///< that of Gas
-  Mixture, ///< those of MixtureGases and BackgroundGas, with fractions in MixtureArrays
-  MoistAir ///< by Ciddor's equations
+  One,      ///< that of Gas
+  Mixture,  ///< those of MixtureGases and BackgroundGas, with fractions in MixtureArrays
+  MoistAir, ///< by Ciddor's equations
+  Water     ///< none, but a liquid
 };
 
 /// N = a x + b of one array; separate from the others because it can be fast.
@@ -55,8 +57,9 @@ public:
   virtual bool isDoubtful(const double* values) const = 0;
   /// Returns the warning; the fraction is a text such as "12 %".
   virtual std::string warning(const std::string& fraction) const = 0;
-  /// Returns whether the model's formulas are continued to the state from where they are known.
+  /// Returns whether the model's formulas are continued to the state from where they are known, and a sentence that says so.
   virtual bool isContinued(const double* /*values*/) const { return false; }
+  virtual std::string noteOnContinued(const std::string& /*fraction*/) const { return ""; }
 };
 
 /// Any of them.
@@ -125,7 +128,7 @@ struct Tally
 /// Returns a warning about doubtful values; empty without any.
 std::string warningFrom(const Model& model, const Tally& tally);
 
-/// Returns a sentence about the values for which the formulas of moist air are continued; empty without any.
-std::string noteOnContinued(const Tally& tally);
+/// Returns a sentence about the values for which the model's formulas are continued; empty without any.
+std::string noteOnContinued(const Model& model, const Tally& tally);
 
 } // namespace filters

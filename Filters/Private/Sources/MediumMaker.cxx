@@ -180,7 +180,8 @@ std::string MediumMaker::warningOf(
   {
     addText(warning, flow.notes);
   }
-  this->Said = { gas, found.kind, doubtful, ofShape, flow.notes, noteOnContinued(tally) };
+  this->Said = { gas, found.kind, doubtful, ofShape, flow.notes, used.IndexModel,
+    noteOnContinued(flow.model, tally) };
   return warning;
 }
 

@@ -31,6 +31,7 @@ struct SaidOfFlow
 {
   std::string Gas; ///< and arrays: for others all may be said again
   std::string Values, Doubtful, Shape, Notes;
+  int IndexModel = MediumSettings::AUTO; ///< the one chosen
   std::string Continued; ///< about formulas beyond their range: a line beside the arrays
 };
 

@@ -417,6 +417,73 @@ TEST(Ciddor, ScalesAndWavelengthCount)
     1e-14);
 }
 
+// As an index model, or as the gas of Auto beside a density, of points or cells, in degrees of a kind.
+TEST(Water, OfATemperature)
+{
+  const auto expected = [](const Vec& x)
+  { return schlieren::waterRefractivity(temperature(x), 632.8e-9); };
+  for (const auto& image : { flow(), flowInCells() })
+  {
+    for (const bool byGas : { false, true })
+    {
+      auto filter = automatic(image);
+      byGas ? filter->SetGas("water") : filter->SetIndexModel(vtkRefractiveIndex::WATER);
+      EXPECT_LT(largestError(filter, expected), 1e-14);
+      EXPECT_STREQ(filter->GetArraysUsed(), "Temperature: 'T'.");
+    }
+  }
+  auto celsiusImage = cube(4);
+  addPointArray(celsiusImage, "T (C)", [](const Vec& x) { return 20 + x[0]; });
+  auto filter = automatic(celsiusImage);
+  filter->SetGas("water");
+  filter->SetWavelength(532);
+  EXPECT_LT(
+    largestError(filter,
+      [](const Vec& x) { return schlieren::waterRefractivity(20 + celsius + x[0], 532e-9); }),
+    1e-14);
+
+  auto steam = cube(4);
+  addPointArray(steam, "T", [](const Vec& x) { return x[0] < 0 ? 300 : 500; });
+  filter = automatic(steam);
+  filter->SetGas("water");
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(complaints->Warnings.empty() && complaints->Errors.empty());
+  EXPECT_EQ(std::string(filter->GetArraysUsed())
+              .rfind("Temperature: 'T'. 50 % of the points lie outside 0 to 100 C", 0),
+    0u)
+    << filter->GetArraysUsed();
+}
+
+TEST(Water, MistakesAreOneMessageEach)
+{
+  const auto automaticOf = [](vtkDataObject* input)
+  {
+    auto filter = automatic(input);
+    filter->SetGas("water");
+    return filter;
+  };
+  const auto heal = [](vtkRefractiveIndex* filter)
+  {
+    filter->SetIndexModel(vtkRefractiveIndex::AUTO);
+    filter->SetWavelength(632.8);
+  };
+  expectOneMessage(
+    automaticOf(flow()).Get(),
+    [](vtkRefractiveIndex* filter) { filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE); },
+    { "Gas is water", "IndexModel to Water" }, heal);
+  expectOneMessage(
+    automaticOf(flow()).Get(), [](vtkRefractiveIndex* filter) { filter->SetWavelength(3000); },
+    { "Wavelength is 3000 nm", "200 and 1900 nm" }, heal);
+  auto cold = cube(4);
+  addPointArray(cold, "T", [](const Vec& x) { return 20 + x[0]; });
+  auto filter = automaticOf(cold);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_NE(complaints->Errors[0].find("'T' is not in kelvins"), std::string::npos);
+}
+
 // A line beside the arrays, and nothing to be warned of; percents of humidity are.
 TEST(Ciddor, OutsideItsRangeIsSaidBesideTheArrays)
 {
