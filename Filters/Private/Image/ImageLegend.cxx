@@ -16,6 +16,7 @@
 
 #include "Schlieren.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -80,6 +81,7 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   {
     const bool isAutomatic = choosesK(settings) && !isKept;
     notes.push_back(kInWords(image.kScale, isKept) + (isAutomatic ? " (automatic)" : ""));
+    notes.push_back(weaknessInWords(settings, image.kScale));
   }
   if (!image.backgroundDisplacement.empty())
   {
@@ -90,6 +92,7 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   {
     notes.push_back(errorInWords(image.accuracy, scene));
   }
+  notes.erase(std::remove(notes.begin(), notes.end(), ""), notes.end());
   return notes;
 }
 
