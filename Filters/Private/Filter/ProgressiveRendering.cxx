@@ -193,6 +193,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     this->Inside->Done = fraction;
     if (!(this->TimeLimit > 0)) // else it would flicker
     {
+      this->SetProgressText("tracing light");
       this->UpdateProgress(mediumFraction + (1 - mediumFraction) * fraction);
     }
   };
