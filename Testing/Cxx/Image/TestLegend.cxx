@@ -213,6 +213,12 @@ TEST(Legend, ShowsLightOfAShadowgraphAndNothingOfAPattern)
               2),
     1);
   EXPECT_EQ(legendText(filter, "LegendLabel"), "light (undisturbed: 1)");
+  filter->SetLengthScale(1e-2); // the cube's depth is 2
+  filter->Update();
+  EXPECT_EQ(legendText(filter, "LegendNotes"), "screen 20 mm behind the data (one depth)");
+  filter->SetScreenDistance(0.5);
+  filter->Update();
+  EXPECT_EQ(legendText(filter, "LegendNotes"), "screen 5 mm behind the data");
   filter->SetCutoff(vtkSchlierenFilter::BACKGROUND_ORIENTED);
   filter->Update();
   EXPECT_EQ(legendText(filter, "LegendTitle"), "Background Oriented");
