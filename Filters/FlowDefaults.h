@@ -143,6 +143,7 @@ struct FlowInUse
   /// The densities, or for moist air temperature and pressure, with the ranges in use.
   std::vector<FlowArray> arrays;
   std::vector<double> scales; ///< factors to SI units
+  double zero = 0;            ///< of the temperature's unit, K
   bool isScaleGiven = false;  ///< by the user or by a unit
   double constant = 2.26e-4;  ///< Gladstone-Dale constant of the gas, m^3/kg
   bool isConstant = false;    ///< whether all arrays are the same everywhere, up to rounding

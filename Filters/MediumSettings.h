@@ -55,7 +55,8 @@ struct MediumSettings
     REFRACTIVITY = 2,
     GLADSTONE_DALE_MIXTURE = 3,
     CIDDOR = 4,
-    TRANSFER_FUNCTIONS = 5
+    TRANSFER_FUNCTIONS = 5,
+    WATER = 6
   };
 
   // end

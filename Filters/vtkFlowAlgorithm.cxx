@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFlowAlgorithm.h"
 
+#include "Common/Sentences.h"
 #include "Gas/GasChoices.h"
 #include "Sources/MediumMaker.h"
 #include "Walls/GasBoundary.h"
@@ -73,7 +74,12 @@ vtkTypeInt64 vtkFlowAlgorithm::GetMeshBuilds() { return this->Maker->mesh()->bui
 
 const char* vtkFlowAlgorithm::GetArraysUsed()
 {
-  this->ArraysUsed = this->GetMaker().choice().message;
+  const MediumMaker& maker = this->GetMaker();
+  const MediumChoice choice = maker.choice();
+  this->ArraysUsed = choice.message;
+  addText(this->ArraysUsed, noteOnGases(choice.settings));
+  addText(this->ArraysUsed,
+    maker.said().IndexModel == choice.settings.IndexModel ? maker.said().Continued : "");
   return this->ArraysUsed.c_str();
 }
 

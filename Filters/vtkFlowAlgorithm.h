@@ -72,11 +72,12 @@ public:
     REFRACTIVITY = 2,
     GLADSTONE_DALE_MIXTURE = 3,
     CIDDOR = 4,
-    TRANSFER_FUNCTIONS = 5
+    TRANSFER_FUNCTIONS = 5,
+    WATER = 6
   };
 
   /// How the refractivity N = n - 1 is found. Default: Auto.
-  vtkSetClampMacro(IndexModel, int, AUTO, TRANSFER_FUNCTIONS);
+  vtkSetClampMacro(IndexModel, int, AUTO, WATER);
   vtkGetMacro(IndexModel, int);
 
   /// The gas whose Gladstone-Dale constant at Wavelength is used, by name or, in scripts, by

@@ -197,6 +197,7 @@ MediumMaker& vtkSchlierenFilter::GetMaker()
 
 bool vtkSchlierenFilter::ReportMedium(double done)
 {
+  this->SetProgressText("computing the refractive index"); // ParaView's bar says it
   this->UpdateProgress(mediumFraction * done);
   return !this->GetAbortExecute();
 }

@@ -540,7 +540,7 @@ public:
   /// - BACKGROUND_ORIENTED: a camera's image of a pattern behind the flow;
   /// - NUMERICAL_SCHLIEREN: exp(-5 k |eps|), common for computed flows, but no stop of a bench;
   /// - PHASE_CONTRAST: 1 + 2 phi of a small phase phi, by a plate (PhasePlateDelay) that the
-  ///   undisturbed light passes; of waves alone, see LightModel.
+  ///   undisturbed light passes; of waves alone.
   virtual void SetCutoff(int cutoff);
   vtkGetMacro(Cutoff, int);
   ///@}

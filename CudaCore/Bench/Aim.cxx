@@ -10,6 +10,14 @@
 namespace schlieren
 {
 
+namespace
+{
+
+/// Of an image's progress, where the first rays end that are shown, and the search for settings.
+constexpr double progressOfFirst = 0.3, progressOfSearch = 0.4;
+
+} // namespace
+
 template <class Real>
 bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
 {
@@ -17,6 +25,8 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   Scene& scene = ofImage.scene;
   UnfinishedImage request(field, scene);
   request.device = ofImage.device;
+  request.progressFrom = ofImage.isShown ? progressOfFirst : 0;
+  request.progressTo = progressOfSearch;
   MediumInUse<Real> inUse(media, field, clearedFor(request));
   const std::optional<ViewSetup<Real>> view = setUp(inUse, request, watch);
   if (!view)
@@ -62,6 +72,7 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   ofImage.request = std::make_unique<UnfinishedImage>(field, accurate);
   ofImage.request->device = ofImage.device;
   ofImage.request->deviceNote = ofImage.deviceNote;
+  ofImage.request->progressFrom = progressOfSearch;
   ofImage.request->accuracy = chosen.accuracy;
   return true;
 }
@@ -125,6 +136,7 @@ Image Bench::Stages::renderFirst(const Monitor& monitor)
     request = std::make_unique<UnfinishedImage>(ofImage.field, first);
     request->device = ofImage.device;
     request->deviceNote = ofImage.deviceNote;
+    request->progressTo = progressOfFirst;
   }
   Image image = render(std::move(request), monitor);
   if (!image.aborted)

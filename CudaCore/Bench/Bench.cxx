@@ -35,7 +35,7 @@ Monitor monitorOfVoxels(UnfinishedImage& request, const Monitor& monitor)
     ofTree.progress = [&request, &monitor](double fraction)
     {
       request.progressOfVoxels = fractionOfVoxels;
-      monitor.progress(fractionOfVoxels * fraction);
+      monitor.progress(request.progressAt(fractionOfVoxels * fraction));
     };
   }
   return ofTree;

@@ -35,9 +35,16 @@ struct UnfinishedImage
   double momentumDrift = 0;
   double traceSeconds = 0;
   double progressOfVoxels =
-    0;                    ///< of the image's progress, what making the medium's voxels has taken
-  std::int64_t shown = 0; ///< passes of the last image that was handed out
-  bool hasBeenSilent = false; ///< the last call handed none out
+    0; ///< of the image's progress, what making the medium's voxels has taken
+  double progressFrom = 0, progressTo = 1; ///< of the progress that is reported, this image's
+  std::int64_t shown = 0;                  ///< passes of the last image that was handed out
+  bool hasBeenSilent = false;              ///< the last call handed none out
+
+  /// Returns the progress to report of a fraction of this image.
+  double progressAt(double fraction) const
+  {
+    return progressFrom + (progressTo - progressFrom) * fraction;
+  }
 
   /// Discards the passes of a medium that has changed since.
   void beginAnew()

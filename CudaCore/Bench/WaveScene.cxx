@@ -35,6 +35,18 @@ bool isOfWaves(Cutoff cutoff)
 
 } // namespace
 
+std::string thatWaves(const Scene& scene)
+{
+  return scene.cutoff == Cutoff::PhaseContrast ? "Cutoff is Phase Contrast, which is of waves"
+                                               : "LightModel is Waves";
+}
+
+std::string orRays(const Scene& scene)
+{
+  return scene.cutoff == Cutoff::PhaseContrast ? " or Cutoff to another technique."
+                                               : " or LightModel to Rays.";
+}
+
 LightSource sourceOfWaves(const Scene& scene)
 {
   return scene.cutoff == Cutoff::KnifeEdge ? LightSource{} : scene.source;
@@ -45,27 +57,27 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
   if (!isOfWaves(scene.cutoff))
   {
     return std::string("LightModel is Waves, but Cutoff is ") + techniqueOf(scene.cutoff).name +
-      ", of which no waves are made. Set Cutoff to another technique," + orRays;
+      ", of which no waves are made. Set Cutoff to another technique," + orRays(scene);
   }
   if (techniqueOf(scene.cutoff).hasFringes && scene.fringes.whiteLight)
   {
     return std::string("LightModel is Waves, but white light has too many wavelengths. Set "
                        "WhiteLight to off and Bandwidth "
                        "to what there is,") +
-      orRays;
+      orRays(scene);
   }
   const bool isDiverging = frame.pupil > 0 || scene.source.distance;
   const bool isPlain =
     scene.cutoff == Cutoff::Shadowgraph && scene.source.shape == SourceShape::Point;
   if (isDiverging && (!isPlain || largestSlope(scene, frame) > largestSlopeOfWaves))
   {
-    return "LightModel is Waves, but light diverges by up to " +
+    return thatWaves(scene) + ", but light diverges by up to " +
       textOf(largestSlope(scene, frame)) +
       ", and waves take parallel light, or of a Shadowgraph with a point source light that "
       "diverges by no more than 0.1. Set " +
       (frame.pupil > 0 ? "ViewAngle to less (0 is parallel light),"
                        : "SourceDistance to more, or to 0 for collimated light,") +
-      orRays;
+      orRays(scene);
   }
   if (!(scene.wavelength > 0 && std::isfinite(scene.wavelength) &&
         std::isfinite(1 / scene.wavelength)))
@@ -89,16 +101,16 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
   }
   if (scene.pathModel == PathModel::Straight)
   {
-    return std::string("LightModel is Waves, but PathModel is Straight, and straight rays lack the "
-                       "length of bent "
-                       "paths. Set PathModel to Refracted,") +
-      orRays;
+    return thatWaves(scene) +
+      ", but PathModel is Straight, and straight rays lack the length of bent paths. Set PathModel "
+      "to Refracted," +
+      orRays(scene);
   }
   if (field.gradients.count > 0)
   {
-    return std::string("LightModel is Waves, but the image is tinted by fields, which colour rays. "
-                       "Set ColorByField to off,") +
-      orRays;
+    return thatWaves(scene) +
+      ", but the image is tinted by fields, which colour rays. Set ColorByField to off," +
+      orRays(scene);
   }
   return "";
 }

@@ -13,8 +13,10 @@
 namespace schlieren
 {
 
-/// The end of messages about waves.
-constexpr const char* orRays = " or LightModel to Rays.";
+/// The beginning of messages about waves.
+std::string thatWaves(const Scene& scene);
+/// Their end: what else can be done.
+std::string orRays(const Scene& scene);
 
 /// A knife edge's source is as wide as k says.
 LightSource sourceOfWaves(const Scene& scene);

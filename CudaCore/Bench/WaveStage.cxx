@@ -116,12 +116,10 @@ bool WaveStage<Real>::areWanted(Image& image) const
   std::string problem = problemOfWaves(request_.field, scene, frame_);
   if (problem.empty() && faces_.ratio != 1 && (frame_.pupil > 0 || scene.source.distance))
   {
-    problem =
-      std::string(
-        "LightModel is Waves, but light diverges and is refracted where it leaves the data, as "
-        "through a "
-        "window. Set ViewAngle and SourceDistance to 0, ExitInto to Surroundings,") +
-      orRays;
+    problem = thatWaves(scene) +
+      ", but light diverges and is refracted where it leaves the data, as through a "
+      "window. Set ViewAngle and SourceDistance to 0, ExitInto to Surroundings," +
+      orRays(scene);
   }
   const bool isOfWavesAlone = scene.cutoff == Cutoff::PhaseContrast;
   if (!problem.empty() && (isOfWavesAlone || scene.lightModel == LightModel::Waves))
@@ -216,7 +214,7 @@ const TracedPass* WaveStage<Real>::tracePass(
 }
 
 /// Before they are traced.
-void requireMemory(const Pass& pass, const Screen& screen)
+void requireMemory(const Pass& pass, const Screen& screen, const Scene& scene)
 {
   constexpr double bytesPerRay = sizeof(RayExit) + 5 * sizeof(double) + sizeof(float) + 1;
   constexpr double mebibyte = 1 << 20;
@@ -231,7 +229,7 @@ void requireMemory(const Pass& pass, const Screen& screen)
          << " MiB may be used: light from eight times sqrt(wavelength distance) around the image "
             "reaches it. "
             "Set ScreenDistance or ImageSize to less, use a machine with more free memory,"
-         << orRays;
+         << orRays(scene);
     throw Error(text.str());
   }
 }
@@ -255,7 +253,7 @@ bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
   const std::int64_t around = rays_.margin() - rays_.margin() % screen.raysPerPixel;
   Pass pass{ -around, -around, scene.view.width + 2 * around, scene.view.height + 2 * around,
     { 0, 0 } };
-  requireMemory(pass, screen);
+  requireMemory(pass, screen, request_.scene);
   if (screen.pointSource)
   {
     const double first = static_cast<double>(-around);

@@ -37,8 +37,8 @@ constexpr int opacityOfPanel = 235;
 
 // Fractions of a view's sides and area that the panel may cover.
 constexpr float largestSide = 0.6f;
-constexpr float largestArea = 0.25f;
-constexpr int smallestFont = 8; // points, that are still legible
+constexpr float largestArea = 0.12f, largestOfLeast = 0.25f; // with all texts, with the least
+constexpr int smallestFont = 8;                              // pixels, that are still legible
 
 std::string textOf(double value)
 {
@@ -236,13 +236,16 @@ bool LegendPanel::Fit(vtkContext2D* painter, Layout& layout)
 {
   const auto room = static_cast<float>(this->GetScene()->GetSceneWidth());
   const auto rise = static_cast<float>(this->GetScene()->GetSceneHeight());
+  const int smallest =
+    std::min(this->FontSize, (smallestFont + this->PixelsPerPoint - 1) / this->PixelsPerPoint);
   layout.Notes = this->Notes.size();
   layout.HasRuler = this->MetresPerPixel > 0;
   layout.Side = this->HasPlane() ? sideOfPlane : heightOfScale;
   while (true)
   {
-    for (this->Points = this->FontSize; this->Points >= std::min(this->FontSize, smallestFont);
-         --this->Points)
+    const bool isLeast = layout.Notes == 0 && !layout.HasRuler && layout.Side != sideOfPlane;
+    const float largest = isLeast ? largestOfLeast : largestArea;
+    for (this->Points = this->FontSize; this->Points >= smallest; --this->Points)
     {
       this->UseText(painter, VTK_TEXT_LEFT);
       layout.Font = this->HeightOfFont(painter);
@@ -250,7 +253,7 @@ bool LegendPanel::Fit(vtkContext2D* painter, Layout& layout)
       layout.Height = this->HeightOf(layout);
       const float width = layout.Width * layout.Font / room,
                   height = layout.Height * layout.Font / rise;
-      if (std::max(width, height) <= largestSide && width * height <= largestArea)
+      if (std::max(width, height) <= largestSide && width * height <= largest)
       {
         return true;
       }
@@ -333,6 +336,11 @@ void LegendPanel::DrawHead(const Pencil& pencil, float bottom) const
 void LegendPanel::DrawScale(const Pencil& pencil, float bottom, float side) const
 {
   const float across = this->HasPlane() ? side : widthOfScale;
+  // A frame, as one end of the scale may be as dark as the panel.
+  pencil.To->GetBrush()->SetColor(128, 128, 128, 255);
+  pencil.To->GetPen()->SetLineType(vtkPen::NO_PEN);
+  pencil.To->DrawRect(pencil.x(0) - 1, pencil.y(bottom + lineHeight) - 1,
+    across * pencil.Height + 2, side * pencil.Height + 2);
   pencil.To->DrawImage(vtkRectf(pencil.x(0), pencil.y(bottom + lineHeight), across * pencil.Height,
                          side * pencil.Height),
     this->Colors);

@@ -24,6 +24,7 @@ public:
   int Corner = 1;            ///< of vtkSchlierenLegend::Corners
   int FontSize = 10;         // at most
   double MetresPerPixel = 0; // of the view; 0: unknown
+  int PixelsPerPoint = 1;    // more in a screenshot that is larger than its view
 
   std::string Title, Label, Unit;
   std::vector<std::string> Notes;

@@ -13,10 +13,12 @@
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -136,5 +138,9 @@ int vtkSchlierenLegend::RenderOverlay(vtkViewport* viewport)
   }
   const vtkSchlierenActor::View view = vtkSchlierenActor::ViewOf(renderer);
   this->Shown->MetresPerPixel = this->Shown->MetresPerUnit * 2 * view.ParallelScale / view.Size[1];
+  constexpr int dpiOfViews = 72;
+  vtkRenderWindow* window = renderer->GetRenderWindow();
+  this->Shown->PixelsPerPoint =
+    std::max(1, window->GetTileScale()[1] * window->GetDPI() / dpiOfViews);
   return this->Superclass::RenderOverlay(viewport);
 }

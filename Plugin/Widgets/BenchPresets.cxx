@@ -74,9 +74,7 @@ const std::vector<BenchPreset>& benchPresets()
         { "FringeAngle", 90, nullptr } }),
     preset("Interferogram, white light",
       { { "Cutoff", Filter::INTERFEROGRAM, nullptr }, { "WhiteLight", 1, nullptr } }),
-    preset("Phase Contrast, laser",
-      { { "Cutoff", Filter::PHASE_CONTRAST, nullptr },
-        { "LightModel", Filter::LIGHT_WAVES, nullptr } }),
+    preset("Phase Contrast, laser", { { "Cutoff", Filter::PHASE_CONTRAST, nullptr } }),
     preset("Background Oriented, dots", { { "Cutoff", Filter::BACKGROUND_ORIENTED, nullptr } }),
   };
   return presets;

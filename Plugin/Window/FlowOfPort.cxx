@@ -94,10 +94,26 @@ std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const ch
   return { range[0], range[1] };
 }
 
-FlowDefaults completed(const std::vector<FlowArray>& arrays, Completion completion)
+FlowDefaults completed(const std::vector<FlowArray>& arrays, const Completion& completion)
 {
-  switch (completion)
+  switch (completion.kind)
   {
+    case Completion::Water:
+      return flowDefaults(arrays, MediumSettings::WATER);
+    case Completion::Density:
+    {
+      FlowDefaults defaults;
+      for (const FlowArray& array : arrays)
+      {
+        if (array.name == completion.array && defaults.arrays.empty())
+        {
+          defaults.arrays = { { "Density", array.name } };
+          defaults.association = array.association;
+          defaults.message = "Density: '" + array.name + "', as chosen.";
+        }
+      }
+      return defaults;
+    }
     case Completion::UniformPressure:
       return flowDefaultsAt(arrays, pressureOfRoom);
     case Completion::Isentropic:
@@ -110,7 +126,7 @@ FlowDefaults completed(const std::vector<FlowArray>& arrays, Completion completi
 
 Completion offerFor(const std::vector<FlowArray>& arrays)
 {
-  for (const Completion completion : { Completion::UniformPressure, Completion::Isentropic })
+  for (const Completion::Kind completion : { Completion::UniformPressure, Completion::Isentropic })
   {
     if (!completed(arrays, completion).arrays.empty())
     {

@@ -8,6 +8,10 @@
 
 #include <QString>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 class pqOutputPort;
 class pqPipelineSource;
 class pqServer;
@@ -29,16 +33,32 @@ std::vector<FlowArray> arraysOfFlow(pqOutputPort* port);
 std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name);
 
 /// What completes a flow without a density: nothing, the pressure of a room for a temperature, or for a pressure the
-/// temperature of isentropic air that was at rest in a room.
-enum class Completion
+/// temperature of isentropic air that was at rest in a room; that it is water, of a temperature; or an array that the user takes
+/// for the density.
+struct Completion
 {
-  None,
-  UniformPressure,
-  Isentropic
+  enum Kind
+  {
+    None,
+    UniformPressure,
+    Isentropic,
+    Water,
+    Density
+  };
+
+  Completion(Kind of, std::string name = "") // NOLINT: each kind is one
+    : kind(of)
+    , array(std::move(name))
+  {
+  }
+  operator Kind() const { return this->kind; } // NOLINT
+
+  Kind kind;
+  std::string array; ///< of a Density
 };
 
 /// Chooses defaults of completed arrays.
-FlowDefaults completed(const std::vector<FlowArray>& arrays, Completion completion);
+FlowDefaults completed(const std::vector<FlowArray>& arrays, const Completion& completion);
 
 /// Returns what completes arrays of which flowDefaults() chooses none.
 Completion offerFor(const std::vector<FlowArray>& arrays);

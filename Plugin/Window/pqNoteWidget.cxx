@@ -38,6 +38,7 @@ pqNoteWidget::pqNoteWidget(vtkSMProxy* smProxy, vtkSMProperty* smProperty, QWidg
     // Updates after the filter, unlike ParaView, which updates before, with the output's extent.
     QObject::connect(source, QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), this,
       &pqNoteWidget::refresh);
+    QObject::connect(source, &pqProxy::modifiedStateChanged, this, &pqNoteWidget::showText);
   }
   else // a filter inside of a representation
   {
@@ -66,10 +67,20 @@ void pqNoteWidget::changeEvent(QEvent* event)
   pqPropertyWidget::changeEvent(event);
 }
 
-void pqNoteWidget::refresh() { this->proxy()->UpdatePropertyInformation(this->property()); }
+void pqNoteWidget::refresh()
+{
+  this->proxy()->UpdatePropertyInformation(this->property());
+  this->showText(); // also of what stays empty
+}
 
 void pqNoteWidget::showText()
 {
   const QString text = QString::fromUtf8(vtkSMPropertyHelper(this->property(), true).GetAsString());
-  this->Label->setText(text.isEmpty() ? tr("known after Apply") : text);
+  const auto* source =
+    pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(
+      this->proxy());
+  const bool isToApply = source && source->modifiedState() == pqProxy::UNINITIALIZED;
+  this->Label->setText(!text.isEmpty() ? text
+      : isToApply                      ? tr("known after Apply")
+                                       : tr("known with the image"));
 }

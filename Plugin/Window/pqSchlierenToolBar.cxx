@@ -12,6 +12,7 @@
 #include "pqImageStatus.h"
 #include "pqInterfaceTracker.h"
 #include "pqMultiViewWidget.h"
+#include "pqOutputPort.h"
 #include "pqSettings.h"
 #include "pqViewFrame.h"
 #include "vtkOutputWindow.h"
@@ -27,6 +28,8 @@
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTimer>
+
+#include <utility>
 
 pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
   : QToolBar("Schlieren", parentObject)
@@ -174,22 +177,65 @@ void pqSchlierenToolBar::add(
   SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell, Completion completion)
 {
   const SchlierenViews::Result result = SchlierenViews::add(arrangement, cell, completion);
-  delete this->Offer;
-  if (result.offer != Completion::None)
+  for (QPushButton* before : std::exchange(this->Offers, {}))
   {
-    const bool isPressure = result.offer == Completion::UniformPressure;
-    this->Offer = new QPushButton(isPressure ? QString("Air at %1 Pa").arg(pressureOfRoom)
-                                             : QString("Isentropic air, at rest %1 K and %2 Pa")
-                                                 .arg(temperatureOfRoom)
-                                                 .arg(pressureOfRoom));
-    this->Offer->setObjectName(isPressure ? "UniformPressure" : "Isentropic");
-    this->message()->addButton(this->Offer, QMessageBox::AcceptRole);
-    QObject::connect(
-      this->Offer, &QPushButton::clicked, this,
-      [this, arrangement, cell, offer = result.offer]() { this->add(arrangement, cell, offer); },
-      Qt::QueuedConnection); // the button is deleted
+    delete before;
+  }
+  // Queued, because buttons are deleted.
+  const auto takes = [this, arrangement, cell](const Completion& chosen)
+  { return [this, arrangement, cell, chosen]() { this->add(arrangement, cell, chosen); }; };
+  if (result.offer == Completion::UniformPressure)
+  {
+    QObject::connect(this->offer("UniformPressure", QString("Air at %1 Pa").arg(pressureOfRoom)),
+      &QPushButton::clicked, this, takes(result.offer), Qt::QueuedConnection);
+    QObject::connect(this->offer("Water", "Water"), &QPushButton::clicked, this,
+      takes(Completion::Water), Qt::QueuedConnection);
+  }
+  else if (result.offer == Completion::Isentropic)
+  {
+    QObject::connect(this->offer("Isentropic",
+                       QString("Isentropic air, at rest %1 K and %2 Pa")
+                         .arg(temperatureOfRoom)
+                         .arg(pressureOfRoom)),
+      &QPushButton::clicked, this, takes(result.offer), Qt::QueuedConnection);
+  }
+  pqOutputPort* port = pqActiveObjects::instance().activePort();
+  if (!result.isMade && port && problemOfServer(port->getServer()).isEmpty() &&
+    problemOfFlow(port).isEmpty())
+  {
+    auto* menu = new QMenu;
+    menu->setObjectName("Arrays");
+    for (const FlowArray& array : arraysOfFlow(port))
+    {
+      if (array.components == 1)
+      {
+        QAction* action = menu->addAction(QString::fromStdString(array.name));
+        QObject::connect(action, &QAction::triggered, this->message(), &QMessageBox::hide);
+        QObject::connect(action, &QAction::triggered, this,
+          takes(Completion(Completion::Density, array.name)), Qt::QueuedConnection);
+      }
+    }
+    if (!menu->isEmpty())
+    {
+      QPushButton* arrays = this->offer("Density", "Density");
+      arrays->setMenu(menu);
+      menu->setParent(arrays, menu->windowFlags());
+    }
+    else
+    {
+      delete menu;
+    }
   }
   this->showResult(result);
+}
+
+QPushButton* pqSchlierenToolBar::offer(const char* name, const QString& text)
+{
+  auto* button = new QPushButton(text);
+  button->setObjectName(name);
+  this->message()->addButton(button, QMessageBox::AcceptRole);
+  this->Offers << button;
+  return button;
 }
 
 QMessageBox* pqSchlierenToolBar::message()

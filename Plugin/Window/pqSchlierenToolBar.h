@@ -39,11 +39,13 @@ private:
   /// Makes views, or shows why not and offers what completes the flow.
   void add(SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell = {},
     Completion completion = Completion::None);
+  /// Returns a button of the message.
+  QPushButton* offer(const char* name, const QString& text);
   void showExample();
   void showResult(const SchlierenViews::Result& result);
   QMessageBox* message();
 
   QList<QAction*> Arrangements;
   QPointer<QMessageBox> Message;
-  QPointer<QPushButton> Offer; ///< in Message
+  QList<QPointer<QPushButton>> Offers; ///< in Message
 };

@@ -23,14 +23,14 @@ SaveData("wing.cgns", proxy=original)
 
 with open(os.path.join(SOURCE, "Documentation", "density.md"), encoding="utf-8") as file:
     snippets = re.findall(r"^```python\n(.*?)^```", file.read(), re.DOTALL | re.MULTILINE)
-assert len(snippets) == 8, f"There are {len(snippets)} snippets: check the new ones below, too"
+assert len(snippets) == 9, f"There are {len(snippets)} snippets: check the new ones below, too"
 names, benches = {}, []
 for snippet in snippets:
     names.pop("schlieren", None)
     exec(compile(snippet, "density.md", "exec"), names)
     if "schlieren" in names:
         benches.append(names["schlieren"])
-assert len(benches) == 5
+assert len(benches) == 6
 
 
 def arrays(proxy, *wanted, of="POINTS"):
@@ -93,3 +93,9 @@ for bench in benches:
     bench.ImageSize = [32, 32]
     bench.Outside = "Passes"
     assert np.ptp(image_array(bench, "OpticalPathDifference")) > 0
+
+# Water by its temperature is water by its index.
+by_name = next(bench for bench in benches if bench.Gas == "water")
+by_index = next(bench for bench in benches if bench.Input == names["water"])
+paths = [image_array(bench, "OpticalPathDifference") for bench in (by_name, by_index)]
+assert np.abs(paths[0] - paths[1]).max() < 0.01 * np.ptp(paths[1])

@@ -46,6 +46,31 @@ take_offer("UniformPressure", '("Ciddor", ["POINTS", "T"], 101325)',
            "bench.IndexModel, list(bench.Temperature), bench.UniformPressure", 0.2)
 user.undo()
 
+# Or it is water, whose index is that of its temperature.
+take_offer("Water", '("Water", ["POINTS", "T"])', "bench.IndexModel, list(bench.Temperature)", 0.2)
+user.undo()
+
+# Or one of the arrays is the density, whatever it is called.
+user.python("""
+odd = PassArrays(Input=Calculator(Input=Wavelet(), ResultArrayName="a17", Function="1 + 1e-4*RTData"), PointDataArrays=["a17"],
+                 registrationName="odd")
+odd.UpdatePipeline()
+SetActiveSource(odd)
+""")
+user.press("OneImage")
+user.python("""
+message = widget("SchlierenMessage")
+(action,) = message.findChild(QtWidgets.QMenu, "Arrays").actions()
+assert action.text() == "a17", action.text()
+action.trigger()
+until(lambda: displays())
+settle_views()
+(display,) = displays()
+assert (display.SchlierenBench.IndexModel, list(display.SchlierenBench.Density)) == ("Gladstone-Dale", ["POINTS", "a17"])
+assert not message.isVisible()
+""")
+user.undo()
+
 # Where only a pressure is there, isentropic air that was at rest in a room.
 user.python("""
 sound = PassArrays(Input=Calculator(Input=Wavelet(), ResultArrayName="Pressure", Function="1e5 + 10*RTData"),

@@ -61,12 +61,17 @@ display.SetRepresentationType("Outline")
 ResetCamera(view)
 SetActiveSource(flow)
 Render(view)
-inside_window.END = click_during(display.SchlierenBench.GetClientSideObject(), 0.05, abort)
+made = display.SchlierenBench.GetClientSideObject()
+inside_window.END = click_during(made, 0.05, abort)
+inside_window.SAID = []
+made.AddObserver("ProgressEvent", lambda *_: inside_window.SAID.extend(
+    label.text() for label in abort.parentWidget().findChildren(QtWidgets.QLabel)))
 """)
 user.event(BOX, "set_string", "Schlieren")
 user.python("""
 import inside_window
 inside_window.END()
+assert any("computing the refractive index" in text for text in inside_window.SAID), set(inside_window.SAID)
 abort = widget("AbortButton")
 view, display = GetActiveView(), GetDisplayProperties(FindSource("flow"), GetActiveView())
 bench = display.SchlierenBench

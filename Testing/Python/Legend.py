@@ -53,12 +53,12 @@ for corner, sides in (("Lower Left", (0, 2)), ("Upper Left", (0, 3)), ("Upper Ri
         assert abs(there[side] - side % 2) < 0.05, (corner, there)
     assert np.allclose(there[1] - there[0], box[1] - box[0], atol=0.01), (corner, there)
 display.SchlierenLegendCorner = "Lower Right"
-display.SchlierenLegendFontSize = 7
+display.SchlierenLegendFontSize = 5
 small = box_of(pixels_of(view, SIZE), without)
 assert 0.55 < (small[1] - small[0]) / (box[1] - box[0]) < 0.85, (small, box)
 display.SchlierenLegendFontSize = 10
 
-# In a smaller view it has a smaller font, and covers a quarter at most; less of it is shown where that does not suffice.
+# In a smaller view it has a smaller font, and without its last lines covers a quarter at most.
 heights = [(box[3] - box[2]) * SIZE[1]]
 for size in (300, 200), (280, 170):
     view.ViewSize = list(size)
@@ -81,9 +81,14 @@ view.ViewSize = list(SIZE)
 # A screenshot twice as large, and one that is drawn in tiles, have it at the same place, as large.
 double = (2 * SIZE[0], 2 * SIZE[1])
 large = pixels_of(view, double)
+wide = pixels_of(view, (1280, 720))
 display.SchlierenLegend = 0
 largeWithout = pixels_of(view, double)
 assert np.allclose(box_of(large, largeWithout), box, atol=0.03), (box_of(large, largeWithout), box)
+
+# However much larger than its view a screenshot is, the legend covers 12 % at most, and has all of its lines.
+left, right, bottom, top = box_of(wide, pixels_of(view, (1280, 720)))
+assert 0.08 < (right - left) * (top - bottom) <= 0.12, (left, right, bottom, top)
 
 
 def in_tiles(name):

@@ -84,8 +84,8 @@ for shown, names in (
         (WITH_K | WITH_FRINGES, "Sensitivity"),
         (WITH_EDGE, "KnifeEdgeAngle CutoffOffset CutoffPosition"),
         (WITH_EDGE | {vtkSchlierenFilter.PHASE_CONTRAST}, "InvertCutoff"),
-        ({vtkSchlierenFilter.PHASE_CONTRAST}, "PhasePlateDiameter PhasePlateDelay PhasePlateTransmission"),
-        (WITH_FRINGES, "Wavelength FringeSpacing WhiteLight"), (WITH_FRINGES | WITH_BACKGROUND, "FringeAngle"),
+        ({vtkSchlierenFilter.PHASE_CONTRAST}, "PhasePlateDiameter PhasePlateDelay PhasePlateTransmission Bandwidth"),
+        (WITH_FRINGES | {vtkSchlierenFilter.PHASE_CONTRAST}, "Wavelength"), (WITH_FRINGES, "FringeSpacing WhiteLight"), (WITH_FRINGES | WITH_BACKGROUND, "FringeAngle"),
         (WITH_SCREEN, "ScreenDistance"), (set(CUTOFFS.values()) - WITH_SCREEN, "FocusOffset"),
         (WITH_BACKGROUND, "BackgroundPattern BackgroundDistance BackgroundPeriod BackgroundImage"),
         ({vtkSchlierenFilter.GRADED_FILTER}, "GradedFilter"), ({vtkSchlierenFilter.COLOR_FILTER}, "ColorFilterImage")):

@@ -103,7 +103,17 @@ phase = np.exp(2j * math.pi * image_array(column, "OpticalPathDifference") / WAV
 truth = np.abs(math.sqrt(0.1) * np.exp(-0.5j * math.pi) + phase - 1)**2
 assert np.ptp(truth) > 0.5 and np.sqrt(np.mean((seen - truth)**2)) < 1e-2, np.sqrt(np.mean((seen - truth)**2))
 
+# It is of waves whatever LightModel says, as they alone have phases.
+for model in ("Rays", "Auto"):
+    column.LightModel = model
+    assert np.array_equal(image_array(column, "Intensity"), seen), model
+    assert "waves: " in status_of(column), status_of(column)
+
 # A preview has no waves, and says so.
+column.LightModel = "Rays"
+column.GetClientSideObject().SetPreviewReduction(4)
+output(column)
+assert status_of(column).startswith("Preview: rays as yet, "), status_of(column)
 column.LightModel = "Waves"
 column.Cutoff = "Interferogram"
 column.GetClientSideObject().SetPreviewReduction(4)
@@ -116,9 +126,9 @@ flow = Schlieren(Input=gaussian_column(16), Density=["POINTS", "rho"], ImageSize
                 Cutoff="Color Filter")
 for settings, words in (({}, "Cutoff to another technique"),
                         ({"Cutoff": "Interferogram", "WhiteLight": 1}, "WhiteLight to off"),
-                        ({"Cutoff": "Phase Contrast", "LightModel": "Rays"}, "LightModel to Waves"),
-                        ({"LightModel": "Waves", "ViewAngle": 30}, "ViewAngle to less"),
-                        ({"Cutoff": "Shadowgraph", "ViewAngle": 30}, "ViewAngle to less"),
+                        ({"Cutoff": "Phase Contrast", "LightModel": "Rays", "ViewAngle": 30},
+                         "ViewAngle to less (0 is parallel light), or Cutoff"),
+                        ({"Cutoff": "Shadowgraph", "LightModel": "Waves"}, "ViewAngle to less"),
                         ({"ViewAngle": 0, "PathModel": "Straight"}, "PathModel to Refracted"),
                         ({"PathModel": "Refracted", "LengthScale": 1e5}, "MiB may be used")):
     for key, value in settings.items():

@@ -302,4 +302,53 @@ double ciddorRefractivity(double temperatureKelvin, double pressurePascal, doubl
     .refractivity(temperatureKelvin, pressurePascal, relativeHumidity);
 }
 
+namespace
+{
+
+constexpr double boiling = 373.15; // at 101325 Pa, K
+
+/// Kell 1975, eq. 16: kg/m^3 at 101325 Pa of t in C.
+double densityOfWater(double t)
+{
+  return (999.83952 +
+           t *
+             (16.945176 +
+               t *
+                 (-7.9870401e-3 + t * (-46.170461e-6 + t * (105.56302e-9 + t * -280.54253e-12))))) /
+    (1 + 16.879850e-3 * t);
+}
+
+} // namespace
+
+bool isLiquidWater(double temperatureKelvin)
+{
+  return temperatureKelvin >= freezing && temperatureKelvin <= boiling;
+}
+
+bool isWithinWaterWavelengths(double wavelengthMetres)
+{
+  return wavelengthMetres >= 0.2 * micrometre && wavelengthMetres <= 1.9 * micrometre;
+}
+
+double waterRefractivity(double temperatureKelvin, double wavelengthMetres)
+{
+  if (!(temperatureKelvin > 0) || !isWavelength(wavelengthMetres))
+  {
+    return notANumber;
+  }
+  const double kelvins = std::clamp(temperatureKelvin, freezing, boiling);
+  const double density = densityOfWater(kelvins - freezing) / 1000;
+  const double temperature = kelvins / 273.15;
+  const double wavelength = wavelengthMetres / (0.589 * micrometre),
+               square = wavelength * wavelength;
+  constexpr double ultraviolet = 0.2292020, infrared = 5.432937;
+  // (n^2 - 1) / (n^2 + 2)
+  const double refraction = density *
+    (0.244257733 + 9.74634476e-3 * density - 3.73234996e-3 * temperature +
+      2.68678472e-4 * square * temperature + 1.58920570e-3 / square +
+      2.45934259e-3 / (square - ultraviolet * ultraviolet) +
+      0.900704920 / (square - infrared * infrared) - 1.66626219e-2 * density * density);
+  return std::sqrt((2 * refraction + 1) / (1 - refraction)) - 1;
+}
+
 } // namespace schlieren

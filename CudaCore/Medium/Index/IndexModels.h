@@ -159,6 +159,21 @@ struct MoistAir
     double temperatureKelvin, double pressurePascal, double relativeHumidity) const;
 };
 
+// Water
+//
+// A. H. Harvey, J. S. Gallagher, J. M. H. Levelt Sengers, Revised formulation for the refractive index of water and steam,
+// J. Phys. Chem. Ref. Data 27, 761-774 (1998): IAPWS R9-97, for light of 0.2 to 1.1 um, extrapolated to 1.9 um; with the
+// density at 101325 Pa of G. S. Kell, J. Chem. Eng. Data 20, 97-105 (1975), eq. 16.
+
+/// Whether water is liquid at 101325 Pa: 0 to 100 C.
+bool isLiquidWater(double temperatureKelvin);
+
+/// Whether the wavelength in vacuum lies where the formulation may be used.
+bool isWithinWaterWavelengths(double wavelengthMetres);
+
+/// Refractivity of water at 101325 Pa; below 0 and above 100 C that of 0 and 100 C and at least absolute zero.
+double waterRefractivity(double temperatureKelvin, double wavelengthMetres);
+
 /// Refractivity of moist air, for a single state. For a field, make one MoistAir.
 double ciddorRefractivity(double temperatureKelvin, double pressurePascal, double relativeHumidity,
   double co2PartsPerMillion, double wavelengthMetres);

@@ -193,6 +193,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     this->Inside->Done = fraction;
     if (!(this->TimeLimit > 0)) // else it would flicker
     {
+      this->SetProgressText("tracing light");
       this->UpdateProgress(mediumFraction + (1 - mediumFraction) * fraction);
     }
   };
@@ -323,16 +324,19 @@ bool vtkSchlierenFilter::Show(
   {
     constexpr double most = 0.5;
     if (!outside.empty() && blockedShare(image) > most &&
-      !std::exchange(inside.HasNotedOutside, true))
+      inside.Refractivity->IsForMe("outside", this) && !std::exchange(inside.HasNotedOutside, true))
     {
       vtkWarningMacro(
         << outside
         << ": places that the mesh leaves out are taken for a body. If they are none, "
            "set Outside to Passes, and give bodies as Bodies.");
     }
-    for (const std::string& warning : inside.Images.GetWarnings(image))
+    for (const auto& [kind, warning] : inside.Images.GetWarnings(image))
     {
-      vtkWarningMacro(<< warning);
+      if (inside.Refractivity->IsForMe(kind, this))
+      {
+        vtkWarningMacro(<< warning);
+      }
     }
   }
   if (isWhole)
@@ -342,7 +346,8 @@ bool vtkSchlierenFilter::Show(
   const bool isKept = choosesK(*this) && this->GetLockedK() > 0;
   dropIdleBounds(image);
   // Waves are made of a finished image.
-  const bool isStillOfRays = this->LightModel == LIGHT_WAVES && (!isWhole || !image.finished);
+  const bool isStillOfRays =
+    lightModelOf(*this) == schlieren::LightModel::Waves && (!isWhole || !image.finished);
   this->Status = std::string(isWhole ? "" : "Preview: ") + (isStillOfRays ? "rays as yet, " : "") +
     inside.Images.GetStatus(image) + (outside.empty() ? "" : ", " + outside) +
     (inside.Refractivity->Wedge.empty() ? "" : ", " + inside.Refractivity->Wedge) +

@@ -110,7 +110,7 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   {
     inside.DepthLock.Found(made->Depth);
   }
-  if (!made->Warning.empty())
+  if (!made->Warning.empty() && made->IsForMe("medium", this))
   {
     vtkWarningMacro(<< shortened(made->Warning) << noteOnView(*this, made->FlatAxis));
   }
@@ -141,6 +141,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
       this->Inside->Ranks.release();
     }
     maker.setMesh(found->Mesh);
+    maker.setSaid(found->Said);
     return found;
   }
   std::shared_ptr<const MadeRefractivity> made = this->MakeRefractivity(input, bodies);
@@ -167,6 +168,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
       now.Modified();
       made->SourceTime = now.GetMTime();
       made->Mesh = maker.mesh();
+      made->Said = maker.said();
       return made;
     }
     inside.Ranks.release();

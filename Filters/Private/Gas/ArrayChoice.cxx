@@ -4,6 +4,7 @@
 
 #include "Common/NumberText.h"
 #include "Common/Sentences.h"
+#include "Gas/ArrayNames.h"
 #include "Gas/Fractions.h"
 #include "Gas/GasChoices.h"
 #include "Gas/RefractivityModels.h"
@@ -66,6 +67,8 @@ std::string inWords(const MediumSettings& settings)
       std::snprintf(factor, sizeof factor, " times %g", scale);
       text += factor;
     }
+    const double zero = index == S::TemperatureArray ? zeroOf(settings) : 0;
+    text += zero > 0 ? " plus " + textOf(zero) : "";
   }
   if (settings.hasUniformPressure())
   {
@@ -109,6 +112,8 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
       return { S::TemperatureArray, S::PressureArray, S::HumidityArray };
     case IndexArrays::Fields:
       return {};
+    case IndexArrays::Temperature:
+      return { S::TemperatureArray };
     case IndexArrays::Index:
       return { S::IndexArray };
     case IndexArrays::Density:
@@ -126,6 +131,11 @@ double kelvinsOf(const MediumSettings& settings)
 {
   const double byUnit = scaleByUnit("Temperature", settings.Arrays[S::TemperatureArray].name);
   return byUnit != 0 ? byUnit : 1;
+}
+
+double zeroOf(const MediumSettings& settings)
+{
+  return ArrayName(settings.Arrays[S::TemperatureArray].name).ZeroInKelvins();
 }
 
 bool isOpen(const MediumSettings& settings)
@@ -212,7 +222,8 @@ std::string noteOnArrays(
 {
   std::string note = noteOnOverset(known);
   // What the user has chosen needs no note. The window chooses as flowSpecies() does.
-  if (kindOf(settings.IndexModel).gases == IndexGases::None || hasOneGas(given) ||
+  const IndexGases gases = kindOf(settings.IndexModel).gases;
+  if (gases == IndexGases::None || gases == IndexGases::Water || hasOneGas(given) ||
     (!given.MixtureArrays.empty() &&
       given.MixtureArrays != flowSpecies(known, associationIn(settings)).fractions))
   {
@@ -277,8 +288,13 @@ void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, Med
 
 } // namespace
 
-MediumChoice choiceOf(const MediumSettings& given, const std::vector<FlowArray>& known)
+MediumChoice choiceOf(const MediumSettings& all, const std::vector<FlowArray>& known)
 {
+  MediumSettings given = all;
+  if (given.IndexModel == S::AUTO && given.Gas == waterName)
+  {
+    given.IndexModel = S::WATER;
+  }
   MediumChoice choice;
   choice.settings = given;
   MediumSettings& settings = choice.settings;

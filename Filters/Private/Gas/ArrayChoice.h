@@ -63,6 +63,8 @@ MediumChoice choiceOf(const MediumSettings& settings, const std::vector<FlowArra
 
 /// Returns the factor from the temperature to K, by the unit in the array's name; 1 without one.
 double kelvinsOf(const MediumSettings& settings);
+/// Returns the zero of that unit, K: of degrees Celsius 273.15.
+double zeroOf(const MediumSettings& settings);
 
 /// Returns the indices into MediumSettings::Arrays that the model reads besides fractions and
 /// fields.

@@ -114,10 +114,15 @@ const std::map<std::string, double> cubes = { { "m", 1 }, { "meter", 1 }, { "met
 const std::map<std::string, double> volumes = { { "l", 1e-3 }, { "liter", 1e-3 }, { "litre", 1e-3 },
   { "dl", 1e-4 }, { "ml", 1e-6 }, { "cc", 1e-6 }, { "ccm", 1e-6 } };
 
-const std::map<std::string, double> kelvins = { { "k", 1 }, { "kelvin", 1 }, { "degk", 1 },
-  { "r", 5. / 9 }, { "degr", 5. / 9 }, { "rankine", 5. / 9 } };
-const Names degrees = { "c", "degc", "celsius", "degcelsius", "degreescelsius", "f", "degf",
-  "fahrenheit", "degfahrenheit" };
+constexpr double celsius = 273.15, fahrenheit = 459.67 * 5 / 9; // their zero, K
+/// Units of temperature: their size and their zero, K.
+const std::map<std::string, std::pair<double, double>> temperatureUnits = { { "k", { 1, 0 } },
+  { "kelvin", { 1, 0 } }, { "degk", { 1, 0 } }, { "r", { 5. / 9, 0 } }, { "degr", { 5. / 9, 0 } },
+  { "rankine", { 5. / 9, 0 } }, { "c", { 1, celsius } }, { "degc", { 1, celsius } },
+  { "celsius", { 1, celsius } }, { "degcelsius", { 1, celsius } },
+  { "degreescelsius", { 1, celsius } }, { "f", { 5. / 9, fahrenheit } },
+  { "degf", { 5. / 9, fahrenheit } }, { "fahrenheit", { 5. / 9, fahrenheit } },
+  { "degfahrenheit", { 5. / 9, fahrenheit } } };
 const std::map<std::string, double> pascals = { { "pa", 1 }, { "pascal", 1 }, { "n/m2", 1 },
   { "nm-2", 1 }, { "j/m3", 1 }, { "kg/(ms2)", 1 }, { "kg/m/s2", 1 }, { "kgm-1s-2", 1 },
   { "hpa", 100 }, { "mbar", 100 }, { "kpa", 1e3 }, { "mpa", 1e6 }, { "n/mm2", 1e6 }, { "gpa", 1e9 },
@@ -289,9 +294,14 @@ double scaleOfUnit(Quantity quantity, const std::string& text)
   {
     return unit == "mpa" ? 1e-3 : 0;
   }
-  const auto& units = quantity == Quantity::Temperature ? kelvins : pascals;
-  const auto found = units.find(unit);
-  return found == units.end() ? 0 : found->second;
+  if (quantity == Quantity::Temperature)
+  {
+    const auto found = temperatureUnits.find(unit);
+    const bool isIndex = text == "c" || text == "f"; // "T_f", of a flame
+    return found == temperatureUnits.end() || isIndex ? 0 : found->second.first;
+  }
+  const auto found = pascals.find(unit);
+  return found == pascals.end() ? 0 : found->second;
 }
 
 ArrayName::ArrayName(const std::string& written)
@@ -335,7 +345,7 @@ ArrayName::Parsed ArrayName::Of(Quantity quantity) const
     const std::string unit = std::accumulate(begin, this->Words.end(), std::string());
     const std::vector<std::string> rest(this->Words.begin(), begin);
     const bool isUnit = scaleOfUnit(quantity, unit) != 0 ||
-      (quantity == Quantity::Temperature && degrees.count(lowered(unit)));
+      (quantity == Quantity::Temperature && temperatureUnits.count(lowered(unit)));
     if (isUnit && understood(rest, namesOf(quantity)) != Understood::Not)
     {
       parsed = { rest, unit };
@@ -356,9 +366,10 @@ double ArrayName::Scale(Quantity quantity) const
   return scaleOfUnit(quantity, this->Of(quantity).unit);
 }
 
-bool ArrayName::IsInDegrees() const
+double ArrayName::ZeroInKelvins() const
 {
-  return degrees.count(plainUnit(this->Of(Quantity::Temperature).unit)) > 0;
+  const auto found = temperatureUnits.find(plainUnit(this->Of(Quantity::Temperature).unit));
+  return this->HasUnitOf(Quantity::Temperature) ? found->second.second : 0;
 }
 
 bool ArrayName::IsGauge() const

@@ -52,8 +52,8 @@ public:
   /// Returns whether the name has a unit; with `quantity`: its factor to SI units, 0 where unknown.
   bool HasUnit(Quantity quantity) const;
   double Scale(Quantity quantity) const;
-  /// Returns whether the unit is degrees Celsius or Fahrenheit, which need more than a factor.
-  bool IsInDegrees() const;
+  /// Returns the zero of the temperature's unit, K: that of degrees Celsius or Fahrenheit; of others 0.
+  double ZeroInKelvins() const;
   /// Returns whether the name says that a pressure is relative to the surroundings'.
   bool IsGauge() const;
   /// Returns whether the unit belongs to this quantity.

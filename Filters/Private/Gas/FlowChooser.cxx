@@ -22,10 +22,12 @@ namespace
 
 const std::set<std::string> refractivities = { "refractivity", "nminus1" };
 
-/// Returns the unit of a quantity's values.
-std::string unitInWords(double scale, const std::string& unit)
+/// Returns the unit of a quantity's values; `zero`: where it begins.
+std::string unitInWords(double scale, const std::string& unit, double zero = 0)
 {
-  return scale == 1 ? " in " + unit : ", " + textOf(scale) + " " + unit + " each";
+  return zero > 0 ? std::string(" in degrees ") + (scale == 1 ? "Celsius" : "Fahrenheit")
+    : scale == 1  ? " in " + unit
+                  : ", " + textOf(scale) + " " + unit + " each";
 }
 
 } // namespace
@@ -64,6 +66,8 @@ bool FlowChooser::choose(MediumSettings::IndexModels model)
                                                        : this->refractivity();
     case IndexArrays::Air:
       return this->state(false);
+    case IndexArrays::Temperature:
+      return this->temperature();
     case IndexArrays::Density:
       return this->density(kind.gases == IndexGases::Mixture) ||
         (kind.gases == IndexGases::Mixture && this->state(true));
@@ -114,7 +118,8 @@ FlowChooser::Found FlowChooser::find(Quantity quantity, FlowArray::Association a
       isOfPhase = name.IsOfGas();
       isOfAir = name.Joined().find("air") != std::string::npos;
       const double scale = name.Scale(quantity);
-      found = { &array, scale != 0 || name.HasUnit(quantity) ? scale : 1 };
+      found = { &array, scale != 0 || name.HasUnit(quantity) ? scale : 1,
+        quantity == Quantity::Temperature ? name.ZeroInKelvins() : 0 };
     }
   }
   if (best == Understood::AsSpecies || (best == Understood::AsPart && parts > 1) ||
@@ -265,6 +270,37 @@ void FlowChooser::species(bool withDensity)
   this->Result.message += list;
 }
 
+bool FlowChooser::areKelvins(const Found& temperature)
+{
+  const auto& range = temperature.array->range;
+  const auto kelvins = [&](double value) { return value * temperature.scale + temperature.zero; };
+  if (temperature.scale != 0 && kelvins(range[0]) >= 20 && kelvins(range[1]) >= 150)
+  {
+    return true;
+  }
+  const std::string& name = temperature.array->name;
+  this->Note += "The temperature " + quoted(name) + " is not in kelvins (" +
+    rangeInWords(*temperature.array) + "). If it is in degrees Celsius, say so in its name ('" +
+    name + " [degC]'), or add 273.15 with Calculator. ";
+  return false;
+}
+
+bool FlowChooser::temperature()
+{
+  for (const FlowArray::Association association : associations)
+  {
+    const Found found = this->find(Quantity::Temperature, association);
+    if (found.array && this->areKelvins(found))
+    {
+      this->take(MediumSettings::WATER, association, { { "Temperature", found.array->name } });
+      this->Result.message = "Water; temperature: " + quoted(found.array->name) +
+        unitInWords(found.scale, "K", found.zero) + ".";
+      return true;
+    }
+  }
+  return false;
+}
+
 bool FlowChooser::state(bool ofSpecies)
 {
   return std::any_of(std::begin(associations), std::end(associations),
@@ -282,12 +318,9 @@ bool FlowChooser::state(FlowArray::Association association, bool ofSpecies)
   {
     return false;
   }
-  const auto& t = temperature.array->range;
   const auto& p = pressure.array->range;
-  if (kelvins == 0 || t[0] * kelvins < 20 || t[1] * kelvins < 150)
+  if (!this->areKelvins(temperature))
   {
-    this->Note += "The temperature " + quoted(temperature.array->name) + " is not in kelvins (" +
-      rangeInWords(*temperature.array) + "): to degrees Celsius, add 273.15 with Calculator. ";
     return false;
   }
   if (pascals == 0)
@@ -302,7 +335,9 @@ bool FlowChooser::state(FlowArray::Association association, bool ofSpecies)
     return false;
   }
   // Accepts the units of weather models where the values are those of the atmosphere.
-  const bool isOfAtmosphere = t[0] > 150 && t[1] < 350 && p[1] < 1100;
+  const auto& t = temperature.array->range;
+  const bool isOfAtmosphere = t[0] * kelvins + temperature.zero > 150 &&
+    t[1] * kelvins + temperature.zero < 350 && p[1] < 1100;
   const bool hasUnit = ArrayName(pressure.array->name).HasUnit(Quantity::Pressure);
   if (!hasUnit && isOfAtmosphere && p[1] > 500)
   {
@@ -315,7 +350,7 @@ bool FlowChooser::state(FlowArray::Association association, bool ofSpecies)
   this->take(MediumSettings::CIDDOR, association,
     { { "Temperature", temperature.array->name }, { "Pressure", pressure.array->name } });
   this->Result.message = "Temperature: " + quoted(temperature.array->name) +
-    unitInWords(kelvins, "K") + "; pressure: " + quoted(pressure.array->name) +
+    unitInWords(kelvins, "K", temperature.zero) + "; pressure: " + quoted(pressure.array->name) +
     unitInWords(pascals, "Pa");
   if (pascals != 1)
   {

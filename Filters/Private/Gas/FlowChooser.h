@@ -47,11 +47,12 @@ public:
   bool has(Quantity quantity) const;
 
 private:
-  /// An array whose name is understood, with its factor to SI units; 0: unknown unit.
+  /// An array whose name is understood, with its factor to SI units, 0: unknown unit; and its unit's zero.
   struct Found
   {
     const FlowArray* array = nullptr;
     double scale = 1;
+    double zero = 0;
   };
 
   /// Finds the array that best matches a quantity, points before cells.
@@ -65,6 +66,10 @@ private:
   bool refractiveIndex();
   bool density(bool ofSpecies);
   void species(bool withDensity);
+  /// Returns whether a temperature is in a known unit; else notes it.
+  bool areKelvins(const Found& temperature);
+  /// Chooses a temperature, of water.
+  bool temperature();
   /// Chooses a temperature and a pressure, of moist air or, `ofSpecies`, of a mixture.
   bool state(bool ofSpecies);
   bool state(FlowArray::Association association, bool ofSpecies);

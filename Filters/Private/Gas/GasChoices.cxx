@@ -69,6 +69,7 @@ std::vector<std::string> namesUsed(const MediumSettings& settings)
     }
     case IndexGases::None:
     case IndexGases::MoistAir:
+    case IndexGases::Water:
       break;
   }
   return {};
@@ -133,6 +134,12 @@ std::string gasOf(const std::string& word)
 const schlieren::Gas* gasFrom(const std::string& property, const std::string& name)
 {
   const schlieren::Gas* gas = schlieren::findGas(name);
+  if (name == waterName)
+  {
+    throw std::runtime_error(property +
+      " is water, of which a density hardly gives the index. Set IndexModel to Water, or to Auto, "
+      "which takes its temperature.");
+  }
   if (!gas && !isCustom(name))
   {
     throw std::runtime_error(notInTable(property, name) + " Choose one of: " + allGases() +
@@ -188,7 +195,8 @@ double wavelengthOfGases(const MediumSettings& settings)
 bool usesWavelength(const MediumSettings& settings)
 {
   const std::vector<std::string> names = namesUsed(settings);
-  return kindOf(settings.IndexModel).gases == IndexGases::MoistAir ||
+  const IndexGases gases = kindOf(settings.IndexModel).gases;
+  return gases == IndexGases::MoistAir || gases == IndexGases::Water ||
     std::any_of(names.begin(), names.end(), schlieren::findGas);
 }
 
@@ -197,6 +205,12 @@ std::function<double(double)> dispersionOfGases(const MediumSettings& settings, 
   if (kindOf(settings.IndexModel).gases == IndexGases::MoistAir)
   {
     const auto at = [](double wavelength) { return schlieren::MoistAir::at(wavelength).dry; };
+    return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };
+  }
+  if (kindOf(settings.IndexModel).gases == IndexGases::Water)
+  {
+    const auto at = [](double wavelength)
+    { return schlieren::waterRefractivity(293.15, wavelength); };
     return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };
   }
   const std::vector<std::string> names = namesUsed(settings);

@@ -13,6 +13,9 @@ struct MediumSettings;
 namespace filters
 {
 
+/// The name of a liquid that is chosen like a gas.
+constexpr const char* waterName = "water";
+
 /// Returns whether the name is "Custom" or empty: no gas of the table.
 bool isCustom(const std::string& name);
 

@@ -111,6 +111,37 @@ Implausible ofDensity(const FlowInUse& flow)
   return {};
 }
 
+Implausible ofTemperature(const FlowInUse& flow)
+{
+  const FlowArray& temperature = flow.arrays[0];
+  const double kelvins[2] = { temperature.range[0] * flow.scales[0] + flow.zero,
+    temperature.range[1] * flow.scales[0] + flow.zero };
+  // Bodies often have 0; the coldest streams of wind tunnels have about 45 K.
+  const bool isBelowAll = kelvins[0] < 0 || (kelvins[0] > 0 && kelvins[0] < 40);
+  if (isBelowAll || kelvins[1] < 150)
+  {
+    return { "Celsius",
+      "The temperature " + described(temperature) +
+        " seems not to be in kelvins. If it is in degrees Celsius, compute kelvins (+ 273.15) with "
+        "Calculator and choose these for Temperature, or give it a name with its unit, such as "
+        "'T [degC]'." };
+  }
+  return {};
+}
+
+Implausible ofWater(const FlowInUse& flow)
+{
+  const FlowArray& temperature = flow.arrays[0];
+  Implausible found = ofAny(temperature, "temperature");
+  if (found.text.empty() && flow.isConstant)
+  {
+    return { "constant",
+      "The temperature '" + temperature.name + "' is the same everywhere" + exactly(temperature) +
+        ", so that nothing bends light. Choose another array, or another time step." };
+  }
+  return found.text.empty() ? ofTemperature(flow) : found;
+}
+
 Implausible ofMoistAir(const FlowInUse& flow)
 {
   const FlowArray& temperature = flow.arrays[0];
@@ -132,18 +163,11 @@ Implausible ofMoistAir(const FlowInUse& flow)
         (exactly(temperature).empty() ? exactly(pressure) : exactly(temperature)) +
         ", so that nothing bends light. Choose other arrays, or another time step." };
   }
-  const double kelvins[2] = { temperature.range[0] * flow.scales[0],
-    temperature.range[1] * flow.scales[0] };
   const double pascals[2] = { pressure.range[0] * flow.scales[1],
     pressure.range[1] * flow.scales[1] };
-  // Bodies often have 0; the coldest streams of wind tunnels have about 45 K.
-  const bool isBelowAll = kelvins[0] < 0 || (kelvins[0] > 0 && kelvins[0] < 40);
-  if (ArrayName(temperature.name).IsInDegrees() || isBelowAll || kelvins[1] < 150)
+  if (Implausible found = ofTemperature(flow); !found.text.empty())
   {
-    return { "Celsius",
-      "The temperature " + described(temperature) +
-        " seems not to be in kelvins. If it is in degrees Celsius, compute kelvins (+ 273.15) with "
-        "Calculator and choose these for Temperature." };
+    return found;
   }
   if (pascals[0] <= 0 || ArrayName(pressure.name).IsGauge())
   {
@@ -199,6 +223,8 @@ Implausible implausible(const FlowInUse& flow)
             exactly(flow.arrays[0]) + ". Choose another array, or another time step." };
       }
       break;
+    case filters::IndexArrays::Temperature:
+      return ofWater(flow);
     case filters::IndexArrays::Fields:
       break; // any number may be one of these
   }

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <numeric>
@@ -53,9 +52,9 @@ public:
   double densityScale = 1;
   FractionOf fractionsOf = FractionOf::Mass;
   bool usesGasLaw = false;
-  int states = 1;                                 // values before the fractions
-  double temperatureScale = 1, pressureScale = 1; // of the gas law
-  double uniformPressure = 0;                     // 0: a value
+  int states = 1; // values before the fractions
+  double temperatureScale = 1, temperatureZero = 0, pressureScale = 1; // of the gas law
+  double uniformPressure = 0;                                          // 0: a value
 
   double refractivity(const double* values) const override
   {
@@ -66,7 +65,7 @@ public:
     if (this->usesGasLaw)
     {
       constexpr double gasConstant = 8.31446261815324;
-      const double kelvins = this->temperatureScale * values[0];
+      const double kelvins = this->temperatureScale * values[0] + this->temperatureZero;
       const double pascals =
         this->uniformPressure > 0 ? this->uniformPressure : this->pressureScale * values[1];
       return kelvins > 0 && pascals >= 0
@@ -126,7 +125,7 @@ class CiddorAir : public StateModel
 {
 public:
   schlieren::MoistAir air{};
-  double temperatureScale = 1, pressureScale = 1;
+  double temperatureScale = 1, temperatureZero = 0, pressureScale = 1;
   double uniformPressure = 0;       // 0: a value
   double stagnationTemperature = 0; // 0: the first value; else it follows from the pressure
   double stagnationPressure = 0;
@@ -141,25 +140,35 @@ public:
 
   bool isDoubtful(const double* values) const override
   {
-    return !schlieren::isWithinCiddorRange(this->temperatureIn(values), this->pressureIn(values)) ||
-      (this->hasHumidity && this->humidityIn(values) > maxOfAll);
+    return this->hasHumidity && this->humidityIn(values) > maxOfAll;
+  }
+
+  bool isContinued(const double* values) const override
+  {
+    return !schlieren::isWithinCiddorRange(this->temperatureIn(values), this->pressureIn(values));
+  }
+
+  std::string noteOnContinued(const std::string& fraction) const override
+  {
+    return fraction +
+      " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to 120 kPa), "
+      "which are continued there towards the ideal gas.";
   }
 
   std::string warning(const std::string& fraction) const override
   {
-    return fraction +
-      " of the points lie outside the range of Ciddor's equations (-40 to 100 C, 80 to "
-      "120 kPa, relative humidity to 1). There they are continued towards the ideal gas. "
-      "If so many surprise you, check that Temperature is in K, that PressureScale gives Pa, and "
-      "that humidity is from 0 to 1.";
+    return "The relative humidity is more than " + textOf(maxOfAll) + " in " + fraction +
+      " of the points, but it is a fraction of saturation. Divide percents by 100 with Calculator "
+      "and choose the result for Humidity.";
   }
 
 private:
   double temperatureIn(const double* values) const
   {
-    return this->stagnationTemperature > 0 ? isentropicTemperature(this->stagnationTemperature,
-                                               this->pressureIn(values) / this->stagnationPressure)
-                                           : this->temperatureScale * values[0];
+    return this->stagnationTemperature > 0
+      ? isentropicTemperature(
+          this->stagnationTemperature, this->pressureIn(values) / this->stagnationPressure)
+      : this->temperatureScale * values[0] + this->temperatureZero;
   }
   double pressureIn(const double* values) const
   {
@@ -173,6 +182,54 @@ private:
     return this->hasHumidity ? values[hasOneOther ? 1 : 2] : this->relativeHumidity;
   }
 };
+
+/// N of a temperature.
+class Water : public StateModel
+{
+public:
+  double wavelength = 0; // m
+  double temperatureScale = 1, temperatureZero = 0;
+
+  double refractivity(const double* values) const override
+  {
+    return schlieren::waterRefractivity(this->temperatureIn(values), this->wavelength);
+  }
+
+  bool isDoubtful(const double*) const override { return false; }
+  std::string warning(const std::string&) const override { return ""; }
+
+  bool isContinued(const double* values) const override
+  {
+    return !schlieren::isLiquidWater(this->temperatureIn(values));
+  }
+
+  std::string noteOnContinued(const std::string& fraction) const override
+  {
+    return fraction +
+      " of the points lie outside 0 to 100 C, where water is liquid, and have the index of the "
+      "nearer end.";
+  }
+
+private:
+  double temperatureIn(const double* values) const
+  {
+    return this->temperatureScale * values[0] + this->temperatureZero;
+  }
+};
+
+Model water(const MediumSettings& settings)
+{
+  auto model = std::make_shared<Water>();
+  model->wavelength = 1e-9 * settings.Wavelength;
+  if (!schlieren::isWithinWaterWavelengths(model->wavelength))
+  {
+    throw std::runtime_error("Wavelength is " + textOf(settings.Wavelength) +
+      " nm, where the formula for water does not hold. Set it between 200 and 1900 nm.");
+  }
+  model->temperatureScale = kelvinsOf(settings);
+  model->temperatureZero = zeroOf(settings);
+  return OfState{ model };
+}
 
 Model gladstoneDale(const MediumSettings& settings)
 {
@@ -219,6 +276,7 @@ Model gasMixture(const MediumSettings& settings)
     model->usesGasLaw = true;
     model->states = settings.hasUniformPressure() ? 1 : 2;
     model->temperatureScale = kelvinsOf(settings);
+    model->temperatureZero = zeroOf(settings);
     model->pressureScale = settings.PressureScale;
     model->uniformPressure = settings.UniformPressure;
   }
@@ -256,6 +314,7 @@ Model ciddorAir(const MediumSettings& settings)
   auto model = std::make_shared<CiddorAir>();
   model->air = schlieren::MoistAir::at(wavelength);
   model->temperatureScale = kelvinsOf(settings);
+  model->temperatureZero = zeroOf(settings);
   model->pressureScale = settings.PressureScale;
   model->uniformPressure = settings.UniformPressure;
   model->stagnationTemperature = settings.isIsentropic() ? settings.StagnationTemperature : 0;
@@ -279,6 +338,7 @@ constexpr IndexModelKind kinds[] = {
   { MediumSettings::REFRACTIVITY, IndexArrays::Index, IndexGases::None, refractivity },
   { MediumSettings::GLADSTONE_DALE_MIXTURE, IndexArrays::Density, IndexGases::Mixture, gasMixture },
   { MediumSettings::CIDDOR, IndexArrays::Air, IndexGases::MoistAir, ciddorAir },
+  { MediumSettings::WATER, IndexArrays::Temperature, IndexGases::Water, water },
   { MediumSettings::TRANSFER_FUNCTIONS, IndexArrays::Fields, IndexGases::None, transferFunctions },
 };
 
@@ -370,7 +430,27 @@ Tally& Tally::operator+=(const Tally& other)
 {
   this->all += other.all;
   this->doubtful += other.doubtful;
+  this->continued += other.continued;
   return *this;
+}
+
+namespace
+{
+
+/// Returns a text such as "12 %".
+std::string fractionOf(long long some, const Tally& tally)
+{
+  return textOf(100 * static_cast<double>(some) / static_cast<double>(tally.all), 3) + " %";
+}
+
+} // namespace
+
+std::string noteOnContinued(const Model& model, const Tally& tally)
+{
+  const auto* ofState = std::get_if<OfState>(&model);
+  return ofState && tally.continued > 0
+    ? ofState->model->noteOnContinued(fractionOf(tally.continued, tally))
+    : "";
 }
 
 std::string warningFrom(const Model& model, const Tally& tally)
@@ -379,9 +459,7 @@ std::string warningFrom(const Model& model, const Tally& tally)
   {
     return "";
   }
-  char fraction[32];
-  std::snprintf(fraction, sizeof fraction, "%.3g %%",
-    100 * static_cast<double>(tally.doubtful) / static_cast<double>(tally.all));
+  const std::string fraction = fractionOf(tally.doubtful, tally);
   return std::visit(
     [&fraction](const auto& chosen) -> std::string
     {

@@ -24,6 +24,7 @@ enum class IndexArrays
   Density,
   Index, ///< n or N itself
   Air,   ///< temperature, pressure and humidity
+  Temperature,
   Fields
 };
 
@@ -31,9 +32,10 @@ enum class IndexArrays
 enum class IndexGases
 {
   None,
-  One,     ///< that of Gas
-  Mixture, ///< those of MixtureGases and BackgroundGas, with fractions in MixtureArrays
-  MoistAir ///< by Ciddor's equations
+  One,      ///< that of Gas
+  Mixture,  ///< those of MixtureGases and BackgroundGas, with fractions in MixtureArrays
+  MoistAir, ///< by Ciddor's equations
+  Water     ///< none, but a liquid
 };
 
 /// N = a x + b of one array; separate from the others because it can be fast.
@@ -55,6 +57,9 @@ public:
   virtual bool isDoubtful(const double* values) const = 0;
   /// Returns the warning; the fraction is a text such as "12 %".
   virtual std::string warning(const std::string& fraction) const = 0;
+  /// Returns whether the model's formulas are continued to the state from where they are known, and a sentence that says so.
+  virtual bool isContinued(const double* /*values*/) const { return false; }
+  virtual std::string noteOnContinued(const std::string& /*fraction*/) const { return ""; }
 };
 
 /// Any of them.
@@ -65,6 +70,7 @@ struct OfState
   double refractivity(const double* values) const { return this->model->refractivity(values); }
   bool isDoubtful(const double* values) const { return this->model->isDoubtful(values); }
   std::string warning(const std::string& fraction) const { return this->model->warning(fraction); }
+  bool isContinued(const double* values) const { return this->model->isContinued(values); }
 };
 
 /// Any model.
@@ -109,16 +115,20 @@ Selection selectionOf(const MediumSettings& settings, std::size_t index);
 /// Lists the arrays that the model reads, at least one, in its order.
 std::vector<Selection> selectionsFrom(const MediumSettings& settings);
 
-/// Counts doubtful points or cells among those that have values.
+/// Counts doubtful points or cells, and those whose state is beyond the model's formulas, among those that have values.
 struct Tally
 {
   long long all = 0;
   long long doubtful = 0;
+  long long continued = 0;
 
   Tally& operator+=(const Tally& other);
 };
 
 /// Returns a warning about doubtful values; empty without any.
 std::string warningFrom(const Model& model, const Tally& tally);
+
+/// Returns a sentence about the values for which the model's formulas are continued; empty without any.
+std::string noteOnContinued(const Model& model, const Tally& tally);
 
 } // namespace filters

@@ -42,6 +42,7 @@ struct FieldMean
 
   double refractivity(const double* values) const;
   bool isDoubtful(const double*) const { return false; }
+  bool isContinued(const double*) const { return false; }
   std::string warning(const std::string&) const { return ""; }
 
   /// Sets open ranges to those of the fields' finite and visible values over all leaves. A field

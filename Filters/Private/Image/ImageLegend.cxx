@@ -7,6 +7,7 @@
 #include "Image/ImageStatus.h"
 #include "Image/RealOptics.h"
 #include "SchlierenSettings.h"
+#include "UnitPrefix.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
@@ -16,6 +17,7 @@
 
 #include "Schlieren.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -80,6 +82,15 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   {
     const bool isAutomatic = choosesK(settings) && !isKept;
     notes.push_back(kInWords(image.kScale, isKept) + (isAutomatic ? " (automatic)" : ""));
+    notes.push_back(weaknessInWords(settings, image.kScale));
+  }
+  if (schlieren::techniqueOf(scene.cutoff).plane == schlieren::RecordedPlane::Screen)
+  {
+    const double metres =
+      settings.LengthScale * scene.screenDistance.value_or(image.frame.exit - image.frame.entry);
+    const UnitPrefix prefix = unitPrefixOf(metres);
+    notes.push_back("screen " + textOf(metres / prefix.factor, 3) + " " + prefix.name +
+      "m behind the data" + (scene.screenDistance ? "" : " (one depth)"));
   }
   if (!image.backgroundDisplacement.empty())
   {
@@ -90,6 +101,7 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   {
     notes.push_back(errorInWords(image.accuracy, scene));
   }
+  notes.erase(std::remove(notes.begin(), notes.end(), ""), notes.end());
   return notes;
 }
 

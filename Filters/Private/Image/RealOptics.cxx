@@ -123,6 +123,14 @@ schlieren::PhasePlate phasePlateFrom(const SchlierenSettings& optics)
   return plate;
 }
 
+std::string weaknessInWords(const SchlierenSettings& optics, double k)
+{
+  constexpr double seen = 1e-6;
+  return k > 0 && techniqueOf(optics).fullScale < seen * k
+    ? "weaker than a bench can see (about 1 \xC2\xB5rad)"
+    : "";
+}
+
 std::string kInWords(double k, bool isKept)
 {
   return (isKept ? "k locked at " : "k = ") + textOf(k, 4);
@@ -146,7 +154,11 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
   const schlieren::Technique& technique = techniqueOf(settings);
   std::string words = kInWords(k, isKept) + ": full scale is a deflection of " +
     textOf(1e3 * technique.fullScale / k, 4) + " mrad";
-  if (focalLength > 0)
+  if (const std::string weak = weaknessInWords(settings, k); !weak.empty())
+  {
+    words += ", " + weak;
+  }
+  else if (focalLength > 0) // no optics have such a k
   {
     words += "; optics: " + textOf(focalLength, 4) + " m focal length, " +
       (kOfWidth(settings) > 1 ? "filter " : "source ") +

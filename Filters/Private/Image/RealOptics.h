@@ -37,6 +37,9 @@ schlieren::PhasePlate phasePlateFrom(const SchlierenSettings& optics);
 /// that of an earlier image (`isKept`); empty for k = 0.
 std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool isKept = false);
 
+/// Returns that no bench sees deflections as small as full scale, where that is less than a microradian; else an empty text.
+std::string weaknessInWords(const SchlierenSettings& settings, double k);
+
 /// Returns "k = 4000" or "k locked at 4000".
 std::string kInWords(double k, bool isKept);
 

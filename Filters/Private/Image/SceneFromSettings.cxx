@@ -76,18 +76,6 @@ schlieren::BackgroundPattern backgroundFrom(
   return pattern;
 }
 
-schlieren::LightModel lightModelFrom(const SchlierenSettings& settings)
-{
-  const auto model = static_cast<schlieren::LightModel>(settings.LightModel);
-  if (model == schlieren::LightModel::Rays &&
-    settings.Cutoff == static_cast<int>(schlieren::Cutoff::PhaseContrast))
-  {
-    throw std::runtime_error("Cutoff is Phase Contrast, which shows the phases of waves, but rays "
-                             "have none. Set LightModel to Waves, or Cutoff to another technique.");
-  }
-  return model;
-}
-
 /// Returns the view of the full image.
 schlieren::View viewFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
 {
@@ -127,6 +115,13 @@ bool looksAlong(const ViewSettings& settings, int flatAxis)
 }
 
 } // namespace
+
+schlieren::LightModel lightModelOf(const SchlierenSettings& settings)
+{
+  return settings.Cutoff == static_cast<int>(schlieren::Cutoff::PhaseContrast)
+    ? schlieren::LightModel::Waves
+    : static_cast<schlieren::LightModel>(settings.LightModel);
+}
 
 SchlierenSettings facing(SchlierenSettings settings, int flatAxis)
 {
@@ -181,7 +176,7 @@ schlieren::Scene sceneFrom(
   {
     scene.colorFilter = images.read("ColorFilterImage", settings.ColorFilterImage);
   }
-  scene.lightModel = lightModelFrom(settings);
+  scene.lightModel = lightModelOf(settings);
   const bool hasFringes = schlieren::techniqueOf(scene.cutoff).hasFringes;
   if (hasFringes || scene.lightModel != schlieren::LightModel::Rays)
   {
@@ -230,7 +225,7 @@ schlieren::Scene sceneFrom(
     : schlieren::Interpolation::Quadratic;
   // A target error chooses steps itself; waves take so many rays that a longer time for each counts.
   const bool areExact = scene.precision == schlieren::Precision::Double &&
-    settings.LightModel == SchlierenSettings::LIGHT_RAYS;
+    scene.lightModel == schlieren::LightModel::Rays;
   scene.integrator =
     !hasTarget && areExact ? schlieren::Integrator::Adaptive : schlieren::Integrator::Leapfrog;
   scene.estimatesErrors = settings.ErrorEstimate;

@@ -32,6 +32,9 @@ struct BackgroundScene
 schlieren::Scene sceneFrom(
   const SchlierenSettings& settings, const schlieren::Grid& grid, RgbImageReader& images);
 
+/// Returns how light continues behind the flow: as LightModel says, but Phase Contrast is of waves alone.
+schlieren::LightModel lightModelOf(const SchlierenSettings& settings);
+
 /// Adds what comes from objects and the scene needs: the graded filter (null: a straight line) and
 /// the dispersion for white light, but not the colours of fields.
 void addObjects(

@@ -152,38 +152,43 @@ std::string exitInWords(const schlieren::Image& image, const schlieren::Scene& s
 
 } // namespace
 
-std::vector<std::string> TimeSlicedImage::GetWarnings(const schlieren::Image& image)
+std::vector<std::pair<std::string, std::string>> TimeSlicedImage::GetWarnings(
+  const schlieren::Image& image)
 {
-  const std::array<std::string, std::tuple_size_v<decltype(this->WarnedOf)>> warnings{
-    image.deviceNote,
-    image.raysTraced > 0 && image.raysBlocked == image.raysTraced
-      ? "All light that meets the data is blocked, so the image is black there: every ray meets "
-        "a place that is solid (NaN, masked, blanked, a body) or that no cell covers. Look along "
-        "another ViewDirection, or let light pass where no cell is with Outside set to Passes."
-      : "",
-    image.raysLost > 0
-      ? std::to_string(image.raysLost) + " of " + std::to_string(image.raysTraced) +
-        " rays did not come out towards the film: the medium traps them, guides them to and fro "
-        "for too "
-        "many steps, or turns them back" +
-        (image.exitRefractivity < image.ambient
-            ? ", or they are totally reflected where they would leave the data (ExitInto)."
-            : ".") +
-        " Is the refractivity (array, unit, index model) right?"
-      : "",
-    driftInWords(image), roundingInWords(image, this->Scene), darknessInWords(image, this->Scene)
+  using Warning = std::pair<std::string, std::string>;
+  const std::array<Warning, std::tuple_size_v<decltype(this->WarnedOf)>> warnings{
+    Warning{ "device", image.deviceNote },
+    { "blocked",
+      image.raysTraced > 0 && image.raysBlocked == image.raysTraced
+        ? "All light that meets the data is blocked, so the image is black there: every ray meets "
+          "a place that is solid (NaN, masked, blanked, a body) or that no cell covers. Look along "
+          "another ViewDirection, or let light pass where no cell is with Outside set to Passes."
+        : "" },
+    { "lost",
+      image.raysLost > 0
+        ? std::to_string(image.raysLost) + " of " + std::to_string(image.raysTraced) +
+          " rays did not come out towards the film: the medium traps them, guides them to and fro "
+          "for too "
+          "many steps, or turns them back" +
+          (image.exitRefractivity < image.ambient
+              ? ", or they are totally reflected where they would leave the data (ExitInto)."
+              : ".") +
+          " Is the refractivity (array, unit, index model) right?"
+        : "" },
+    { "drift", driftInWords(image) }, { "rounding", roundingInWords(image, this->Scene) },
+    { "darkness", darknessInWords(image, this->Scene) }
   };
-  std::vector<std::string> news;
+  std::vector<Warning> news;
   const std::string exit = exitInWords(image, this->Scene);
   if (!exit.empty() && !std::exchange(this->HasNotedExit, true))
   {
-    news.push_back(exit);
+    news.emplace_back("exit", exit);
   }
   auto* warnedOf = this->WarnedOf.begin();
-  for (const std::string& warning : warnings)
+  for (const Warning& warning : warnings)
   {
     const std::int64_t rays = this->GetWork().raySets;
-    if (!warning.empty() && *warnedOf != rays)
+    if (!warning.second.empty() && *warnedOf != rays)
     {
       *warnedOf = rays;
       news.push_back(warning);

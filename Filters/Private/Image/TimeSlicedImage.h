@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace filters
@@ -32,8 +33,8 @@ public:
   /// Returns a status in one line; see statusInWords().
   std::string GetStatus(const schlieren::Image& image) const;
 
-  /// Returns warnings, once for the same rays, and, once, that light is assumed to leave a liquid.
-  std::vector<std::string> GetWarnings(const schlieren::Image& image);
+  /// Returns warnings and, before each, its kind: once for the same rays, and, once, that light is assumed to leave a liquid.
+  std::vector<std::pair<std::string, std::string>> GetWarnings(const schlieren::Image& image);
 
 private:
   schlieren::Image Noted(schlieren::Image image);

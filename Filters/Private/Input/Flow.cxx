@@ -254,7 +254,7 @@ Flow chooseFlow(
   else
   {
     flow.model = modelFrom(settings);
-    flow.notes = notesOn(flow.choice);
+    flow.notes = flow.choice.warning;
     flow.leaves = leavesWith(selections, dataSets);
   }
 
@@ -271,13 +271,6 @@ Flow chooseFlow(
   applyMask(settings, given.Arrays[MediumSettings::MaskArray].isChosen(), dataSets, flow);
   flattenLayers(settings, flow, like);
   return flow;
-}
-
-std::string notesOn(const MediumChoice& choice)
-{
-  std::string notes = choice.warning;
-  addText(notes, noteOnGases(choice.settings));
-  return notes;
 }
 
 std::vector<std::string> arraysOf(const MediumSettings& settings)
@@ -305,7 +298,10 @@ Implausible implausibleIn(const Flow& flow)
     settings.IndexModel == MediumSettings::REFRACTIVITY;
   used.scales = settings.IndexModel == MediumSettings::CIDDOR || settings.usesGasLaw()
     ? std::vector<double>{ kelvinsOf(settings), settings.PressureScale }
+    : settings.IndexModel == MediumSettings::WATER
+    ? std::vector<double>{ kelvinsOf(settings) }
     : std::vector<double>{ isIndex ? 1 : settings.DensityScale };
+  used.zero = zeroOf(settings);
   const bool isOfTable = !isCustom(settings.Gas);
   used.isGas = settings.IndexModel == MediumSettings::GLADSTONE_DALE_MIXTURE || isOfTable ||
     settings.GladstoneDaleConstant == MediumSettings::defaultConstant;

@@ -64,9 +64,6 @@ Flow chooseFlow(const MediumSettings& settings, KnownArrays& known, vtkDataObjec
 /// Lists all arrays that complete settings may read.
 std::vector<std::string> arraysOf(const MediumSettings& settings);
 
-/// Returns notes on the gases and arrays of a choice; mostly empty.
-std::string notesOn(const MediumChoice& choice);
-
 /// Checks the values that are used.
 Implausible implausibleIn(const Flow& flow);
 

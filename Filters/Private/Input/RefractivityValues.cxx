@@ -87,7 +87,7 @@ void convertBy(
 template <class Gas, class Real>
 void convertBy(const Gas& model, const Arrays& values, const Results<Real>& results, Tally& tally)
 {
-  std::atomic<long long> all{ 0 }, doubtful{ 0 };
+  std::atomic<long long> all{ 0 }, doubtful{ 0 }, continued{ 0 };
   vtkSMPTools::For(0, values[0]->GetNumberOfTuples(),
     [&](vtkIdType begin, vtkIdType end)
     {
@@ -105,14 +105,16 @@ void convertBy(const Gas& model, const Arrays& values, const Results<Real>& resu
         {
           ++mine.all;
           mine.doubtful += model.isDoubtful(state.data()) ? 1 : 0;
+          mine.continued += model.isContinued(state.data()) ? 1 : 0;
         }
         const double n = isFinite ? model.refractivity(state.data()) : std::nan("");
         results.set(i, static_cast<Real>(n - results.offset));
       }
       all += mine.all;
       doubtful += mine.doubtful;
+      continued += mine.continued;
     });
-  tally += { all, doubtful };
+  tally += { all, doubtful, continued };
 }
 
 double refractivityOf(const Linear& model, const double* values)

@@ -215,7 +215,8 @@ std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
   const MediumChoice choice = this->Maker->choice();
   Flow flow;
   flow.model = modelFrom(choice.settings);
-  flow.notes = notesOn(choice);
+  flow.choice = choice;
+  flow.notes = choice.warning;
   if (!this->Made.source)
   {
     throw std::runtime_error(noGas(this->Made.label));

@@ -143,28 +143,45 @@ Choice MediumMaker::choose(vtkDataObject* input)
 
 void MediumMaker::forgetLast() { leave(this->Mesh); }
 
-std::string MediumMaker::warningOf(const Flow& flow, const Tally& tally, bool bodiesMissed)
+std::string MediumMaker::warningOf(
+  const Flow& flow, const Tally& tally, bool bodiesMissed, const std::string& ofShape)
 {
-  std::string warning = warningFrom(flow.model, tally);
-  if (bodiesMissed)
+  const MediumSettings& used = flow.choice.settings;
+  const std::string gas =
+    flow.choice.message + " " + used.Gas + " " + textOf(used.GladstoneDaleConstant);
+  if (gas != this->Said.Gas)
   {
-    addText(warning, bodiesAreOutside);
+    this->Said = {};
   }
+  std::string warning;
   Implausible found;
   if (!flow.leaves.empty())
   {
     found = implausibleIn(flow);
   }
-  if (found.kind != this->ToldOfValues)
+  if (found.kind != this->Said.Values)
   {
     addText(warning, found.text);
   }
-  this->ToldOfValues = found.kind;
-  if (flow.notes != this->ToldNotes)
+  const std::string doubtful = warningFrom(flow.model, tally);
+  if (this->Said.Doubtful.empty())
+  {
+    addText(warning, doubtful);
+  }
+  if (bodiesMissed)
+  {
+    addText(warning, bodiesAreOutside);
+  }
+  if (ofShape != this->Said.Shape)
+  {
+    addText(warning, ofShape);
+  }
+  if (flow.notes != this->Said.Notes)
   {
     addText(warning, flow.notes);
   }
-  this->ToldNotes = flow.notes;
+  this->Said = { gas, found.kind, doubtful, ofShape, flow.notes, used.IndexModel,
+    noteOnContinued(flow.model, tally) };
   return warning;
 }
 
@@ -192,6 +209,7 @@ std::shared_ptr<MadeRefractivity> MediumMaker::make(
   };
   vtkSMPTools::LocalScope(loopsWith(this->threads()), work);
   made->Mesh = this->Mesh;
+  made->Said = this->Said;
   vtkTimeStamp now;
   now.Modified();
   made->SourceTime = now.GetMTime();
@@ -208,9 +226,9 @@ void MediumMaker::makeImage(const Choice& choice, MadeRefractivity& made)
   requireMemoryFor(image, this->settings.DoublePrecision);
   const Tally tally = convertImage(
     flow, this->settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, image);
-  made.Warning = this->warningOf(flow, tally, false);
   const int flat = flatAxisOf(flow);
-  addText(made.Warning, flat < 0 ? "" : warningOfExtrusion(flow, flat));
+  made.Warning =
+    this->warningOf(flow, tally, false, flat < 0 ? "" : warningOfExtrusion(flow, flat));
   if (!hasGas(image))
   {
     throw std::runtime_error(noGas(flow.label));
@@ -317,8 +335,7 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfCells(
   {
     throw std::runtime_error(noGas(flow.label));
   }
-  warning = this->warningOf(flow, tally, bodies && !made->meetsBodies());
-  addText(warning, ofShape);
+  warning = this->warningOf(flow, tally, bodies && !made->meetsBodies(), ofShape);
   if (choice.revolution)
   {
     return std::make_shared<RevolvedSource>(made, *choice.revolution);

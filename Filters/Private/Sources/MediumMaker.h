@@ -76,12 +76,16 @@ public:
 
   std::shared_ptr<MeshCache> mesh() const { return this->Mesh; }
   void setMesh(std::shared_ptr<MeshCache> mesh) { this->Mesh = std::move(mesh); }
+  /// Takes over what was said of a medium that another one has made.
+  void setSaid(const SaidOfFlow& said) { this->Said = said; }
+  const SaidOfFlow& said() const { return this->Said; }
   /// Drops the state of the last data, for a medium that is made elsewhere.
   void forgetLast();
 
-  /// Returns a warning about a medium of `flow` with these values; `bodiesMissed`: no body is in
-  /// the data. Does not repeat the last notes.
-  std::string warningOf(const Flow& flow, const Tally& tally, bool bodiesMissed);
+  /// Returns a warning about a medium of `flow` with these values, first what one can act on; `bodiesMissed`: no body is in
+  /// the data; `ofShape`: about its shape, may be empty. Does not repeat the last notes.
+  std::string warningOf(
+    const Flow& flow, const Tally& tally, bool bodiesMissed, const std::string& ofShape = "");
 
 private:
   WorkProgress progressOf(double from, double to) const;
@@ -97,7 +101,7 @@ private:
   Progress Report;
   KnownArrays Known;
   std::shared_ptr<MeshCache> Mesh = std::make_shared<MeshCache>();
-  std::string ToldNotes, ToldOfValues; // the last notes, not repeated for every time step
+  SaidOfFlow Said;
 };
 
 /// Makes the piece of an image, or of a rank's piece of it, on whose grid `refractivity` has been made of `input`.

@@ -9,6 +9,7 @@
 
 #include "Schlieren.h"
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,7 +26,16 @@ namespace filters
 struct MeshCache;
 }
 
-/// The refractivity of a filter's data, independent of views. Immutable once made.
+/// What has been said of a flow, so that it is not repeated for every time step and view.
+struct SaidOfFlow
+{
+  std::string Gas; ///< and arrays: for others all may be said again
+  std::string Values, Doubtful, Shape, Notes;
+  int IndexModel = MediumSettings::AUTO; ///< the one chosen
+  std::string Continued; ///< about formulas beyond their range: a line beside the arrays
+};
+
+/// The refractivity of a filter's data, independent of views. Immutable once made, but for what is said of it.
 struct MadeRefractivity
 {
   MadeRefractivity();
@@ -42,7 +52,17 @@ struct MadeRefractivity
   int FlatAxis = -1;                        ///< see Choice
   double Depth = 0;                         ///< of a plane, if it was found; else 0
   std::string Wedge;                        ///< what of the data is revolved by itself, as text
-  std::string Warning;                      ///< for each filter that uses it
+  std::string Warning;                      ///< for the first filter that uses it
+  SaidOfFlow Said;
+
+  /// Returns whether `user` is the first one that says something of this kind, which need not be said in every view.
+  bool IsForMe(const std::string& kind, const void* user) const
+  {
+    return this->Speakers.emplace(kind, user).first->second == user;
+  }
+
+private:
+  mutable std::map<std::string, const void*> Speakers;
 };
 
 /// The inputs of a refractivity: equal keys mean equal refractivity.

@@ -197,6 +197,41 @@ TEST(Stages, ProgressGrowsToOne)
   EXPECT_LE(steps.back(), 1);
 }
 
+// The first image that is shown is no end of it, nor is the search for settings.
+TEST(Stages, ProgressTowardsATargetErrorGrowsToOne)
+{
+  const SampledField<float> blob = blobField();
+  Scene scene = smallScene();
+  scene.targetError = 1e-4; // which takes more than the first rays
+  for (const bool pauses : { false, true })
+  {
+    SCOPED_TRACE(pauses);
+    std::vector<double> steps;
+    Monitor monitor;
+    monitor.progress = [&](double fraction) { steps.push_back(fraction); };
+    if (pauses)
+    {
+      monitor.paused = [] { return true; };
+    }
+    Bench bench;
+    Image image = bench.render(blob.field, scene, monitor);
+    while (image.intensity.empty())
+    {
+      image = bench.resume(monitor);
+    }
+    ASSERT_FALSE(steps.empty());
+    EXPECT_EQ(steps.back() <= 0.3, pauses) << steps.back();
+    while (!image.finished)
+    {
+      image = bench.resume(monitor);
+    }
+    EXPECT_GT(image.accuracy.target, 0);
+    EXPECT_TRUE(std::is_sorted(steps.begin(), steps.end()));
+    EXPECT_GT(steps.back(), 0.9);
+    EXPECT_LE(steps.back(), 1);
+  }
+}
+
 } // namespace
 
 } // namespace schlieren

@@ -167,6 +167,33 @@ TEST(Ciddor, KeepsTheNearestDispersionOutsideItsWavelengths)
   EXPECT_FALSE(isWithinCiddorWavelengths(notANumber));
 }
 
+// At 20 C and the sodium line 1.33299 relative to air (CRC Handbook), whose own index is 1.00027; and the cubic of temperature at
+// 632.8 nm of Documentation/density.md.
+TEST(Water, IndexByTemperature)
+{
+  EXPECT_NEAR(1 + waterRefractivity(293.15, 589.3e-9), 1.33299 * 1.00027, 2e-5);
+  for (double kelvins = 290; kelvins < 325; kelvins += 5)
+  {
+    const double t = kelvins - 300;
+    EXPECT_NEAR(waterRefractivity(kelvins, 632.8e-9),
+      0.331418 - 1.1092e-4 * t - 1.4857e-6 * t * t + 7.088e-9 * t * t * t, 2e-6)
+      << kelvins;
+  }
+  EXPECT_NEAR(
+    (waterRefractivity(293.65, 632.8e-9) - waterRefractivity(292.65, 632.8e-9)), -0.9e-4, 0.05e-4);
+  EXPECT_GT(waterRefractivity(293.15, 450e-9), waterRefractivity(293.15, 650e-9) + 0.005);
+
+  EXPECT_EQ(waterRefractivity(1000, 632.8e-9), waterRefractivity(373.15, 632.8e-9));
+  EXPECT_EQ(waterRefractivity(200, 632.8e-9), waterRefractivity(273.15, 632.8e-9));
+  EXPECT_TRUE(std::isnan(waterRefractivity(0, 632.8e-9)));
+  EXPECT_TRUE(std::isnan(waterRefractivity(notANumber, 632.8e-9)));
+  EXPECT_TRUE(std::isnan(waterRefractivity(293.15, 0)));
+  EXPECT_TRUE(isLiquidWater(273.15) && isLiquidWater(373.15));
+  EXPECT_FALSE(isLiquidWater(273) || isLiquidWater(374) || isLiquidWater(notANumber));
+  EXPECT_TRUE(isWithinWaterWavelengths(632.8e-9));
+  EXPECT_FALSE(isWithinWaterWavelengths(2e-6) || isWithinWaterWavelengths(notANumber));
+}
+
 TEST(Ciddor, KnowsWhereItHolds)
 {
   EXPECT_TRUE(isWithinCiddorRange(293.15, 101325));

@@ -487,7 +487,13 @@ TEST(WaveStage, WhatCannotBeMadeIsAnError)
           scene.fringes.whiteLight = true;
         },
         "WhiteLight" },
-      Case{ [](Scene& scene) { scene.view.viewAngle = 40; }, "ViewAngle to less" },
+      Case{ [](Scene& scene) { scene.view.viewAngle = 40; }, "or LightModel to Rays" },
+      Case{ [](Scene& scene)
+        {
+          scene.view.viewAngle = 40;
+          scene.cutoff = Cutoff::PhaseContrast;
+        },
+        "ViewAngle to less (0 is parallel light), or Cutoff to another technique" },
       Case{ [](Scene& scene) { scene.source.distance = 1e-2; }, "collimated light" },
       Case{ [](Scene& scene)
         {

@@ -417,8 +417,75 @@ TEST(Ciddor, ScalesAndWavelengthCount)
     1e-14);
 }
 
-// The second update uses what there is, and repeats nothing.
-TEST(Ciddor, OutsideItsRangeIsWarnedOfOnce)
+// As an index model, or as the gas of Auto beside a density, of points or cells, in degrees of a kind.
+TEST(Water, OfATemperature)
+{
+  const auto expected = [](const Vec& x)
+  { return schlieren::waterRefractivity(temperature(x), 632.8e-9); };
+  for (const auto& image : { flow(), flowInCells() })
+  {
+    for (const bool byGas : { false, true })
+    {
+      auto filter = automatic(image);
+      byGas ? filter->SetGas("water") : filter->SetIndexModel(vtkRefractiveIndex::WATER);
+      EXPECT_LT(largestError(filter, expected), 1e-14);
+      EXPECT_STREQ(filter->GetArraysUsed(), "Temperature: 'T'.");
+    }
+  }
+  auto celsiusImage = cube(4);
+  addPointArray(celsiusImage, "T (C)", [](const Vec& x) { return 20 + x[0]; });
+  auto filter = automatic(celsiusImage);
+  filter->SetGas("water");
+  filter->SetWavelength(532);
+  EXPECT_LT(
+    largestError(filter,
+      [](const Vec& x) { return schlieren::waterRefractivity(20 + celsius + x[0], 532e-9); }),
+    1e-14);
+
+  auto steam = cube(4);
+  addPointArray(steam, "T", [](const Vec& x) { return x[0] < 0 ? 300 : 500; });
+  filter = automatic(steam);
+  filter->SetGas("water");
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  EXPECT_TRUE(complaints->Warnings.empty() && complaints->Errors.empty());
+  EXPECT_EQ(std::string(filter->GetArraysUsed())
+              .rfind("Temperature: 'T'. 50 % of the points lie outside 0 to 100 C", 0),
+    0u)
+    << filter->GetArraysUsed();
+}
+
+TEST(Water, MistakesAreOneMessageEach)
+{
+  const auto automaticOf = [](vtkDataObject* input)
+  {
+    auto filter = automatic(input);
+    filter->SetGas("water");
+    return filter;
+  };
+  const auto heal = [](vtkRefractiveIndex* filter)
+  {
+    filter->SetIndexModel(vtkRefractiveIndex::AUTO);
+    filter->SetWavelength(632.8);
+  };
+  expectOneMessage(
+    automaticOf(flow()).Get(),
+    [](vtkRefractiveIndex* filter) { filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE); },
+    { "Gas is water", "IndexModel to Water" }, heal);
+  expectOneMessage(
+    automaticOf(flow()).Get(), [](vtkRefractiveIndex* filter) { filter->SetWavelength(3000); },
+    { "Wavelength is 3000 nm", "200 and 1900 nm" }, heal);
+  auto cold = cube(4);
+  addPointArray(cold, "T", [](const Vec& x) { return 20 + x[0]; });
+  auto filter = automaticOf(cold);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  ASSERT_EQ(complaints->Errors.size(), 1u);
+  EXPECT_NE(complaints->Errors[0].find("'T' is not in kelvins"), std::string::npos);
+}
+
+// A line beside the arrays, and nothing to be warned of; percents of humidity are.
+TEST(Ciddor, OutsideItsRangeIsSaidBesideTheArrays)
 {
   auto image = flow(10);
   vtkDataArray* t = image->GetPointData()->GetArray("T");
@@ -428,14 +495,30 @@ TEST(Ciddor, OutsideItsRangeIsWarnedOfOnce)
   }
   auto filter = bench(image);
   chooseCiddor(filter.Get());
+  filter->SetGas("air"); // needs no word on fractions
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   filter->Update();
-  filter->SetKnifeEdgeAngle(90);
+  EXPECT_FALSE(isEmpty(filter));
+  auto other = bench(image); // which takes the medium of the first
+  chooseCiddor(other.Get());
+  other->SetGas("air");
+  other->Update();
+  for (vtkSchlierenFilter* each : { filter.Get(), other.Get() })
+  {
+    const std::string used = each->GetArraysUsed();
+    EXPECT_EQ(used.rfind("Temperature: 'T'; Pressure: 'p'. 25 % of the points", 0), 0u) << used;
+  }
+  EXPECT_TRUE(complaints->Warnings.empty());
+
+  addPointArray(image, "percent", [](const Vec&) { return 40; });
+  choose(filter.Get(), vtkRefractiveIndex::HUMIDITY, "percent");
   filter->Update();
+  filter->SetKnifeEdgeAngle(90);
+  filter->Update(); // uses what there is, and repeats nothing
   EXPECT_TRUE(complaints->Errors.empty());
   ASSERT_EQ(complaints->Warnings.size(), 1u);
-  EXPECT_NE(complaints->Warnings[0].find("25 %"), std::string::npos) << complaints->Warnings[0];
-  EXPECT_FALSE(isEmpty(filter));
+  EXPECT_NE(complaints->Warnings[0].find("percents by 100"), std::string::npos)
+    << complaints->Warnings[0];
 }
 
 // A temperature that cannot be is a solid, not a hole in the sums.

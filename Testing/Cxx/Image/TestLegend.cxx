@@ -213,6 +213,12 @@ TEST(Legend, ShowsLightOfAShadowgraphAndNothingOfAPattern)
               2),
     1);
   EXPECT_EQ(legendText(filter, "LegendLabel"), "light (undisturbed: 1)");
+  filter->SetLengthScale(1e-2); // the cube's depth is 2
+  filter->Update();
+  EXPECT_EQ(legendText(filter, "LegendNotes"), "screen 20 mm behind the data (one depth)");
+  filter->SetScreenDistance(0.5);
+  filter->Update();
+  EXPECT_EQ(legendText(filter, "LegendNotes"), "screen 5 mm behind the data");
   filter->SetCutoff(vtkSchlierenFilter::BACKGROUND_ORIENTED);
   filter->Update();
   EXPECT_EQ(legendText(filter, "LegendTitle"), "Background Oriented");
@@ -238,6 +244,26 @@ TEST(Legend, SaysWhereKComesFrom)
   filter->SetKScale(1500);
   filter->Update();
   EXPECT_EQ(legendText(filter, "LegendNotes"), "k = 1500");
+}
+
+// As of a density that is constant up to rounding.
+TEST(Legend, SaysWhatIsTooWeakForABench)
+{
+  auto filter = ball();
+  filter->SetKMode(vtkSchlierenFilter::K_VALUE);
+  for (const double k : { 1e5, 4.9e5, 5.1e5, 2.5e8 }) // full scale is 1 / 2k
+  {
+    filter->SetKScale(k);
+    filter->Update();
+    auto* notes = vtkStringArray::SafeDownCast(
+      filter->GetOutputDataObject(0)->GetFieldData()->GetAbstractArray("LegendNotes"));
+    ASSERT_NE(notes, nullptr);
+    const bool isWeak = k > 5e5;
+    EXPECT_EQ(notes->LookupValue("weaker than a bench can see (about 1 \xC2\xB5rad)") >= 0, isWeak);
+    const std::string words = filter->GetSensitivity();
+    EXPECT_EQ(words.find("weaker than a bench can see") != std::string::npos, isWeak) << words;
+    EXPECT_EQ(words.find("optics") != std::string::npos, !isWeak) << words;
+  }
 }
 
 TEST(Legend, NeedsASensitivity)

@@ -368,6 +368,43 @@ TEST(ArrayChoice, MessagesAreShort)
   EXPECT_NE(complaints->Errors[0].find("StagnationTemperature"), std::string::npos);
 }
 
+// The same image as of kelvins, of air and of a mixture whose density follows from the temperature.
+TEST(ArrayChoice, DegreesBecomeKelvins)
+{
+  const auto flowOf = [](const char* name, double size, double zero)
+  {
+    auto flow = cube(17);
+    addPointArray(flow, name, [=](const Vec& x) { return (bump(290, 350)(x) - zero) / size; });
+    addPointArray(flow, "p", bump(9e4, 1e5));
+    addPointArray(flow, "Y_He", bump(0, 0.5));
+    return flow;
+  };
+  for (const char* gas : { "air", "Custom" }) // one, and the mixture
+  {
+    const auto imageOf = [&](vtkImageData* flow)
+    {
+      auto filter = filterOf(flow);
+      filter->SetGas(gas);
+      EXPECT_EQ(warningsOf(filter), std::vector<std::string>());
+      return filter;
+    };
+    auto kelvins = imageOf(flowOf("T", 1, 0));
+    for (const auto& [name, size, zero, words] :
+      { std::make_tuple("T [degC]", 1., 273.15, "Temperature: 'T [degC]' plus 273.15"),
+        std::make_tuple("temperature_F", 5. / 9, 459.67 * 5 / 9,
+          "Temperature: 'temperature_F' times 0.555556 plus 255.372") })
+    {
+      auto degrees = imageOf(flowOf(name, size, zero));
+      EXPECT_LT(relativeDifference(valuesOf(degrees, "OpticalPathDifference"),
+                  valuesOf(kelvins, "OpticalPathDifference")),
+        1e-5)
+        << name;
+      EXPECT_EQ(std::string(degrees->GetArraysUsed()).rfind(words, 0), 0u)
+        << degrees->GetArraysUsed();
+    }
+  }
+}
+
 TEST(ArrayChoice, CelsiusAndGaugePressuresAreSaid)
 {
   auto flow = cube(9);

@@ -83,7 +83,8 @@ TEST(FlowDefaults, DensityUnits)
   EXPECT_EQ(scaleByUnit("Pressure", "Pressure (kPa)"), 1000);
   EXPECT_EQ(scaleByUnit("Temperature", "T [K]"), 1);
   EXPECT_NEAR(scaleByUnit("Temperature", "T [degR]"), 5. / 9, 1e-15);
-  EXPECT_EQ(scaleByUnit("Temperature", "T [degC]"), 0);
+  EXPECT_EQ(scaleByUnit("Temperature", "T [degC]"), 1);
+  EXPECT_EQ(scaleByUnit("Temperature", "T_f"), 0); // of a flame
   const FlowDefaults unknown = flowDefaults({ scalar("rho [stone/acre]", 1, 2) });
   EXPECT_TRUE(unknown.scales.empty());
   EXPECT_NE(unknown.message.find("unit of 'rho [stone/acre]' is not known"), std::string::npos);
@@ -223,8 +224,22 @@ TEST(FlowDefaults, PressureUnits)
   EXPECT_EQ(scaleOf(scalar("total pressure", 9e4, 1e5)), 0);
 }
 
-TEST(FlowDefaults, TemperaturesInCelsiusAreReported)
+TEST(FlowDefaults, TemperaturesInCelsiusAreConvertedWhereTheirNamesSaySo)
 {
+  for (const char* name : { "T [degC]",
+         "T [\xc2\xb0"
+         "C]",
+         "T (C)", "temperature_C", "Temperature_Celsius", "TempDegC", "T [deg C]" })
+  {
+    const FlowDefaults chosen = flowDefaults({ scalar(name, 15, 80), scalar("p", 9e4, 1e5) });
+    EXPECT_EQ(chosen.arrayOf("Temperature"), name) << chosen.message;
+    EXPECT_NE(chosen.message.find(std::string("'") + name + "' in degrees Celsius; pressure"),
+      std::string::npos)
+      << chosen.message;
+  }
+  EXPECT_NE(flowDefaults({ scalar("T_F", 60, 180), scalar("p", 9e4, 1e5) })
+              .message.find("'T_F' in degrees Fahrenheit"),
+    std::string::npos);
   const FlowDefaults chosen = flowDefaults({ scalar("T", 15, 80), scalar("p", 9e4, 1e5) });
   EXPECT_TRUE(chosen.arrays.empty());
   EXPECT_NE(chosen.message.find("'T' is not in kelvins"), std::string::npos);
@@ -387,12 +402,14 @@ std::string kindOf(
   return implausible(flow).kind;
 }
 
-std::string kindOfAir(const FlowArray& temperature, const FlowArray& pressure, double pascals = 1)
+std::string kindOfAir(
+  const FlowArray& temperature, const FlowArray& pressure, double pascals = 1, double zero = 0)
 {
   FlowInUse flow;
   flow.indexModel = MediumSettings::CIDDOR;
   flow.arrays = { temperature, pressure };
   flow.scales = { 1, pascals };
+  flow.zero = zero;
   return implausible(flow).kind;
 }
 
@@ -438,7 +455,8 @@ TEST(Implausible, MoistAir)
   EXPECT_EQ(kindOfAir(scalar("T", -20, 1500), pascals), "Celsius");
   EXPECT_EQ(kindOfAir(scalar("T", 0, 320), pascals), "");  // 0 in bodies
   EXPECT_EQ(kindOfAir(scalar("T", 50, 320), pascals), ""); // of a hypersonic tunnel
-  EXPECT_EQ(kindOfAir(scalar("T [degC]", 280, 320), pascals), "Celsius");
+  EXPECT_EQ(kindOfAir(scalar("T [degC]", 15, 80), pascals, 1, 273.15), "");
+  EXPECT_EQ(kindOfAir(scalar("T [degC]", -280, 20), pascals, 1, 273.15), "Celsius");
   EXPECT_EQ(kindOfAir(kelvins, scalar("p", -20, 30)), "gauge");
   EXPECT_EQ(kindOfAir(kelvins, scalar("p_gauge", 10, 30)), "gauge");
   EXPECT_EQ(kindOfAir(kelvins, scalar("p", 700, 1013)), "pressure");
@@ -482,10 +500,12 @@ TEST(FlowDefaults, UniformPressureCompletesATemperature)
   EXPECT_TRUE(room.isSure);
   EXPECT_EQ(room.message, "Air; temperature: 'T' in K; pressure: 101325 Pa everywhere.");
 
-  // Neither what a flow has itself, nor degrees Celsius.
+  // Neither what a flow has itself, nor what may be degrees Celsius.
   EXPECT_EQ(flowDefaultsAt({ scalar("rho", 1, 2) }, pressureOfRoom).uniformPressure, 0);
   EXPECT_EQ(flowDefaultsAt({ scalar("T", 290, 320), scalar("p", 9e4, 1e5) }, pressureOfRoom)
               .arrayOf("Pressure"),
     "p");
   EXPECT_TRUE(flowDefaultsAt({ scalar("T", 20, 50) }, pressureOfRoom).arrays.empty());
+  EXPECT_EQ(flowDefaultsAt({ scalar("T [degC]", 20, 50) }, pressureOfRoom).message,
+    "Air; temperature: 'T [degC]' in degrees Celsius; pressure: 101325 Pa everywhere.");
 }
