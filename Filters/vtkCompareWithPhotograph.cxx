@@ -190,6 +190,12 @@ int vtkCompareWithPhotograph::RequestUpdateExtent(
     {
       vtkInformation* info = inputVector[port]->GetInformationObject(i);
       info->Set(Pipeline::UPDATE_EXTENT(), info->Get(Pipeline::WHOLE_EXTENT()), 6);
+      if (port !=
+        IMAGE) // which rank 0 makes with the help of the others; files each rank reads whole
+      {
+        info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+        info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+      }
     }
   }
   return 1;
