@@ -7,6 +7,26 @@
 /// describes them.
 struct PhotographSettings
 {
+  // values: Placement, FitPlace
+  /// Values of Placement.
+  enum Placements
+  {
+    PLACE_FILL_IMAGE = 0,
+    PLACE_BY_HAND = 1,
+    PLACE_ONE_POINT = 2,
+    PLACE_TWO_POINTS = 3
+  };
+
+  /// Values of FitPlace.
+  enum FitPlaces
+  {
+    FIT_OFF = 0,
+    FIT_BODY = 1,
+    FIT_FLOW = 2
+  };
+
+  // end
+
   // members: rest
   int Comparison = 3;
   double SwipePosition = 0.5;

@@ -43,6 +43,14 @@ struct vtkCompareWithPhotograph::Last
 namespace
 {
 
+static_assert(static_cast<int>(View::Photograph) == vtkCompareWithPhotograph::SHOW_PHOTOGRAPH &&
+  static_cast<int>(View::Simulated) == vtkCompareWithPhotograph::SHOW_SIMULATED &&
+  static_cast<int>(View::Over) == vtkCompareWithPhotograph::SHOW_OVER &&
+  static_cast<int>(View::Swipe) == vtkCompareWithPhotograph::SHOW_SWIPE &&
+  static_cast<int>(View::Chequerboard) == vtkCompareWithPhotograph::SHOW_CHEQUERBOARD &&
+  static_cast<int>(View::RedCyan) == vtkCompareWithPhotograph::SHOW_RED_CYAN &&
+  static_cast<int>(View::Difference) == vtkCompareWithPhotograph::SHOW_DIFFERENCE);
+
 /// Calls a function with each number of a property.
 template <class Value, class Use>
 void forNumbers(const Value& value, const Use& use)
@@ -236,7 +244,11 @@ int vtkCompareWithPhotograph::RequestData(
       {
         const bool isOfView =
           !std::strcmp(name, "Comparison") || !std::strcmp(name, "SwipePosition");
-        forNumbers(this->*member, [&](double number) { from.push_back(isOfView ? 0 : number); });
+        forNumbers(this->*member,
+          [&](double number) // infinity equals itself
+          {
+            from.push_back(isOfView ? 0 : std::isnan(number) ? HUGE_VAL : number);
+          });
       });
     if (this->Kept->From != from)
     {

@@ -22,9 +22,7 @@ namespace filters
 namespace
 {
 
-// Values of the properties, as Plugin/Photograph.xml has them.
-constexpr int byHand = 1, onePoint = 2, twoPoints = 3;
-constexpr int fitBody = 1, fitFlow = 2;
+using Settings = PhotographSettings;
 
 constexpr float saturated = 0.985f;    // brighter pixels of the photograph may have had more light
 constexpr double leastFull = 0.01;     // fraction of points with all light, from which k is known
@@ -47,20 +45,21 @@ Point2 pairOf(const double (&values)[2]) { return { values[0], values[1] }; }
 Place placeOf(const Grid& image, const Grid& photograph, const PhotographSettings& settings)
 {
   const double aspect = settings.PixelAspect;
-  if (settings.Placement == twoPoints)
+  if (settings.Placement == Settings::PLACE_TWO_POINTS)
   {
     return placeByPoints(pairOf(settings.PhotographPoint1), pairOf(settings.PhotographPoint2),
       pairOf(settings.FlowPoint1), pairOf(settings.FlowPoint2), aspect);
   }
   const double filling = image.rows * image.spacing[1] / (photograph.rows * photograph.spacing[1]);
   Place place{ photograph.middle(), image.middle(), filling, 0, aspect };
-  if (settings.Placement == byHand || settings.Placement == onePoint)
+  if (settings.Placement == Settings::PLACE_BY_HAND ||
+    settings.Placement == Settings::PLACE_ONE_POINT)
   {
     place.rotation = vtkMath::RadiansFromDegrees(settings.PhotographRotation);
     place.scale = settings.PhotographScale > 0 ? settings.PhotographScale : filling;
     place.position = pairOf(settings.PhotographPosition);
   }
-  if (settings.Placement == onePoint)
+  if (settings.Placement == Settings::PLACE_ONE_POINT)
   {
     place.anchor = pairOf(settings.PhotographPoint1);
     place.position = pairOf(settings.FlowPoint1);
@@ -182,12 +181,11 @@ CameraFit firstFit(
 /// Returns the light that the camera has seen, relative to undisturbed light: what recorded() makes values of.
 Plane seenLight(const SimulatedLight& light, const Exposure& exposure, const CameraFit& fit)
 {
-  CameraFit bright = fit;
   Plane result = recorded(light, exposure, fit);
   const Plane model = blurred(light.light(fit.light), fit.camera.blur);
   for (std::size_t i = 0; i < result.size(); ++i)
   {
-    const double black = bright.camera.black;
+    const double black = fit.camera.black;
     const double made = std::max(result.values[i] - black, 1e-4);
     const double seen = std::max(exposure.photograph.values[i] - black, 0.);
     result.values[i] = exposure.known.values[i] > 0
@@ -203,7 +201,7 @@ Plane seenLight(const SimulatedLight& light, const Exposure& exposure, const Cam
 Place improved(Place place, const SimulatedLight& light, const Photograph& photograph,
   const Grid& image, const PhotographSettings& settings)
 {
-  if (settings.FitPlace == fitBody)
+  if (settings.FitPlace == Settings::FIT_BODY)
   {
     const float least = *std::min_element(light.open().values.begin(), light.open().values.end());
     if (least > 0.5f)
@@ -220,7 +218,7 @@ Place improved(Place place, const SimulatedLight& light, const Photograph& photo
       light.open(), image);
   }
   constexpr int rounds = 3;
-  for (int round = 0; round < rounds && settings.FitPlace == fitFlow; ++round)
+  for (int round = 0; round < rounds && settings.FitPlace == Settings::FIT_FLOW; ++round)
   {
     const Exposure exposure = exposureOf(photograph, place, image, light.open());
     const CameraFit fit = firstFit(light, exposure, startOf(light, photograph, exposure, settings),
@@ -314,7 +312,7 @@ void describe(
     " data units per pixel, is turned by " + textOf(result.rotation, 4) +
     " degrees, and its middle is at " + textOf(result.middle[0]) + ", " + textOf(result.middle[1]) +
     ".");
-  if (settings.FitPlace == fitFlow)
+  if (settings.FitPlace == Settings::FIT_FLOW)
   {
     sentences.emplace_back("Warning: it was placed by its flow, which hides where shocks and other "
                            "features lie elsewhere than simulated.");

@@ -74,13 +74,13 @@ Place placeByPoints(
 {
   const std::complex<double> from(aspect * (from2[0] - from1[0]), from2[1] - from1[1]);
   const std::complex<double> to(to2[0] - to1[0], to2[1] - to1[1]);
-  if (from == 0. || to == 0.)
+  const auto turn = to / from;
+  if (!(std::abs(turn) > 0) || !std::isfinite(std::abs(turn)))
   {
     throw std::runtime_error(
       "Both points of the photograph, or of the flow, are at one place. Set "
       "PhotographPoint1 and 2 and FlowPoint1 and 2 to two different places.");
   }
-  const auto turn = to / from;
   return { from1, to1, std::abs(turn), std::arg(turn), aspect };
 }
 

@@ -7,6 +7,7 @@
 #include "vtkCompareWithPhotograph.h"
 #include "vtkMath.h"
 
+#include <cmath>
 #include <ctime>
 
 namespace
@@ -574,6 +575,14 @@ TEST(Photograph, MistakesAreOneMessage)
       filter->SetPhotographPoint2(5, 5);
     },
     { "at one place", "PhotographPoint1" }, [](Self* filter) { givePlace(filter, truePlace()); });
+  expectOneMessage(
+    comparison.Get(),
+    [](Self* filter)
+    {
+      filter->SetPlacement(Self::PLACE_TWO_POINTS);
+      filter->SetPhotographPoint1(std::nan(""), 5);
+    },
+    { "at one place" }, [](Self* filter) { givePlace(filter, truePlace()); });
   expectOneMessage(
     comparison.Get(), [](Self* filter) { filter->SetFitPlace(Self::FIT_BODY); },
     { "no body", "FitPlace" }, [](Self* filter) { filter->SetFitPlace(Self::FIT_OFF); });
