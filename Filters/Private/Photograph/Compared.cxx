@@ -1,0 +1,454 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Photograph/Compared.h"
+
+#include "Common/NumberText.h"
+#include "Photograph/PlaceFit.h"
+#include "PhotographSettings.h"
+
+#include "vtkImageData.h"
+#include "vtkMath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace filters
+{
+
+namespace
+{
+
+using Settings = PhotographSettings;
+
+constexpr float saturated = 0.985f;    // brighter pixels of the photograph may have had more light
+constexpr double leastFull = 0.01;     // fraction of points with all light, from which k is known
+constexpr double leastContrast = 0.02; // of a photograph that shows something
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+/// A photograph in its own pixels, or in squares of them where they are finer than the image's.
+struct Photograph
+{
+  Plane values;
+  Plane withoutFlow; // or empty
+  Plane used;        // 1 within the mirror where it is not saturated, else 0
+  Grid grid;
+  double black = 0;
+  bool isBlackKnown = false; // given, or seen beyond the mirror
+};
+
+Point2 pairOf(const double (&values)[2]) { return { values[0], values[1] }; }
+
+Place placeOf(const Grid& image, const Grid& photograph, const PhotographSettings& settings)
+{
+  const double aspect = settings.PixelAspect;
+  if (settings.Placement == Settings::PLACE_TWO_POINTS)
+  {
+    return placeByPoints(pairOf(settings.PhotographPoint1), pairOf(settings.PhotographPoint2),
+      pairOf(settings.FlowPoint1), pairOf(settings.FlowPoint2), aspect);
+  }
+  const double filling = image.rows * image.spacing[1] / (photograph.rows * photograph.spacing[1]);
+  Place place{ photograph.middle(), image.middle(), filling, 0, aspect };
+  if (settings.Placement == Settings::PLACE_BY_HAND ||
+    settings.Placement == Settings::PLACE_ONE_POINT)
+  {
+    place.rotation = vtkMath::RadiansFromDegrees(settings.PhotographRotation);
+    place.scale = settings.PhotographScale > 0 ? settings.PhotographScale : filling;
+    place.position = pairOf(settings.PhotographPosition);
+  }
+  if (settings.Placement == Settings::PLACE_ONE_POINT)
+  {
+    place.anchor = pairOf(settings.PhotographPoint1);
+    place.position = pairOf(settings.FlowPoint1);
+  }
+  return place;
+}
+
+Photograph read(vtkImageData* photograph, vtkImageData* withoutFlow, int factor,
+  const PhotographSettings& settings)
+{
+  Photograph result;
+  const double white = whiteOf(photograph, withoutFlow);
+  result.values = luminanceOf(photograph, white, factor, result.grid);
+  if (withoutFlow)
+  {
+    Grid same;
+    result.withoutFlow = luminanceOf(withoutFlow, white, factor, same);
+    if (same.columns != result.grid.columns || same.rows != result.grid.rows)
+    {
+      throw std::runtime_error(
+        "The photograph without flow has another number of pixels than the photograph. Take both "
+        "with the same camera, and cut both alike.");
+    }
+  }
+  result.used = Plane(result.grid.columns, result.grid.rows);
+  std::vector<float> dark; // beyond the mirror and what its edge scatters
+  for (int row = 0; row < result.grid.rows; ++row)
+  {
+    for (int column = 0; column < result.grid.columns; ++column)
+    {
+      const auto [x, y] = result.grid.at(column, row);
+      const double distance =
+        std::hypot(x - settings.MirrorCenter[0], y - settings.MirrorCenter[1]);
+      const bool isInside = !(settings.MirrorRadius > 0) || distance < settings.MirrorRadius;
+      result.used(column, row) = isInside && result.values(column, row) < saturated ? 1.f : 0.f;
+      if (!isInside && distance > 1.1 * settings.MirrorRadius)
+      {
+        dark.push_back(result.values(column, row));
+      }
+    }
+  }
+  result.isBlackKnown = settings.BlackLevel >= 0 || dark.size() > 100;
+  std::vector<float> all = result.values.values;
+  result.black = settings.BlackLevel >= 0 ? settings.BlackLevel
+    : result.isBlackKnown                 ? quantile(dark, 0.5)
+                                          : std::clamp<double>(quantile(all, 0.001), 0, 0.19);
+  return result;
+}
+
+/// Returns the photographs at the image's points.
+Exposure exposureOf(
+  const Photograph& photograph, const Place& place, const Grid& image, const Plane& open)
+{
+  const auto there = [&](const Plane& plane)
+  { return plane.values.empty() ? Plane() : resampled(plane, photograph.grid, place, image); };
+  Exposure exposure{ there(photograph.values), there(photograph.withoutFlow),
+    there(photograph.used) };
+  for (std::size_t i = 0; i < exposure.known.size(); ++i)
+  {
+    // Along a body's edge, light depends on where exactly the edge is.
+    const bool isEdge = open.values[i] > 0 && open.values[i] < 1;
+    exposure.known.values[i] = exposure.known.values[i] > 0.999f && !isEdge ? 1.f : 0.f;
+  }
+  return exposure;
+}
+
+std::vector<float> knownValues(const Plane& plane, const Plane& known)
+{
+  std::vector<float> values;
+  for (std::size_t i = 0; i < plane.size(); ++i)
+  {
+    if (known.values[i] > 0 && std::isfinite(plane.values[i]))
+    {
+      values.push_back(plane.values[i]);
+    }
+  }
+  return values;
+}
+
+CameraFit startOf(const SimulatedLight& light, const Photograph& photograph,
+  const Exposure& exposure, const PhotographSettings& settings)
+{
+  CameraFit fit;
+  fit.light = light.start();
+  fit.camera.exponent = 1 / settings.Gamma;
+  fit.camera.black = photograph.black;
+  std::vector<float> seen = knownValues(exposure.photograph, exposure.known);
+  fit.camera.surface[0] = std::log(std::max(quantile(seen, 0.5) - fit.camera.black, 0.05));
+  return fit;
+}
+
+Fitted fittedOf(const Photograph& photograph, const PhotographSettings& settings)
+{
+  return photograph.isBlackKnown ? (settings.FitCutoff ? Fitted::Light : Fitted::Brightness)
+                                 : (settings.FitCutoff ? Fitted::All : Fitted::BrightnessAndBlack);
+}
+
+/// Fits from all sides on which the cutoff may have been, and returns the best.
+CameraFit firstFit(
+  const SimulatedLight& light, const Exposure& exposure, const CameraFit& start, Fitted what)
+{
+  CameraFit best = start;
+  best.cost = std::numeric_limits<double>::infinity();
+  const bool isOther = what == Fitted::Light || what == Fitted::All; // than that of the image
+  for (const auto& parameters :
+    isOther ? light.starts() : std::vector<SimulatedLight::Parameters>{ light.start() })
+  {
+    CameraFit one = start;
+    one.light = parameters;
+    one = fitCamera(light, exposure, one, what);
+    if (one.cost < best.cost)
+    {
+      best = one;
+    }
+  }
+  return best;
+}
+
+/// Returns the light that the camera has seen, relative to undisturbed light: what recorded() makes values of.
+Plane seenLight(const SimulatedLight& light, const Exposure& exposure, const CameraFit& fit)
+{
+  Plane result = recorded(light, exposure, fit);
+  const Plane model = blurred(light.light(fit.light), fit.camera.blur);
+  for (std::size_t i = 0; i < result.size(); ++i)
+  {
+    const double black = fit.camera.black;
+    const double made = std::max(result.values[i] - black, 1e-4);
+    const double seen = std::max(exposure.photograph.values[i] - black, 0.);
+    result.values[i] = exposure.known.values[i] > 0
+      ? std::clamp(
+          static_cast<float>(model.values[i] * std::pow(seen / made, 1 / fit.camera.exponent)), 0.f,
+          4.f)
+      : model.values[i];
+  }
+  return result;
+}
+
+/// Improves the place by the body's silhouette, or by the flow.
+Place improved(Place place, const SimulatedLight& light, const Photograph& photograph,
+  const Grid& image, const PhotographSettings& settings)
+{
+  if (settings.FitPlace == Settings::FIT_BODY)
+  {
+    const float least = *std::min_element(light.open().values.begin(), light.open().values.end());
+    if (least > 0.5f)
+    {
+      throw std::runtime_error(
+        "There is no body in the image whose silhouette could be found in the "
+        "photograph. Set FitPlace to Off, and place the photograph by points.");
+    }
+    const CameraFit start =
+      startOf(light, photograph, exposureOf(photograph, place, image, light.open()), settings);
+    const Plane lit = lightOrNone(photograph.values, start.camera.black, start.camera.exponent);
+    // A saturated pixel is in light; the mirror's edge is none of the body.
+    return fittedPlace(place, FreePlace::RotationAndPosition, lit, photograph.used, photograph.grid,
+      light.open(), image);
+  }
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds && settings.FitPlace == Settings::FIT_FLOW; ++round)
+  {
+    const Exposure exposure = exposureOf(photograph, place, image, light.open());
+    const CameraFit fit = firstFit(light, exposure, startOf(light, photograph, exposure, settings),
+      fittedOf(photograph, settings));
+    const Place moved =
+      fittedPlace({ image.middle(), image.middle(), 1, 0, 1 }, FreePlace::ScaleToo,
+        seenLight(light, exposure, fit), exposure.known, image, light.light(fit.light), image);
+    place.position = moved.inImage(place.position);
+    place.scale *= moved.scale;
+    place.rotation += moved.rotation;
+  }
+  return place;
+}
+
+/// Finds the relative standard deviations of contrast and k by fits to halves of the image: columns, rows and fields of a
+/// chequerboard in turn. That of the Jacobian is 3 to 20 times too small, as striae are no white noise.
+void measureUncertainty(Compared& result, const SimulatedLight& light, const Exposure& exposure,
+  const CameraFit& fit, Fitted what)
+{
+  constexpr int fields = 8;
+  const auto field = [](double place) { return static_cast<int>(place * fields); };
+  const std::array<std::function<int(double, double)>, 3> ways{ [&](double x, double)
+    { return field(x); },
+    [&](double, double y) { return field(y); },
+    [&](double x, double y) { return field(x) + field(y); } };
+  double ofContrast = 0, ofK = 0;
+  for (const auto& way : ways)
+  {
+    SimulatedLight::Values half[2];
+    for (int which = 0; which < 2; ++which)
+    {
+      const auto uses = [&](double x, double y) { return way(x, y) % 2 == which; };
+      half[which] = light.values(fitCamera(light, exposure, fit, what, uses).light);
+    }
+    // The mean of both halves differs from them by half of their distance.
+    ofContrast += std::pow(std::log(half[1].contrast / half[0].contrast) / 2, 2);
+    ofK += std::pow(std::log(half[1].k / half[0].k) / 2, 2);
+  }
+  result.contrastUncertainty = std::sqrt(ofContrast / static_cast<double>(ways.size()));
+  result.kUncertainty = std::sqrt(ofK / static_cast<double>(ways.size()));
+}
+
+void measureDifference(Compared& result, const Plane& known)
+{
+  result.difference = Plane(known.columns, known.rows, unknown);
+  double count = 0, squares = 0, p = 0, m = 0, pp = 0, pm = 0, mm = 0;
+  for (std::size_t i = 0; i < known.size(); ++i)
+  {
+    if (!(known.values[i] > 0))
+    {
+      continue;
+    }
+    const double seen = result.photograph.values[i], made = result.simulated.values[i];
+    result.difference.values[i] = static_cast<float>(seen - made);
+    ++count;
+    squares += (seen - made) * (seen - made);
+    p += seen;
+    m += made;
+    pp += seen * seen;
+    pm += seen * made;
+    mm += made * made;
+  }
+  result.residual = std::sqrt(squares / std::max(count, 1.));
+  const double spread = (count * pp - p * p) * (count * mm - m * m);
+  result.correlation = spread > 0 ? (count * pm - p * m) / std::sqrt(spread) : 0;
+}
+
+void measureShift(Compared& result, const Grid& image)
+{
+  std::vector<float> lengths;
+  for (std::size_t i = 0; i < result.shift->acrossRight.size(); ++i)
+  {
+    const double right = result.shift->acrossRight.values[i] * image.spacing[0];
+    const double up = result.shift->acrossUp.values[i] * image.spacing[1];
+    if (std::isfinite(right))
+    {
+      lengths.push_back(static_cast<float>(std::hypot(right, up)));
+    }
+  }
+  result.shiftMedian = quantile(lengths, 0.5);
+  result.shiftLarge = quantile(lengths, 0.95);
+}
+
+std::string percent(double fraction) { return textOf(100 * fraction, 2) + " %"; }
+
+void describe(
+  Compared& result, const Grid& image, const PhotographSettings& settings, bool isFitted)
+{
+  auto& sentences = result.sentences;
+  sentences.push_back("The photograph has " + textOf(result.scale) +
+    " data units per pixel, is turned by " + textOf(result.rotation, 4) +
+    " degrees, and its middle is at " + textOf(result.middle[0]) + ", " + textOf(result.middle[1]) +
+    ".");
+  if (settings.FitPlace == Settings::FIT_FLOW)
+  {
+    sentences.emplace_back("Warning: it was placed by its flow, which hides where shocks and other "
+                           "features lie elsewhere than simulated.");
+    result.notes.emplace_back("photograph placed by its flow: shifts are hidden");
+  }
+  if (!isFitted)
+  {
+    sentences.emplace_back(
+      "There is no light in it that a camera and a cutoff could be fitted to: its values are all "
+      "the same, or saturated.");
+    return;
+  }
+  const auto& cutoff = result.cutoff;
+  const auto about = [](double value, double uncertainty)
+  { return textOf(value, 4) + " +- " + textOf(value * uncertainty, 2) + " per rad"; };
+  if (std::isfinite(cutoff.contrast))
+  {
+    const std::string contrast = about(cutoff.contrast, result.contrastUncertainty);
+    sentences.push_back("Its contrast, the relative change of the light, is " + contrast + ".");
+    result.notes.push_back("photograph: contrast " + contrast);
+  }
+  if (std::isfinite(cutoff.angle))
+  {
+    sentences.push_back("The cutoff's angle is " + textOf(cutoff.angle, 4) + " degrees.");
+  }
+  if (std::isfinite(cutoff.offset) && !result.isKKnown)
+  {
+    sentences.push_back("k and offset cannot be separated: all light passes the edge at " +
+      percent(result.fullFraction) + " of the points, and 1 % are needed.");
+    result.notes.emplace_back("k and offset cannot be separated");
+  }
+  else if (std::isfinite(cutoff.k))
+  {
+    sentences.push_back("k is " + about(cutoff.k, result.kUncertainty) +
+      (std::isfinite(cutoff.offset) ? ", the offset " + textOf(cutoff.offset, 3) +
+            "; all light passes the edge at " + percent(result.fullFraction) + " of the points."
+                                    : "."));
+    result.notes.push_back("photograph: k = " + about(cutoff.k, result.kUncertainty));
+  }
+  sentences.push_back("The black level is " + textOf(result.black, 3) + ".");
+  if (result.shift)
+  {
+    const std::string shift = textOf(result.shiftMedian, 3) + " data units (" +
+      textOf(result.shiftMedian / image.spacing[0], 2) + " pixels of the image)";
+    sentences.push_back("Half of its features lie within " + shift +
+      " of where they are simulated, 95 % within " + textOf(result.shiftLarge, 3) + ".");
+    result.notes.push_back("features: half within " + shift);
+  }
+  sentences.push_back("Photograph and simulated image differ by " + textOf(result.residual, 2) +
+    " of white (root mean square), with a correlation of " + textOf(result.correlation, 4) + ".");
+}
+
+} // namespace
+
+Compared compare(vtkImageData* input, vtkImageData* photographed, vtkImageData* withoutFlow,
+  const PhotographSettings& settings, const WorkProgress& progress)
+{
+  const SimulatedLight light(input);
+  const Grid image(input), whole(photographed);
+  Place place = placeOf(image, whole, settings);
+  const double finer = image.spacing[1] / (place.scale * whole.spacing[1]);
+  const Photograph photograph =
+    read(photographed, withoutFlow, static_cast<int>(std::clamp(finer, 1., 100.)), settings);
+  progress.reach(0.1);
+  place = improved(place, light, photograph, image, settings);
+  progress.reach(0.3);
+  const Exposure exposure = exposureOf(photograph, place, image, light.open());
+  if (std::none_of(exposure.photograph.values.begin(), exposure.photograph.values.end(),
+        [](float value) { return std::isfinite(value); }))
+  {
+    throw std::runtime_error(
+      "The photograph does not overlap the image. Set Placement to Fill Image, or correct the "
+      "points or the position that place it; the image's coordinates are data units.");
+  }
+
+  Compared result;
+  result.scale = place.scale;
+  result.rotation = vtkMath::DegreesFromRadians(std::remainder(place.rotation, 2 * vtkMath::Pi()));
+  result.middle = place.inImage(whole.middle());
+  result.photograph = exposure.photograph;
+  CameraFit fit = startOf(light, photograph, exposure, settings);
+  std::vector<float> values = knownValues(exposure.photograph, exposure.known);
+  const bool isFitted = quantile(values, 0.99) - quantile(values, 0.01) > leastContrast;
+  if (isFitted)
+  {
+    const Fitted what = fittedOf(photograph, settings);
+    fit = firstFit(light, exposure, fit, what);
+    progress.reach(0.5);
+    Exposure pulled = exposure;
+    if (settings.FindFeatureShift)
+    {
+      const auto findShift = [&]
+      {
+        result.shift =
+          shiftOfFeatures(recorded(light, exposure, fit), exposure.photograph, exposure.known);
+      };
+      constexpr int passes = 3; // one leaves k 3 % wrong with a jet that is 2 % too long, three 1 %
+      for (int pass = 0; pass < passes; ++pass)
+      {
+        findShift();
+        Exposure moved = pulledBack(exposure, *result.shift);
+        const CameraFit fitted = fitCamera(light, moved, fit, what);
+        progress.reach(0.5 + 0.1 * pass);
+        if (!(fitted.cost < fit.cost)) // nothing has moved
+        {
+          break;
+        }
+        fit = fitted;
+        pulled = std::move(moved);
+      }
+      findShift();
+      measureShift(result, image);
+    }
+    progress.reach(0.9);
+    if (settings.FitCutoff && !fit.light.empty())
+    {
+      measureUncertainty(result, light, pulled, fit, what);
+    }
+    const std::vector<bool> isFull = light.isFull(fit.light);
+    double full = 0, all = 0;
+    for (std::size_t i = 0; i < isFull.size(); ++i)
+    {
+      all += pulled.known.values[i] > 0 ? 1 : 0;
+      full += pulled.known.values[i] > 0 && isFull[i] ? 1 : 0;
+    }
+    result.fullFraction = full / std::max(all, 1.);
+    result.isKKnown = !light.hasOffset() || result.fullFraction >= leastFull;
+  }
+  result.cutoff =
+    light.values(isFitted && settings.FitCutoff ? fit.light : SimulatedLight::Parameters());
+  result.black = fit.camera.black;
+  result.simulated = recorded(light, exposure, fit);
+  measureDifference(result, exposure.known);
+  describe(result, image, settings, isFitted);
+  progress.reach(1);
+  return result;
+}
+
+} // namespace filters

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The light of a simulated image for another cutoff, without another image: from its deflection alone.
+#pragma once
+
+#include "Photograph/Plane.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+class vtkImageData;
+
+namespace filters
+{
+
+/**
+ * The light of an image relative to what undisturbed light has behind the same cutoff, by which a photograph differs from one
+ * without flow. Behind a knife edge, I = clip(1/2 - offset + k e.d) of the deflection e along the edge's normal d, so
+ * I / I0 = clip(1 + contrast e.d, 0, 1 / (1/2 - offset)) with the contrast k / (1/2 - offset): the offset is seen only where
+ * the edge lets all light pass.
+ *
+ * Parameters that a fit may change are numbers without bounds; see inWords for what they stand for:
+ * - Knife Edge: ln contrast, artanh(offset / 0.48), angle;
+ * - Graded Filter: ln of the factor to k, angle; the filter lies where it is simulated;
+ * - Circular and Circular Complement: ln k;
+ * - other techniques: none; the light is Intensity.
+ */
+class SimulatedLight
+{
+public:
+  /// Throws std::runtime_error where the arrays of an image of vtkSchlierenFilter are not there.
+  explicit SimulatedLight(vtkImageData* image);
+
+  using Parameters = std::vector<double>;
+  /// The image's own.
+  const Parameters& start() const { return this->Start; }
+  /// Those that a fit should begin with: the edge on four sides, as nobody knows on which it was.
+  std::vector<Parameters> starts() const;
+
+  /// Returns the light relative to undisturbed light. Behind a Circular Complement, which is dark without flow, it is
+  /// relative to full light.
+  Plane light(const Parameters& parameters) const;
+  /// Whether a photograph without flow has that undisturbed light.
+  bool isDarkWithoutFlow() const { return this->Is == Technique::CircularComplement; }
+
+  /// Whether the fit has a contrast and an offset, which cannot always be separated.
+  bool hasOffset() const { return this->Is == Technique::KnifeEdge; }
+  /// Returns whether all light passes the edge at a point.
+  std::vector<bool> isFull(const Parameters& parameters) const;
+
+  /// What the parameters stand for; of what a technique does not have, NaN.
+  struct Values
+  {
+    double contrast; ///< relative change of the light per radian
+    double k;        ///< per radian
+    double offset;   ///< of the knife edge, 0 to 1/2 further in
+    double angle;    ///< degrees
+  };
+  Values values(const Parameters& parameters) const;
+
+  /// 1 where no ray of a pixel has ended in a solid.
+  const Plane& open() const { return this->Open; }
+
+private:
+  enum class Technique
+  {
+    KnifeEdge,
+    GradedFilter,
+    Circular,
+    CircularComplement,
+    Other
+  };
+
+  Technique Is = Technique::Other;
+  Parameters Start;
+  double KScale = 0;
+  std::array<Plane, 2> Deflection;
+  Plane Open;
+  Plane Intensity; // of other techniques, relative to undisturbed light
+  std::vector<double>
+    Filter; // of a graded filter: light by the deflection, from Range[0] to Range[1]
+  std::array<double, 2> Range{};
+};
+
+} // namespace filters

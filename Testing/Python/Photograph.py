@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compare With Photograph in scripts: defaults as the XML has them, a PNG file compared with the image of which it was made, another
+view of it without another fit, ParaView's filters behind it, states, and a mistake in one message."""
+
+import os
+import sys
+
+import numpy as np
+from paraview import simple, smstate
+from plugin_testing import CompareWithPhotograph, Schlieren, comes_back, gaussian_column, image_array, is_empty, output
+from schlieren.vtkSchlierenFilters import vtkCompareWithPhotograph
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGWriter
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Utilities"))
+import property_tables
+
+SIZE = 200
+column = gaussian_column(48)
+bench = Schlieren(column, Density=["POINTS", "rho"], KnifeEdgeAngle=0, ImageSize=[SIZE, SIZE], ParallelScale=0.6)
+
+
+def write(values, name):
+    """Values from 0 to 1 as an 8-bit PNG file; the file's reader."""
+    image = vtkImageData()
+    image.SetDimensions(values.shape[1], values.shape[0], 1)
+    image.GetPointData().SetScalars(
+        numpy_to_vtk(np.round(255 * np.clip(values, 0, 1)).astype(np.uint8).ravel(), deep=True))
+    writer = vtkPNGWriter()
+    writer.SetFileName(os.path.abspath(name))
+    writer.SetInputData(image)
+    writer.Write()
+    return simple.PNGSeriesReader(FileNames=[os.path.abspath(name)])
+
+
+# A photograph with another k, of a camera of gamma 2.2; one without flow.
+deflection, k, offset, gamma = image_array(bench, "Deflection")[..., 0], 1.5 * bench.FieldData["KScale"].GetRange()[0], -0.1, 2.2
+undisturbed = 0.5 - offset
+light = np.clip(undisturbed + k * deflection, 0, 1)
+assert (light == 1).mean() > 0.01
+photograph = write((0.9 * light) ** (1 / gamma), "photograph.png")
+without_flow = write(np.full((SIZE, SIZE), (0.9 * undisturbed) ** (1 / gamma)), "without_flow.png")
+comparison = CompareWithPhotograph(Input=bench, Photograph=photograph, WithoutFlow=without_flow)
+
+# Proxies and the class have the XML's defaults, and PrintSelf names them.
+made, checked = vtkCompareWithPhotograph(), 0
+printed = str(made)
+for item in property_tables.read(property_tables.PHOTOGRAPH_FILES).values():
+    if item.group in ("Inputs", "Information"):
+        continue
+    value = getattr(comparison, item.name)
+    assert (list(value) if isinstance(item.default, list) else value) == item.default, (item.name, value)
+    inside = getattr(made, "Get" + item.name)()
+    expected = item.entries[item.default] if item.entries else item.default
+    assert (list(inside) if isinstance(inside, tuple) else inside) == expected, (item.name, inside)
+    assert f"{item.name}:" in printed, item.name
+    checked += 1
+assert checked == 18, checked
+
+
+def field(name, proxy=comparison):
+    return proxy.FieldData[name].GetRange()[0]
+
+
+def report():
+    comparison.UpdatePipeline()
+    comparison.UpdatePropertyInformation()
+    return str(comparison.GetProperty("Report").GetData())
+
+
+comparison.Gamma = gamma
+comparison.BlackLevel = 0
+assert "k is" in report(), report()
+
+assert abs(field("PhotographK") / k - 1) < 0.01, field("PhotographK") / k
+assert abs(field("PhotographOffset") - offset) < 0.005, field("PhotographOffset")
+assert field("PhotographResidual") < 0.01, field("PhotographResidual")
+assert min(field("PhotographAngle"), 360 - field("PhotographAngle")) < 2, field("PhotographAngle")
+assert abs(field("PhotographScale") / output(bench).GetSpacing()[0] - 1) < 1e-6
+notes = output(comparison).GetFieldData().GetAbstractArray("LegendNotes")
+assert any("photograph: k" in notes.GetValue(i) for i in range(notes.GetNumberOfValues()))
+
+# Another view changes the array that is shown, and fits nothing again.
+swiped = image_array(comparison, "Comparison")
+found = field("PhotographK")
+comparison.Comparison = "Difference"
+grey = image_array(comparison, "Comparison")
+assert field("PhotographK") == found and np.abs(grey.astype(int) - 128).max() < 10 < np.ptp(swiped)
+
+# ParaView's filters take the arrays.
+line = simple.PlotOverLine(Input=comparison, Point1=[-0.5, 0, 0], Point2=[0.5, 0, 0])
+line.UpdatePipeline()
+assert {"Photograph", "Simulated", "Difference", "FeatureShift"} <= set(line.PointData.keys())
+
+# One message for a photograph that lies elsewhere, and an image again.
+comparison.Placement = "By Hand"
+comparison.PhotographPosition = [50, 0]
+assert is_empty(comparison)
+comparison.Placement = "Fill Image"
+assert "k is" in report()
+
+simple.SaveState("photograph.pvsm")
+
+
+def check():
+    proxy = next(source for (name, _), source in simple.GetSources().items() if name.startswith("CompareWith"))
+    assert proxy.Gamma == gamma and proxy.Comparison == "Difference" and proxy.Placement == "Fill Image"
+    proxy.UpdatePipeline()
+    assert abs(field("PhotographK", proxy) / k - 1) < 0.01
+
+
+comes_back("photograph.pvsm", smstate.get_state(), check)
