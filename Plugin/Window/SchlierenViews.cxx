@@ -3,6 +3,7 @@
 #include "SchlierenViews.h"
 
 #include "FlowOfPort.h"
+#include "HeldInput.h"
 #include "ImageDisplay.h"
 #include "ImagesInViews.h"
 #include "PatternSettings.h"
@@ -18,6 +19,7 @@
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
 #include "pqRenderView.h"
+#include "pqServer.h"
 #include "pqUndoStack.h"
 #include "vtkNew.h"
 #include "vtkPVRenderView.h"
@@ -32,8 +34,10 @@
 #include "vtkSchlierenFilter.h"
 
 #include <QApplication>
+#include <QPointer>
 #include <QScopeGuard>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -121,7 +125,10 @@ public:
         {
           this->Views = addViewsBeside(this->Scene, { "Schlieren View" });
         }
-        this->addImage(0, [](vtkSMProxy*) {});
+        if (this->isThere(1))
+        {
+          this->addImage(0, [](vtkSMProxy*) {});
+        }
         break;
       case Arrangement::ThreeImages:
         this->addImages({ "Knife Edge", "Shadowgraph", "Interferogram" }, "Cutoff",
@@ -131,6 +138,10 @@ public:
         this->addImages({ "Straight Rays", "Refracted Rays" }, "PathModel",
           { Filter::STRAIGHT, Filter::REFRACTED });
         break;
+    }
+    if (this->Images.empty())
+    {
+      return { false, true, "" };
     }
     this->useCameraOfScene();
     if (arrangement == Arrangement::Comparison)
@@ -168,6 +179,10 @@ public:
       }
       this->findScene();
       this->Views = addViewsBeside(this->Scene, { "Image of " + filter->getSMName() });
+      if (!this->isThere(1))
+      {
+        return;
+      }
       view = this->Views[0];
     }
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();
@@ -248,12 +263,19 @@ private:
     }
   }
 
+  /// Returns whether the session and so many new views are there.
+  bool isThere(std::size_t views) const
+  {
+    return this->Server && this->Views.size() == views &&
+      std::find(this->Views.begin(), this->Views.end(), nullptr) == this->Views.end();
+  }
+
   /// Draws the flow as Schlieren in a view for each value of a property.
   void addImages(
     const std::vector<QString>& names, const char* property, const std::vector<int>& values)
   {
     this->Views = addViewsBeside(this->Scene, names);
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t i = 0; this->isThere(values.size()) && i < values.size(); ++i)
     {
       this->addImage(i, [&](vtkSMProxy* bench) { setInt(bench, property, values[i]); });
     }
@@ -329,7 +351,7 @@ private:
 
   pqOutputPort* Flow;
   vtkSMProxy* Pattern;
-  pqServer* Server;
+  QPointer<pqServer> Server;
   FlowDefaults Defaults;
   pqRenderView* Scene = nullptr;
   std::vector<pqRenderView*> Views; ///< new views
@@ -374,13 +396,17 @@ SchlierenViews::Result SchlierenViews::add(
   const auto cursor = qScopeGuard([] { QApplication::restoreOverrideCursor(); });
   static const char* const names[] = { "Add Schlieren View", "Three Images",
     "Compare Straight and Refracted Rays" };
+  const HeldInput input;
   traceLoading(flow->getServer());
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
   keepActiveView();
   Builder builder(flow, pattern, std::move(defaults));
   const Result result = builder.add(arrangement, cell);
   END_UNDO_SET();
-  builder.render();
+  if (result.isMade)
+  {
+    builder.render();
+  }
   return result;
 }
 
@@ -389,6 +415,7 @@ void SchlierenViews::show(pqPipelineSource* filter)
   const auto inputs = qobject_cast<pqPipelineFilter*>(filter)->getInputs("Input");
   if (!inputs.empty())
   {
+    const HeldInput input;
     Builder(inputs.front(), nullptr).show(filter);
   }
 }

@@ -12,6 +12,8 @@
 #include "pqImageStatus.h"
 #include "pqInterfaceTracker.h"
 #include "pqMultiViewWidget.h"
+#include "pqObjectBuilder.h"
+#include "pqServerManagerModel.h"
 #include "pqSettings.h"
 #include "pqViewFrame.h"
 #include "vtkOutputWindow.h"
@@ -55,6 +57,17 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
   }
   QObject::connect(&pqActiveObjects::instance(), &pqActiveObjects::sourceChanged, this,
     &pqSchlierenToolBar::updateActions);
+  // A session that is being reset handles events, but its views and layouts come and go.
+  pqApplicationCore* core = pqApplicationCore::instance();
+  const auto enable = [this](bool isSession)
+  {
+    this->HasSession = isSession;
+    this->updateActions();
+  };
+  QObject::connect(core->getServerManagerModel(), &pqServerManagerModel::aboutToRemoveServer, this,
+    [enable]() { enable(false); });
+  QObject::connect(core->getObjectBuilder(), &pqObjectBuilder::finishedAddingServer, this,
+    [enable]() { enable(true); });
   this->updateActions();
   // Waits until ParaView has placed it.
   QTimer::singleShot(0, this, [this]() { this->makeRoom(); });
@@ -150,9 +163,9 @@ void pqSchlierenToolBar::addMenu()
   figure->setObjectName("actionSaveFigure");
   figure->setToolTip(
     "Save the image of the active view with axes, legend and title as PNG, PDF or SVG");
-  QAction* example = menu->addAction("&Example", [this]() { this->showExample(); });
-  example->setObjectName("actionExample");
-  example->setToolTip("Open an under-expanded air jet and show it as a schlieren image");
+  this->Example = menu->addAction("&Example", [this]() { this->showExample(); });
+  this->Example->setObjectName("actionExample");
+  this->Example->setToolTip("Open an under-expanded air jet and show it as a schlieren image");
   menu->addSeparator();
   QAction* status = menu->addAction("Show &Status in Views");
   status->setObjectName("actionStatus");
@@ -171,6 +184,10 @@ void pqSchlierenToolBar::addMenu()
 void pqSchlierenToolBar::add(
   SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell, Completion completion)
 {
+  if (!this->HasSession)
+  {
+    return;
+  }
   const SchlierenViews::Result result = SchlierenViews::add(arrangement, cell, completion);
   delete this->Offer;
   if (result.offer != Completion::None)
@@ -203,6 +220,10 @@ QMessageBox* pqSchlierenToolBar::message()
 
 void pqSchlierenToolBar::showExample()
 {
+  if (!this->HasSession)
+  {
+    return;
+  }
   const QString problem = menuActions::openExample();
   if (problem.isEmpty())
   {
@@ -268,6 +289,10 @@ void pqSchlierenToolBar::updateActions()
   const bool hasSource = pqActiveObjects::instance().activeSource() != nullptr;
   for (QAction* action : this->Arrangements)
   {
-    action->setEnabled(hasSource);
+    action->setEnabled(hasSource && this->HasSession);
+  }
+  if (this->Example)
+  {
+    this->Example->setEnabled(this->HasSession);
   }
 }
