@@ -11,6 +11,7 @@
 #include "UndoStep.h"
 #include "ViewsBeside.h"
 #include "VolumeDisplay.h"
+#include "WholeFlow.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
@@ -22,6 +23,7 @@
 #include "pqServer.h"
 #include "pqUndoStack.h"
 #include "vtkNew.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPVRenderView.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
@@ -112,6 +114,8 @@ public:
   SchlierenViews::Result add(Arrangement arrangement, const Cell& cell)
   {
     this->findScene();
+    const bool wasWhole = isWhole(this->Scene, aspectOf(this->Scene),
+      vtkBoundingBox(this->Flow->getDataInformation()->GetBounds()));
     switch (arrangement)
     {
       case Arrangement::OneImage:
@@ -144,6 +148,11 @@ public:
       return { false, true, "" };
     }
     this->useCameraOfScene();
+    this->Views[0]->getViewProxy()->Update(); // finds the bounds
+    if (frameFlow(this->Scene, this->Views, wasWhole))
+    {
+      this->useCameraOfScene();
+    }
     if (arrangement == Arrangement::Comparison)
     {
       this->useOneKOf(1);
