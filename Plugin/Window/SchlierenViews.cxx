@@ -310,6 +310,7 @@ private:
       setInt(bench, "Quality", Filter::AUTOMATIC);
       setInt(bench, "KMode", Filter::K_AUTOMATIC_KEPT);
       set(bench);
+      this->useKOfOthers(bench);
     }
     bench->UpdateVTKObjects();
     this->Images.push_back(shown);
@@ -336,6 +337,21 @@ private:
     }
   }
 
+  /// Sets the k of another image of the flow, by the same technique, which has been kept.
+  void useKOfOthers(vtkSMProxy* bench)
+  {
+    for (pqDataRepresentation* shown : this->Flow->getRepresentations(nullptr))
+    {
+      vtkSMProxy* other = imagesInViews::isDrawn(shown) ? benchOf(shown->getProxy()) : nullptr;
+      if (other && other != bench &&
+        vtkSMPropertyHelper(other, "KMode").GetAsInt() == Filter::K_AUTOMATIC_KEPT &&
+        vtkSMPropertyHelper(other, "LockedK").GetAsDouble() > 0)
+      {
+        useKOf(other, bench);
+      }
+    }
+  }
+
   /// Sets the automatic k of one image in all.
   void useOneKOf(std::size_t image)
   {
@@ -351,6 +367,11 @@ private:
     const double k = vtkSMPropertyHelper(bench, "KScaleUsed").GetAsDouble();
     for (vtkSMProxy* shown : this->Images)
     {
+      {
+        SCOPED_UNDO_EXCLUDE();
+        vtkSMPropertyHelper(benchOf(shown), "LockedK").Set(0.); // a given k is none that is kept
+        benchOf(shown)->UpdateVTKObjects();
+      }
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", benchOf(shown));
       setInt(benchOf(shown), "KMode", Filter::K_VALUE);
       vtkSMPropertyHelper(benchOf(shown), "KScale").Set(k);
