@@ -22,6 +22,8 @@
 #include "pqRenderView.h"
 #include "pqServer.h"
 #include "pqUndoStack.h"
+#include "vtkCamera.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPVRenderView.h"
@@ -40,6 +42,7 @@
 #include <QScopeGuard>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -116,6 +119,7 @@ public:
     this->findScene();
     const bool wasWhole = isWhole(this->Scene, aspectOf(this->Scene),
       vtkBoundingBox(this->Flow->getDataInformation()->GetBounds()));
+    this->useParallelLight();
     switch (arrangement)
     {
       case Arrangement::OneImage:
@@ -270,6 +274,30 @@ private:
         .arg("comment", "reset view to fit data");
       this->Scene->getRenderViewProxy()->ResetCamera();
     }
+  }
+
+  /// Lets the 3-D view, whose camera the images have, look through the flow as a wind tunnel's parallel light does, unless
+  /// there are images of it already, whose projection the user may have chosen.
+  void useParallelLight()
+  {
+    vtkSMRenderViewProxy* proxy = this->Scene->getRenderViewProxy();
+    const auto shown = this->Flow->getRepresentations(nullptr);
+    if (vtkSMPropertyHelper(proxy, "CameraParallelProjection").GetAsInt() != 0 ||
+      std::any_of(shown.begin(), shown.end(), imagesInViews::isDrawn))
+    {
+      return;
+    }
+    vtkCamera* camera = proxy->GetActiveCamera();
+    const auto setBack = cameraSetter(proxy, proxy);
+    {
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
+      setInt(proxy, "CameraParallelProjection", 1);
+      vtkSMPropertyHelper(proxy, "CameraParallelScale")
+        .Set(camera->GetDistance() *
+          std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle())));
+      proxy->UpdateVTKObjects();
+    }
+    addUndoStep(setBack, cameraSetter(proxy, proxy));
   }
 
   /// Returns whether the session and so many new views are there.
