@@ -133,6 +133,10 @@ public:
   /// Returns the grid of the last image as text. Empty before the first and after a failed one.
   const char* GetGrid() const;
 
+  /// Returns the bounds of the last medium, data units: those of the data, unless these are revolved or extruded; without
+  /// a medium they are not initialized.
+  void GetMediumBounds(double bounds[6]) const;
+
   // setters: rest
   /// Metres per unit of the data's coordinates; 0.001 for data in millimetres. Default: 1.
   vtkSetMacro(LengthScale, double);

@@ -7,6 +7,7 @@
 #include "vtkSchlierenFilter.h"
 #include "vtkSchlierenLegend.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
 #include "vtkInformation.h"
@@ -163,8 +164,23 @@ int vtkSchlierenRepresentation::RequestData(
     this->PassTimeToBench();
     this->Actor->SetFlowBounds(this->Bounds);
     this->Actor->UpdateImage(renderer);
+    this->IncludeMedium();
   }
   return this->Superclass::RequestData(request, input, output);
+}
+
+void vtkSchlierenRepresentation::IncludeMedium()
+{
+  constexpr double rounding = 0.05; // by voxels
+  double bounds[6];
+  this->Actor->GetBench()->GetMediumBounds(bounds);
+  const vtkBoundingBox medium(bounds), data(this->Bounds);
+  if (medium.IsValid() && data.IsValid() &&
+    medium.GetDiagonalLength() > (1 + rounding) * data.GetDiagonalLength())
+  {
+    medium.GetBounds(this->Bounds);
+    this->Actor->SetFlowBounds(this->Bounds);
+  }
 }
 
 void vtkSchlierenRepresentation::PassTimeToBench()

@@ -76,6 +76,8 @@ private:
   int RespondToView(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output);
   void PassTimeToBench();
+  /// Lets cameras see all of a medium that is larger than the data: of a wedge that is revolved, or of a plane.
+  void IncludeMedium();
   void ShowOrHideLegend();
   /// Report once, until that changes, that another flow is shown instead, or that the server cannot
   /// draw.

@@ -14,6 +14,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewLayoutProxy.h"
+#include "vtkSchlierenFilter.h"
 
 #include <algorithm>
 #include <cstring>
@@ -60,6 +61,26 @@ bool imagesInViews::isDrawn(pqRepresentation* representation)
   return representation->isVisible() && benchOf(representation) &&
     std::strcmp(vtkSMPropertyHelper(representation->getProxy(), "Representation").GetAsString(),
       "Schlieren") == 0;
+}
+
+bool imagesInViews::lacksKeptK(vtkSMProxy* bench)
+{
+  const auto valueOf = [bench](const char* name) { return vtkSMPropertyHelper(bench, name); };
+  return vtkSchlierenFilter::CutoffHasK(valueOf("Cutoff").GetAsInt()) &&
+    valueOf("KMode").GetAsInt() == vtkSchlierenFilter::K_AUTOMATIC_KEPT &&
+    !(valueOf("LockedK").GetAsDouble() > 0);
+}
+
+double imagesInViews::shownK(pqRepresentation* representation)
+{
+  constexpr int coarsest = 16; // of what is drawn
+  vtkSMProxy* proxy = representation->getProxy();
+  vtkSMProxy* bench = benchOf(representation);
+  proxy->UpdatePropertyInformation(proxy->GetProperty("SchlierenReduction"));
+  bench->UpdatePropertyInformation(bench->GetProperty("KScaleUsed"));
+  return vtkSMPropertyHelper(proxy, "SchlierenReduction").GetAsInt() > coarsest
+    ? 0
+    : vtkSMPropertyHelper(bench, "KScaleUsed").GetAsDouble();
 }
 
 QList<vtkSMProxy*> imagesInViews::benchesIn(pqView* view)

@@ -3,6 +3,7 @@
 #include "SchlierenViews.h"
 
 #include "FlowOfPort.h"
+#include "HeldInput.h"
 #include "ImageDisplay.h"
 #include "ImagesInViews.h"
 #include "PatternSettings.h"
@@ -10,6 +11,7 @@
 #include "UndoStep.h"
 #include "ViewsBeside.h"
 #include "VolumeDisplay.h"
+#include "WholeFlow.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
@@ -18,8 +20,12 @@
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
 #include "pqRenderView.h"
+#include "pqServer.h"
 #include "pqUndoStack.h"
+#include "vtkCamera.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPVRenderView.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
@@ -32,8 +38,11 @@
 #include "vtkSchlierenFilter.h"
 
 #include <QApplication>
+#include <QPointer>
 #include <QScopeGuard>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -108,6 +117,9 @@ public:
   SchlierenViews::Result add(Arrangement arrangement, const Cell& cell)
   {
     this->findScene();
+    const bool wasWhole = isWhole(this->Scene, aspectOf(this->Scene),
+      vtkBoundingBox(this->Flow->getDataInformation()->GetBounds()));
+    this->useParallelLight();
     switch (arrangement)
     {
       case Arrangement::OneImage:
@@ -121,7 +133,10 @@ public:
         {
           this->Views = addViewsBeside(this->Scene, { "Schlieren View" });
         }
-        this->addImage(0, [](vtkSMProxy*) {});
+        if (this->isThere(1))
+        {
+          this->addImage(0, [](vtkSMProxy*) {});
+        }
         break;
       case Arrangement::ThreeImages:
         this->addImages({ "Knife Edge", "Shadowgraph", "Interferogram" }, "Cutoff",
@@ -132,7 +147,16 @@ public:
           { Filter::STRAIGHT, Filter::REFRACTED });
         break;
     }
+    if (this->Images.empty())
+    {
+      return { false, true, "" };
+    }
     this->useCameraOfScene();
+    this->Views[0]->getViewProxy()->Update(); // finds the bounds
+    if (frameFlow(this->Scene, this->Views, wasWhole))
+    {
+      this->useCameraOfScene();
+    }
     if (arrangement == Arrangement::Comparison)
     {
       this->useOneKOf(1);
@@ -168,6 +192,10 @@ public:
       }
       this->findScene();
       this->Views = addViewsBeside(this->Scene, { "Image of " + filter->getSMName() });
+      if (!this->isThere(1))
+      {
+        return;
+      }
       view = this->Views[0];
     }
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();
@@ -248,12 +276,43 @@ private:
     }
   }
 
+  /// Lets the 3-D view, whose camera the images have, look through the flow as a wind tunnel's parallel light does, unless
+  /// there are images of it already, whose projection the user may have chosen.
+  void useParallelLight()
+  {
+    vtkSMRenderViewProxy* proxy = this->Scene->getRenderViewProxy();
+    const auto shown = this->Flow->getRepresentations(nullptr);
+    if (vtkSMPropertyHelper(proxy, "CameraParallelProjection").GetAsInt() != 0 ||
+      std::any_of(shown.begin(), shown.end(), imagesInViews::isDrawn))
+    {
+      return;
+    }
+    vtkCamera* camera = proxy->GetActiveCamera();
+    const auto setBack = cameraSetter(proxy, proxy);
+    {
+      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
+      setInt(proxy, "CameraParallelProjection", 1);
+      vtkSMPropertyHelper(proxy, "CameraParallelScale")
+        .Set(camera->GetDistance() *
+          std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle())));
+      proxy->UpdateVTKObjects();
+    }
+    addUndoStep(setBack, cameraSetter(proxy, proxy));
+  }
+
+  /// Returns whether the session and so many new views are there.
+  bool isThere(std::size_t views) const
+  {
+    return this->Server && this->Views.size() == views &&
+      std::find(this->Views.begin(), this->Views.end(), nullptr) == this->Views.end();
+  }
+
   /// Draws the flow as Schlieren in a view for each value of a property.
   void addImages(
     const std::vector<QString>& names, const char* property, const std::vector<int>& values)
   {
     this->Views = addViewsBeside(this->Scene, names);
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t i = 0; this->isThere(values.size()) && i < values.size(); ++i)
     {
       this->addImage(i, [&](vtkSMProxy* bench) { setInt(bench, property, values[i]); });
     }
@@ -279,6 +338,7 @@ private:
       setInt(bench, "Quality", Filter::AUTOMATIC);
       setInt(bench, "KMode", Filter::K_AUTOMATIC_KEPT);
       set(bench);
+      this->useKOfOthers(bench);
     }
     bench->UpdateVTKObjects();
     this->Images.push_back(shown);
@@ -305,6 +365,21 @@ private:
     }
   }
 
+  /// Sets the k of another image of the flow, by the same technique, which has been kept.
+  void useKOfOthers(vtkSMProxy* bench)
+  {
+    for (pqDataRepresentation* shown : this->Flow->getRepresentations(nullptr))
+    {
+      vtkSMProxy* other = imagesInViews::isDrawn(shown) ? benchOf(shown->getProxy()) : nullptr;
+      if (other && other != bench &&
+        vtkSMPropertyHelper(other, "KMode").GetAsInt() == Filter::K_AUTOMATIC_KEPT &&
+        vtkSMPropertyHelper(other, "LockedK").GetAsDouble() > 0)
+      {
+        useKOf(other, bench);
+      }
+    }
+  }
+
   /// Sets the automatic k of one image in all.
   void useOneKOf(std::size_t image)
   {
@@ -320,6 +395,11 @@ private:
     const double k = vtkSMPropertyHelper(bench, "KScaleUsed").GetAsDouble();
     for (vtkSMProxy* shown : this->Images)
     {
+      {
+        SCOPED_UNDO_EXCLUDE();
+        vtkSMPropertyHelper(benchOf(shown), "LockedK").Set(0.); // a given k is none that is kept
+        benchOf(shown)->UpdateVTKObjects();
+      }
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", benchOf(shown));
       setInt(benchOf(shown), "KMode", Filter::K_VALUE);
       vtkSMPropertyHelper(benchOf(shown), "KScale").Set(k);
@@ -329,7 +409,7 @@ private:
 
   pqOutputPort* Flow;
   vtkSMProxy* Pattern;
-  pqServer* Server;
+  QPointer<pqServer> Server;
   FlowDefaults Defaults;
   pqRenderView* Scene = nullptr;
   std::vector<pqRenderView*> Views; ///< new views
@@ -374,13 +454,17 @@ SchlierenViews::Result SchlierenViews::add(
   const auto cursor = qScopeGuard([] { QApplication::restoreOverrideCursor(); });
   static const char* const names[] = { "Add Schlieren View", "Three Images",
     "Compare Straight and Refracted Rays" };
+  const HeldInput input;
   traceLoading(flow->getServer());
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);
   keepActiveView();
   Builder builder(flow, pattern, std::move(defaults));
   const Result result = builder.add(arrangement, cell);
   END_UNDO_SET();
-  builder.render();
+  if (result.isMade)
+  {
+    builder.render();
+  }
   return result;
 }
 
@@ -389,6 +473,7 @@ void SchlierenViews::show(pqPipelineSource* filter)
   const auto inputs = qobject_cast<pqPipelineFilter*>(filter)->getInputs("Input");
   if (!inputs.empty())
   {
+    const HeldInput input;
     Builder(inputs.front(), nullptr).show(filter);
   }
 }

@@ -7,6 +7,7 @@
 #include "pqRenderView.h"
 #include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
+#include "vtkCamera.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkSMCameraLink.h"
@@ -19,8 +20,10 @@
 #include "vtkSMViewLayoutProxy.h"
 #include "vtkSmartPointer.h"
 
+#include <QScopedValueRollback>
 #include <QSignalBlocker>
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +58,69 @@ protected:
 };
 
 vtkStandardNewMacro(UndoStep);
+
+/// A link that renders other views only where they have not been drawn with the camera yet: ParaView's renders them whenever
+/// one is, also where a colour has changed.
+class CameraLink : public vtkSMCameraLink
+{
+public:
+  static CameraLink* New();
+  vtkTypeMacro(CameraLink, vtkSMCameraLink);
+
+  void UpdateViews(vtkSMProxy* caller, bool isInteractive) override
+  {
+    const std::vector<double> seen = seenBy(caller, isInteractive);
+    if (this->IsRendered)
+    {
+      this->Drawn[caller] = seen;
+    }
+    for (unsigned int i = 0; i < this->GetNumberOfLinkedObjects(); ++i)
+    {
+      vtkSMProxy* other = this->GetLinkedProxy(static_cast<int>(i));
+      if (other != caller && this->Drawn[other] != seen)
+      {
+        this->Superclass::UpdateViews(caller, isInteractive);
+        return;
+      }
+    }
+  }
+
+protected:
+  CameraLink() = default;
+  ~CameraLink() override = default;
+
+  void PropertyModified(vtkSMProxy* proxy, const char* name) override
+  {
+    const QScopedValueRollback<bool> notRendered(this->IsRendered, false);
+    this->Superclass::PropertyModified(proxy, name);
+  }
+
+private:
+  /// Returns the camera of a view and how it is drawn.
+  static std::vector<double> seenBy(vtkSMProxy* view, bool isInteractive)
+  {
+    vtkCamera* camera = vtkSMRenderViewProxy::SafeDownCast(view)->GetActiveCamera();
+    std::vector<double> seen{ isInteractive ? 1. : 0., camera->GetViewAngle(),
+      camera->GetParallelScale(), static_cast<double>(camera->GetParallelProjection()),
+      camera->GetFocalDisk(), camera->GetFocalDistance() };
+    for (const double* place :
+      { camera->GetPosition(), camera->GetFocalPoint(), camera->GetViewUp() })
+    {
+      seen.insert(seen.end(), place, place + 3);
+    }
+    for (const char* name : { "CenterOfRotation", "RotationFactor", "InteractionMode" })
+    {
+      const std::vector<double> values = vtkSMPropertyHelper(view, name).GetDoubleArray();
+      seen.insert(seen.end(), values.begin(), values.end());
+    }
+    return seen;
+  }
+
+  std::map<vtkSMProxy*, std::vector<double>> Drawn; // at the last rendering of each view
+  bool IsRendered = true;                           // what UpdateViews() is called for
+};
+
+vtkStandardNewMacro(CameraLink);
 
 void link(vtkSMCameraLink* cameras, const std::string& name, vtkSMProxy* first, vtkSMProxy* second)
 {
@@ -178,7 +244,7 @@ void linkCameras(pqRenderView* firstView, pqRenderView* secondView)
     .arg(second)
     .arg(name.c_str())
     .arg("comment", "link cameras in two views");
-  vtkNew<vtkSMCameraLink> cameras;
+  vtkNew<CameraLink> cameras;
   link(cameras, name, first, second);
 
   // Keeps the link, because later steps of the undo stack refer to it by its number.

@@ -19,6 +19,7 @@
 #include "vtkSmartPointer.h"
 
 #include <QCoreApplication>
+#include <QPointer>
 #include <QWidget>
 
 #include <algorithm>
@@ -84,9 +85,16 @@ void keepInSight(
 pqRenderView* addViewIn(
   pqServer* server, vtkSMViewLayoutProxy* layout, int cell, const QString& name)
 {
+  // ParaView handles events while it shows the view.
+  const vtkSmartPointer<vtkSMViewLayoutProxy> kept = layout;
   auto* builder = pqApplicationCore::instance()->getObjectBuilder();
-  auto* view = qobject_cast<pqRenderView*>(builder->createView("RenderView", server));
+  const QPointer<pqRenderView> view =
+    qobject_cast<pqRenderView*>(builder->createView("RenderView", server));
   layout->AssignView(cell, view->getViewProxy());
+  if (!view)
+  {
+    return nullptr;
+  }
   const std::string unique =
     server->proxyManager()->GetUniqueProxyName("views", qUtf8Printable(name), false);
   view->rename(QString::fromStdString(unique));
@@ -101,15 +109,22 @@ std::vector<pqRenderView*> addViewsBeside(pqRenderView* scene, const std::vector
     vtkNew<vtkSMParaViewPipelineControllerWithRendering>()->AssignViewToLayout(
       scene->getViewProxy());
   }
-  vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(scene->getViewProxy());
-  noteLayout(layout, layout->GetViewLocation(scene->getViewProxy()));
+  // ParaView handles events with each change of a layout.
+  const QPointer<pqRenderView> isThere = scene;
+  vtkSmartPointer<vtkSMViewLayoutProxy> layout =
+    vtkSMViewLayoutProxy::FindLayout(scene->getViewProxy());
+  const int cellOfScene = layout->GetViewLocation(scene->getViewProxy());
   const bool isCrowded = names.size() > 1 && layout->GetViews().size() > 1;
   const std::array<int, 2> before = sizeOf(scene);
+  noteLayout(layout, cellOfScene);
+  if (!isThere)
+  {
+    return {};
+  }
   if (isCrowded)
   {
     layout = newLayout(scene->getServer());
   }
-  const int cellOfScene = layout->GetViewLocation(scene->getViewProxy());
   const int left =
     isCrowded ? layout->SplitVertical(0, 0.5) : layout->SplitHorizontal(cellOfScene, 0.5);
   std::vector<int> cells = { left + 1 };
@@ -133,11 +148,19 @@ std::vector<pqRenderView*> addViewsBeside(pqRenderView* scene, const std::vector
   }
   // Activates the 3-D view, because ParaView's toolbar shows the axes of the first active view,
   // which traces would not survive while that is made.
+  if (!isThere)
+  {
+    return {};
+  }
   pqActiveObjects::instance().setActiveView(scene);
   std::vector<pqRenderView*> views;
-  for (std::size_t i = 0; i < cells.size(); ++i)
+  for (std::size_t i = 0; i < cells.size() && isThere; ++i)
   {
     views.push_back(addViewIn(scene->getServer(), layout, cells[i], names[i]));
+  }
+  if (!isThere)
+  {
+    return {};
   }
   keepInSight(scene, before, sizeOf(scene));
   return views;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqImageProgress.h"
 
+#include "HeldInput.h"
 #include "ImagesInViews.h"
 #include "pqRepresentationRefiner.h"
 
@@ -22,7 +23,6 @@
 #include <QMainWindow>
 #include <QScopedValueRollback>
 #include <QStatusBar>
-#include <QToolButton>
 #include <QWidget>
 
 namespace
@@ -41,29 +41,8 @@ pqProgressWidget* progressBar()
 /// Returns whether an event may cause an update or a rendering, which must not nest.
 bool isForLater(QObject* receiver, QEvent* event)
 {
-  switch (event->type())
-  {
-    case QEvent::Shortcut:
-      return true;
-    case QEvent::Paint:
-      return receiver->inherits("QOpenGLWidget");
-    case QEvent::Close:
-    case QEvent::ContextMenu:
-    case QEvent::DragEnter:
-    case QEvent::Drop:
-    case QEvent::KeyPress:
-    case QEvent::KeyRelease:
-    case QEvent::MouseButtonDblClick:
-    case QEvent::MouseButtonPress:
-    case QEvent::MouseButtonRelease:
-    case QEvent::MouseMove:
-    case QEvent::ShortcutOverride:
-    case QEvent::TouchBegin:
-    case QEvent::Wheel:
-      return receiver->isWidgetType(); // windows pass events to their widgets
-    default:
-      return false;
-  }
+  return HeldInput::isInput(receiver, event) ||
+    (event->type() == QEvent::Paint && receiver->inherits("QOpenGLWidget"));
 }
 
 } // namespace
@@ -170,11 +149,13 @@ void pqImageProgress::letAbort(vtkObject* filter)
 
 bool pqImageProgress::eventFilter(QObject* receiver, QEvent* event)
 {
-  pqProgressWidget* bar = progressBar();
-  if ((bar && receiver == bar->abortButton()) || !isForLater(receiver, event))
+  if (!isForLater(receiver, event))
   {
     return QObject::eventFilter(receiver, event);
   }
-  event->ignore();
+  if (!HeldInput::note(event))
+  {
+    event->ignore();
+  }
   return true;
 }

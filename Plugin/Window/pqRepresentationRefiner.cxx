@@ -5,6 +5,8 @@
 #include "ImagesInViews.h"
 
 #include "pqApplicationCore.h"
+#include "pqDataRepresentation.h"
+#include "pqOutputPort.h"
 #include "pqRenderView.h"
 #include "pqRepresentation.h"
 #include "pqServer.h"
@@ -73,6 +75,35 @@ bool isBeingTurned(pqView* view)
 {
   auto* proxy = vtkSMRenderViewProxy::SafeDownCast(view->getProxy());
   return proxy->GetRenderWindow()->GetDesiredUpdateRate() > 1;
+}
+
+/// Keeps the k of what a view shows first for all views of the same flow and technique that have none yet.
+void keepK(pqView* view)
+{
+  for (pqRepresentation* shown : view->getRepresentations())
+  {
+    vtkSMProxy* bench = imagesInViews::isDrawn(shown) ? imagesInViews::benchOf(shown) : nullptr;
+    auto* data = qobject_cast<pqDataRepresentation*>(shown);
+    pqOutputPort* flow = data ? data->getOutputPortFromInput() : nullptr;
+    if (!bench || !flow || !imagesInViews::lacksKeptK(bench))
+    {
+      continue;
+    }
+    const double k = imagesInViews::shownK(shown);
+    const int cutoff = vtkSMPropertyHelper(bench, "Cutoff").GetAsInt();
+    for (pqDataRepresentation* other : flow->getRepresentations(nullptr))
+    {
+      vtkSMProxy* its = imagesInViews::isDrawn(other) ? imagesInViews::benchOf(other) : nullptr;
+      if (k > 0 && its && imagesInViews::lacksKeptK(its) &&
+        vtkSMPropertyHelper(its, "Cutoff").GetAsInt() == cutoff)
+      {
+        SCOPED_UNDO_EXCLUDE();
+        vtkSMPropertyHelper(its, "LockedK").Set(k);
+        its->UpdateVTKObjects();
+        other->getView()->render(); // the legend says it
+      }
+    }
+  }
 }
 
 /// Disables camera links during its lifetime: a link renders the other view, too, though a refined
@@ -152,7 +183,12 @@ void pqRepresentationRefiner::watch(pqView* view)
 {
   if (qobject_cast<pqRenderView*>(view))
   {
-    QObject::connect(view, &pqView::endRender, this, [this, view]() { this->refineLater(view); });
+    QObject::connect(view, &pqView::endRender, this,
+      [this, view]()
+      {
+        keepK(view);
+        this->refineLater(view);
+      });
   }
 }
 

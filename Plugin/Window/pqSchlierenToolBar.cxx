@@ -12,7 +12,9 @@
 #include "pqImageStatus.h"
 #include "pqInterfaceTracker.h"
 #include "pqMultiViewWidget.h"
+#include "pqObjectBuilder.h"
 #include "pqOutputPort.h"
+#include "pqServerManagerModel.h"
 #include "pqSettings.h"
 #include "pqViewFrame.h"
 #include "vtkOutputWindow.h"
@@ -58,6 +60,17 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
   }
   QObject::connect(&pqActiveObjects::instance(), &pqActiveObjects::sourceChanged, this,
     &pqSchlierenToolBar::updateActions);
+  // A session that is being reset handles events, but its views and layouts come and go.
+  pqApplicationCore* core = pqApplicationCore::instance();
+  const auto enable = [this](bool isSession)
+  {
+    this->HasSession = isSession;
+    this->updateActions();
+  };
+  QObject::connect(core->getServerManagerModel(), &pqServerManagerModel::aboutToRemoveServer, this,
+    [enable]() { enable(false); });
+  QObject::connect(core->getObjectBuilder(), &pqObjectBuilder::finishedAddingServer, this,
+    [enable]() { enable(true); });
   this->updateActions();
   // Waits until ParaView has placed it.
   QTimer::singleShot(0, this, [this]() { this->makeRoom(); });
@@ -155,9 +168,9 @@ void pqSchlierenToolBar::addMenu()
     "Save the image of the active view with axes, legend and title as PNG, PDF or SVG");
   QObject::connect(
     menu, &QMenu::aboutToShow, figure, [figure]() { figure->setEnabled(menuActions::hasImage()); });
-  QAction* example = menu->addAction("&Example", [this]() { this->showExample(); });
-  example->setObjectName("actionExample");
-  example->setToolTip("Open an under-expanded air jet and show it as a schlieren image");
+  this->Example = menu->addAction("&Example", [this]() { this->showExample(); });
+  this->Example->setObjectName("actionExample");
+  this->Example->setToolTip("Open an under-expanded air jet and show it as a schlieren image");
   menu->addSeparator();
   QAction* status = menu->addAction("Show &Status in Views");
   status->setObjectName("actionStatus");
@@ -176,6 +189,10 @@ void pqSchlierenToolBar::addMenu()
 void pqSchlierenToolBar::add(
   SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell, Completion completion)
 {
+  if (!this->HasSession)
+  {
+    return;
+  }
   const SchlierenViews::Result result = SchlierenViews::add(arrangement, cell, completion);
   for (QPushButton* before : std::exchange(this->Offers, {}))
   {
@@ -251,6 +268,10 @@ QMessageBox* pqSchlierenToolBar::message()
 
 void pqSchlierenToolBar::showExample()
 {
+  if (!this->HasSession)
+  {
+    return;
+  }
   const QString problem = menuActions::openExample();
   if (problem.isEmpty())
   {
@@ -316,6 +337,10 @@ void pqSchlierenToolBar::updateActions()
   const bool hasSource = pqActiveObjects::instance().activeSource() != nullptr;
   for (QAction* action : this->Arrangements)
   {
-    action->setEnabled(hasSource);
+    action->setEnabled(hasSource && this->HasSession);
+  }
+  if (this->Example)
+  {
+    this->Example->setEnabled(this->HasSession);
   }
 }

@@ -25,7 +25,7 @@ public:
   void frameConnected(pqViewFrame* frame, pqView* view) override;
 
 private Q_SLOTS:
-  /// Enables the actions that fit the selected source.
+  /// Enables the actions that fit the selected source, while there is a session.
   void updateActions();
 
 private:
@@ -46,6 +46,8 @@ private:
   QMessageBox* message();
 
   QList<QAction*> Arrangements;
+  QAction* Example = nullptr;
+  bool HasSession = true; ///< which is not being reset
   QPointer<QMessageBox> Message;
   QList<QPointer<QPushButton>> Offers; ///< in Message
 };

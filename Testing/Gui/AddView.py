@@ -117,5 +117,7 @@ assert np.abs(seen - filter_like(display, view, SIZE)).max() <= GREY_LEVEL
 # The trace makes the same from the same beginning.
 play_trace("traced.pvsm", OPEN_JET)
 _, traced = check_session("traced.pvsm")
+for values_of in (traced, added):
+    del values_of["LockedK"]  # which a script does not find before its image is complete
 assert traced == added, [(name, added[name], traced[name]) for name in added
                          if added[name] != traced[name]]

@@ -167,8 +167,8 @@ for time in (TIMES[0], TIMES[-1]):
     own.UpdatePipeline(time)
     k = own.FieldData["KScale"].GetRange()[0]
     simple.Delete(own)
-    # The first image of a view has one ray per pixel.
-    assert np.isclose(k, kept["k"], rtol=1e-3) == (time == TIMES[0]), (time, k, kept["k"])
+    # The first image of a view is coarse.
+    assert np.isclose(k, kept["k"], rtol=2e-2) == (time == TIMES[0]), (time, k, kept["k"])
 assert np.abs(scripted("played", 0)[0] - scripted("played", 0.7)[0]).max() > 0.5
 
 # Each time has been shown, in this order, with all pixels and at one k: those that are saved as a script makes them, those

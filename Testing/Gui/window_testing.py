@@ -143,11 +143,12 @@ until(lambda: plane.property("side") == {side})
         self.event(f"pqClientMainWindow/{self.name}/step{self.scripts}", "activate")
 
     def idle(self):
-        """Steps that do nothing, after one that loads a state or plays an animation. ParaView lets the window run
-        in the middle of that, and on a busy machine the player takes this for a dialog and plays the next step
-        inside: it must not wait for images, which are not made before that other step has ended."""
+        """Steps that do nothing for a second in all, after one that loads a state, plays an animation or opens a
+        question. ParaView lets the window run in the middle of that, and on a busy machine the player takes this for a
+        dialog and plays the next step inside: it must not wait for images, which are not made before that other step
+        has ended, nor for the end of a dialog."""
         for _ in range(10):
-            self.python("")
+            self.python("pause(0.1)")
 
     def drag_view(self, frame, *places, button=1):
         """Drags with a button (1 left, 2 right) from place to place in the view of a frame, whose sides are

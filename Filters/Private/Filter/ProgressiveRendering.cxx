@@ -273,6 +273,10 @@ schlieren::Image vtkSchlierenFilter::Begin(
   {
     scene.kScale = k;
   }
+  else if (this->KMode == K_AUTOMATIC_KEPT)
+  {
+    this->KScaleUsed = 0; // that of an earlier image does not hold any more
+  }
   if (this->ColorByField)
   {
     const std::size_t fields = this->GetMediumSettings().Fields.size();

@@ -6,6 +6,8 @@
 #include "Image/RealOptics.h"
 #include "Settings/QualityPresets.h"
 
+#include "vtkBoundingBox.h"
+#include "vtkMath.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
@@ -281,6 +283,34 @@ const char* vtkSchlierenFilter::GetGrid() const
 {
   const MadeRefractivity& made = *this->Inside->Refractivity;
   return made.Source ? this->Inside->Grid.c_str() : made.Grid.c_str();
+}
+
+void vtkSchlierenFilter::GetMediumBounds(double bounds[6]) const
+{
+  vtkMath::UninitializeBounds(bounds);
+  const MadeRefractivity& made = *this->Inside->Refractivity;
+  if (!made.IsThere())
+  {
+    return;
+  }
+  const schlieren::Grid grid = Internals::fieldOf(made).grid;
+  vtkBoundingBox box;
+  for (std::size_t corner = 0; corner < 8; ++corner)
+  {
+    double point[3] = { grid.origin[0], grid.origin[1], grid.origin[2] };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double length = (corner >> axis & 1) == 0
+        ? 0
+        : static_cast<double>(grid.dimensions[axis] - 1) * grid.spacing[axis];
+      for (std::size_t row = 0; row < 3; ++row)
+      {
+        point[row] += grid.direction[3 * row + axis] * length;
+      }
+    }
+    box.AddPoint(point);
+  }
+  box.GetBounds(bounds);
 }
 
 vtkTypeInt64 vtkSchlierenFilter::GetMediumBuilds()

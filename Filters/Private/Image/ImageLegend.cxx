@@ -80,8 +80,10 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   std::vector<std::string> notes;
   if (usesK(settings) && image.kScale > 0)
   {
-    const bool isAutomatic = choosesK(settings) && !isKept;
-    notes.push_back(kInWords(image.kScale, isKept) + (isAutomatic ? " (automatic)" : ""));
+    notes.push_back(kInWords(image.kScale, false) +
+      (isKept                  ? " (kept)"
+          : choosesK(settings) ? " (automatic)"
+                               : " (fixed)"));
     notes.push_back(weaknessInWords(settings, image.kScale));
   }
   if (schlieren::techniqueOf(scene.cutoff).plane == schlieren::RecordedPlane::Screen)

@@ -243,7 +243,11 @@ TEST(Legend, SaysWhereKComesFrom)
   filter->SetKMode(vtkSchlierenFilter::K_VALUE);
   filter->SetKScale(1500);
   filter->Update();
-  EXPECT_EQ(legendText(filter, "LegendNotes"), "k = 1500");
+  EXPECT_EQ(legendText(filter, "LegendNotes"), "k = 1500 (fixed)");
+  filter->SetKMode(vtkSchlierenFilter::K_AUTOMATIC_KEPT);
+  filter->SetLockedK(1200);
+  filter->Update();
+  EXPECT_EQ(legendText(filter, "LegendNotes"), "k = 1200 (kept)");
 }
 
 // As of a density that is constant up to rounding.
