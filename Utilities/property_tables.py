@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the tables of Documentation/properties.md and photograph.md, and C++ in Filters/*.h (see property_code.py), from
-Plugin/*.xml.
+"""Writes the tables of Documentation/properties.md, photograph.md and wavefront.md, and C++ in Filters/*.h (see
+property_code.py), from Plugin/*.xml.
 
     Utilities/property_tables.py            # write them
     Utilities/property_tables.py --check    # fail where a file differs from them
@@ -23,8 +23,8 @@ import property_code
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGE = os.path.join(ROOT, "Documentation", "properties.md")
 FILES = [os.path.join(ROOT, "Plugin", name) for name in ("RefractiveIndex.xml", "Schlieren.xml")]
-PHOTOGRAPH_PAGE = os.path.join(ROOT, "Documentation", "photograph.md")
 PHOTOGRAPH_FILES = [os.path.join(ROOT, "Plugin", "Photograph.xml")]
+WAVEFRONT_FILES = [os.path.join(ROOT, "Plugin", "Wavefront.xml")]
 
 Property = collections.namedtuple("Property", "element name label command is_array entries default help group")
 
@@ -175,12 +175,14 @@ def wanted():
             with open(os.path.join(ROOT, name), encoding="utf-8") as file:
                 made[name] = property_code.header(file.read(), properties, bases if properties is image else "")
         bases = "".join(made.values())
-    photograph = read(PHOTOGRAPH_FILES)
-    with open(PHOTOGRAPH_PAGE, encoding="utf-8") as file:
-        made["Documentation/photograph.md"] = page(file.read(), photograph)
-    for name in ("Filters/PhotographSettings.h", "Filters/vtkCompareWithPhotograph.h"):
+    for files, name, headers in ((PHOTOGRAPH_FILES, "photograph", ("PhotographSettings", "vtkCompareWithPhotograph")),
+                                 (WAVEFRONT_FILES, "wavefront", ("WavefrontSettings", "vtkWavefront"))):
+        properties, name = read(files), f"Documentation/{name}.md"
         with open(os.path.join(ROOT, name), encoding="utf-8") as file:
-            made[name] = property_code.header(file.read(), photograph)
+            made[name] = page(file.read(), properties)
+        for name in (f"Filters/{header}.h" for header in headers):
+            with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+                made[name] = property_code.header(file.read(), properties)
     return made
 
 
