@@ -95,7 +95,8 @@ user.python(SETTLE + "save('next')\n")
 BEGIN = FIND + """
 bench.SamplesPerPixel = 400
 scene = FindView("RenderView1")
-scene.CameraPosition = [1 + scene.CameraPosition[2] / 3, 0.5, scene.CameraPosition[2]]
+x, _, z = scene.CameraPosition
+scene.CameraPosition = [-x if x else 1 + z / 3, 0.5, z]  # moves each time, as linked views are drawn for that alone
 Render(scene)
 until(lambda: " of 400 " in information(bench, "Status"))
 bench.SamplesPerPixel = 16
