@@ -147,6 +147,11 @@ struct Scene
   /// Distance from where light leaves the data to the screen, data units, in what light leaves them into; unset: one
   /// data depth.
   std::optional<double> screenDistance;
+  /// Where that is unset, a shadowgraph has the least distance, one data depth or more, at which 1 % of the light that has
+  /// crossed the data has |I - 1| > 1/2, half of the scale: Image::screenDistance says it. 1/I is the area on which the
+  /// light between three neighbouring rays lands by that of undisturbed light (Settles 2001), by a coarse look at the
+  /// image. Hardly any rays cross then, but those that do so within a depth.
+  bool choosesScreen = false;
   /// Distance of the plane in focus from the data's middle (with a perspective from the focal point) along w, data units.
   double focusOffset = 0;
 

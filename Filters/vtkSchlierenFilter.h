@@ -306,8 +306,8 @@ public:
   vtkGetCharFromStdStringMacro(BackgroundImage);
 
   /// Of a shadowgraph: distance from the plane where light leaves the data's box to the screen,
-  /// data units; negative: one depth of that box along the light, wherever the flow is in it.
-  /// Default: -1.
+  /// data units; negative: automatic, so that 1 % of the light that has crossed the data is darker
+  /// or brighter by more than half of undisturbed light, one depth of the box or more. Default: -1.
   vtkSetMacro(ScreenDistance, double);
   vtkGetMacro(ScreenDistance, double);
 
@@ -578,7 +578,7 @@ public:
   double GetLockedDepth() const;
   ///@}
 
-  /// Finds an automatic k again for the next image, whatever has been kept.
+  /// Finds an automatic k, or distance of a screen, again for the next image, whatever has been kept.
   void FitK();
 
   /// Finds one k for a series: makes an image with one ray per pixel of each time step, of MOST_STEPS evenly spread ones
@@ -784,6 +784,7 @@ private:
   std::optional<double> KeptK();
   std::optional<double> KeptAmbient();
   filters::ImageCircumstances CircumstancesOf(std::vector<double> medium, std::vector<double> rays);
+  filters::ImageCircumstances CircumstancesOfRays();
   schlieren::Image Begin(bool isPreview, double seconds, const schlieren::Monitor& monitor);
   /// Passes what was found for the last image to the locks.
   void KeepFound(const schlieren::Image& image);

@@ -33,6 +33,7 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   {
     return true;
   }
+  scene.screenDistance = request.scene.screenDistance;
   Pilot<Real>& pilot =
     targets.pilotOf<Real>({ view->key, ofImage.device, field.lengthScale, view->projection,
                             scene.seed, scene.estimatesErrors },
@@ -142,6 +143,10 @@ Image Bench::Stages::renderFirst(const Monitor& monitor)
   if (!image.aborted)
   {
     ofImage.isShown = image.finished;
+    if (ofImage.scene.choosesScreen && image.screenDistance > 0)
+    {
+      ofImage.scene.screenDistance = image.screenDistance; // stays that of the first rays
+    }
     image.finished = false;
     aim = std::move(ofImage);
   }

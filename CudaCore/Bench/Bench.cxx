@@ -57,7 +57,7 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
   MediumInUse<Real>& inUse, UnfinishedImage& request, const Watch& watch)
 {
   const Field& field = request.field;
-  const Scene& scene = request.scene;
+  Scene& scene = request.scene;
   const Frame frame = frameOf(field.grid, scene.view);
   const auto faces = [&]
   { return exitFacesOf(scene, inUse.medium().ambient, inUse.medium().largestN); };
@@ -81,18 +81,27 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
   MediumOnDevices<Real>& onDevices = inUse.onDevices();
   const Medium<Real>& medium = onDevices.medium;
   RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
-  const ViewKey key{ frame, scene.view.width, scene.view.height, settings.kernel,
+  ViewKey key{ frame, scene.view.width, scene.view.height, settings.kernel,
     LightKey::of(scene, frame, filmDistance(scene, frame, light.faces), light.faces),
     onDevices.changes };
   const Tracer<Real> tracer(
     onDevices, request.device, processes, scene.threads, field.gradients.version);
-  const auto look = [&]
+  const auto coarseTask = [&]
   {
     RaySettings coarse = settings;
     coarse.stepVoxels = longestStep;
     coarse.adaptiveTolerance = std::max(settings.adaptiveTolerance, usualTolerance);
-    return lookAtLight(tracer, makeTask<Real>(medium, nullptr, {}, light, coarse), scene.view);
+    return makeTask<Real>(medium, nullptr, {}, light, coarse);
   };
+  const auto look = [&] { return lookAtLight(tracer, coarseTask(), scene.view); };
+  if (scene.choosesScreen && !scene.screenDistance &&
+    techniqueOf(scene.cutoff).plane == RecordedPlane::Screen)
+  {
+    scene.screenDistance = screenDistanceFor(lookAtNeighbours(tracer, coarseTask(), scene.view),
+      scene, frame, light, light.faces.ratio * noiseFloor(medium, field, light));
+    light = lightOf(scene, field.grid, frame, light.faces);
+    key.light = LightKey::of(scene, frame, filmDistance(scene, frame, light.faces), light.faces);
+  }
   const std::int64_t margin =
     marginFor(isOfCamera(scene.cutoff) ? std::vector<MovedRay>{} : rays.movedIn(key, look), scene,
       frame, light);
@@ -139,6 +148,10 @@ Image Bench::Stages::imageOf(const UnfinishedImage& request) const
   image.samplesPerPixel = scene.samplesPerPixel;
   image.stepSize = scene.stepSize;
   image.kScale = request.kScale;
+  if (techniqueOf(scene.cutoff).plane == RecordedPlane::Screen)
+  {
+    image.screenDistance = scene.screenDistance.value_or(image.frame.exit - image.frame.entry);
+  }
   image.momentumDrift = request.momentumDrift;
   image.accuracy = request.accuracy;
   image.traceSeconds = request.traceSeconds;

@@ -26,6 +26,19 @@ struct MovedRay
 template <class Real>
 std::vector<MovedRay> lookAtLight(const Tracer<Real>& tracer, RayTask<Real> task, const View& view);
 
+/// A ray, and the ones to the right of it and above.
+struct MovedNeighbours
+{
+  MovedRay rays[3];
+  double apart; ///< pixels
+};
+
+/// Those that leave the data of one in each of 128 squares along the larger side of an image, 1/512 of that side apart,
+/// whatever its number of pixels.
+template <class Real>
+std::vector<MovedNeighbours> lookAtNeighbours(
+  const Tracer<Real>& tracer, RayTask<Real> task, const View& view);
+
 /// The most that they are moved at a distance behind the exit plane, data units. What lies between them may be moved
 /// further: of a Gaussian's slope with a standard deviation as wide as the rays are apart, by less than a fifth.
 double maximumShift(const std::vector<MovedRay>& rays, double distance);

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/StageSettings.h"
 
+#include "Bench/Differences.h"
 #include "Rays/RayStarts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace schlieren
 {
@@ -185,6 +187,72 @@ std::int64_t marginFor(
   const double pixels = std::ceil(between * largest / frame.pixelSize) + 1;
   const auto most = static_cast<double>(maxMargin(scene.view));
   return static_cast<std::int64_t>(pixels < most ? pixels : most);
+}
+
+double screenDistanceFor(const std::vector<MovedNeighbours>& neighbours, const Scene& scene,
+  const Frame& frame, const Light& light, double rounding)
+{
+  constexpr double wanted = 0.5;       // of |I - 1|, where white is 2
+  constexpr double farthest = 1 << 20; // depths
+  const double depth = frame.exit - frame.entry;
+  const auto magnification = [&](double distance)
+  { return magnificationAt(scene, frame, distance, light.faces.ratio); };
+  // |I - 1| that a part of the light exceeds, 1/I being the area on which it lands by that which it comes from.
+  const auto contrast = [&](double part, double distance)
+  {
+    const double pixel = frame.pixelSize * magnification(distance);
+    Differences changes;
+    for (const MovedNeighbours& three : neighbours)
+    {
+      double a[2][2] = { { 1, 0 }, { 0, 1 } };
+      for (std::size_t from = 0; from < 2; ++from)
+      {
+        for (std::size_t to = 0; to < 2; ++to)
+        {
+          const auto place = [&](const MovedRay& ray)
+          { return ray.displacement[to] + distance * ray.slope[to]; };
+          a[from][to] +=
+            (place(three.rays[from + 1]) - place(three.rays[0])) / (three.apart * pixel);
+        }
+      }
+      const double area = std::abs(a[0][0] * a[1][1] - a[0][1] * a[1][0]);
+      changes.push_back({ std::abs(1 / area - 1), 1 });
+    }
+    return exceededBy(part, changes);
+  };
+  double limit = farthest * depth;
+  Differences slopes;
+  for (const MovedNeighbours& three : neighbours)
+  {
+    limit = std::min(limit, wanted * three.apart * frame.pixelSize / rounding);
+    slopes.push_back({ std::hypot(three.rays[0].slope[0], three.rays[0].slope[1]), 1 });
+  }
+  const double reach = static_cast<double>(maxMargin(scene.view)) * frame.pixelSize;
+  const double mostByReach = reach / exceededBy(mayExceed, slopes); // infinite where nothing bends
+  limit = std::min(limit, mostByReach);
+  for (const double part : { mayExceed, 0. })
+  {
+    double below = depth, above = depth;
+    while (above < limit && contrast(part, above) < wanted)
+    {
+      below = std::exchange(above, 2 * above);
+    }
+    if (above < limit)
+    {
+      constexpr int halvings = 10;
+      for (int i = 0; i < halvings; ++i)
+      {
+        const double middle = 0.5 * (below + above);
+        (contrast(part, middle) < wanted ? below : above) = middle;
+      }
+      return above;
+    }
+    if (!(limit < mostByReach))
+    {
+      return std::max(depth, limit);
+    }
+  }
+  return depth;
 }
 
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces)

@@ -61,6 +61,11 @@ Aperture apertureOf(const Scene& scene, const Frame& frame, const ExitFaces& fac
 std::int64_t marginFor(
   const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame, const Light& light);
 
+/// See Scene::choosesScreen. No further than where 1 % of the light is moved by maxMargin(), but one depth at least. Where
+/// `rounding` of slopes, see noiseFloor, would be seen before, the light that changes most counts instead of 1 %.
+double screenDistanceFor(const std::vector<MovedNeighbours>& neighbours, const Scene& scene,
+  const Frame& frame, const Light& light, double rounding);
+
 Light lightOf(const Scene& scene, const Grid& grid, const Frame& frame, const ExitFaces& faces);
 
 /// Finds what a view sees of a source's medium, with the margin around the image and `around` more pixels.

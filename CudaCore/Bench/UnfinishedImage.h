@@ -25,7 +25,7 @@ struct UnfinishedImage
   }
 
   const Field field;
-  const Scene scene;
+  Scene scene; ///< whose automatic distance of a screen is found
   Device device = Device::Cpu;
   std::string deviceNote;
   bool keepsRays = true;                 ///< as far as the budget of memory goes

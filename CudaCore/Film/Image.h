@@ -64,6 +64,7 @@ struct Image
   PathModel pathModel = PathModel::Refracted;   ///< the one used
   Integrator integrator = Integrator::Leapfrog; ///< the one used
   double kScale = 0;                            ///< the k used; 0 where there is no cutoff
+  double screenDistance = 0;                    ///< of a shadowgraph, the one used, data units
   double undisturbedLevel = 1;                  ///< intensity of light that nothing bends
   /// Fraction of the rays that start in the image and reach the film: cut off at the darkest or brightest light.
   double saturatedFraction = 0;

@@ -93,12 +93,15 @@ def errors(technique, seen, truth, wavelength):
 
 
 def settings_for(technique, source, settings):
-    """Ten fringes over the range; a screen and a pattern behind the data."""
+    """Ten fringes over the range; a screen and a pattern one depth behind the data."""
     bench = cases.Schlieren(source, ImageSize=[PIXELS, PIXELS], **settings)
     bench.UpdatePipeline()
     path = arrays_of(bench)["OpticalPathDifference"]
+    direction, bounds = np.abs(bench.ViewDirection), source.GetDataInformation().GetBounds()
+    depth = float(direction @ np.subtract(bounds[1::2], bounds[::2]) / np.linalg.norm(direction))
     simple.Delete(bench)
-    return {"Wavelength": 1e9 * np.ptp(path) / 10} if technique == "Interferogram" else {}
+    return {"Interferogram": {"Wavelength": 1e9 * np.ptp(path) / 10},
+            "Shadowgraph": {"ScreenDistance": depth}}.get(technique, {})
 
 
 def measure(technique, source, settings, setting, views=()):

@@ -29,8 +29,7 @@ def layout(frame):
 
 def compose(volume, medium, images, frame, used, options):
     _, low, clear, high = medium
-    distance = dict(options.settings).get("ScreenDistance", -1)
-    distance = frame.depth if distance < 0 else distance
+    distance = images[2][1]["ScreenDistance"][0]
     titles = ["Schlieren, vertical knife edge", "Schlieren, horizontal knife edge",
               f"Shadowgraph, {format_length(distance, options)} behind the flow"]
     tiles = [(volume, "Volume rendering", None)] + [

@@ -230,18 +230,22 @@ ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
   return { inside.Time, inside.Input, std::move(properties), std::move(medium), std::move(rays) };
 }
 
+ImageCircumstances vtkSchlierenFilter::CircumstancesOfRays()
+{
+  return this->CircumstancesOf(
+    { static_cast<double>(this->Cutoff), std::max(this->AmbientRefractivity, -1.),
+      static_cast<double>(this->ExitInto),
+      this->ExitInto == EXIT_CUSTOM ? this->ExitRefractivity : 0 },
+    settingsOfRays(*this));
+}
+
 std::optional<double> vtkSchlierenFilter::KeptK()
 {
   if (!choosesK(*this))
   {
     return {}; // what is kept waits: the change may be undone
   }
-  return this->Inside->KLock.For(this->KMode,
-    this->CircumstancesOf(
-      { static_cast<double>(this->Cutoff), std::max(this->AmbientRefractivity, -1.),
-        static_cast<double>(this->ExitInto),
-        this->ExitInto == EXIT_CUSTOM ? this->ExitRefractivity : 0 },
-      settingsOfRays(*this)));
+  return this->Inside->KLock.For(this->KMode, this->CircumstancesOfRays());
 }
 
 std::optional<double> vtkSchlierenFilter::KeptAmbient()
@@ -277,6 +281,10 @@ schlieren::Image vtkSchlierenFilter::Begin(
   {
     this->KScaleUsed = 0; // that of an earlier image does not hold any more
   }
+  if (scene.choosesScreen && CutoffHasScreen(this->Cutoff))
+  {
+    scene.screenDistance = inside.ScreenLock.For(this->KMode, this->CircumstancesOfRays());
+  }
   if (this->ColorByField)
   {
     const std::size_t fields = this->GetMediumSettings().Fields.size();
@@ -299,6 +307,11 @@ void vtkSchlierenFilter::KeepFound(const schlieren::Image& image)
   if (!inside.Images.GetScene().kScale && image.kScale > 0)
   {
     inside.KLock.Found(image.kScale);
+  }
+  const schlieren::Scene& scene = inside.Images.GetScene();
+  if (scene.choosesScreen && !scene.screenDistance && image.screenDistance > 0)
+  {
+    inside.ScreenLock.Found(image.screenDistance);
   }
   if (inside.FindsAmbient)
   {

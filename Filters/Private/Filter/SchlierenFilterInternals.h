@@ -109,6 +109,7 @@ struct vtkSchlierenFilter::Internals
   vtkTimeStamp RefineTime;
 
   filters::SensitivityLock KLock;
+  filters::SensitivityLock ScreenLock; // distance of a shadowgraph's screen
   filters::SensitivityLock AmbientLock;
   filters::SensitivityLock DepthLock; // of a plane
   double KeptDepth = 0;               // what Refractivity is made with; 0: none

@@ -347,6 +347,7 @@ void vtkSchlierenFilter::SetLockedK(double k)
 void vtkSchlierenFilter::FitK()
 {
   this->Inside->KLock.Drop();
+  this->Inside->ScreenLock.Drop();
   this->Modified();
 }
 

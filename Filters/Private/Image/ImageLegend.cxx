@@ -88,11 +88,13 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   }
   if (schlieren::techniqueOf(scene.cutoff).plane == schlieren::RecordedPlane::Screen)
   {
-    const double metres =
-      settings.LengthScale * scene.screenDistance.value_or(image.frame.exit - image.frame.entry);
+    const double metres = settings.LengthScale * image.screenDistance;
     const UnitPrefix prefix = unitPrefixOf(metres);
     notes.push_back("screen " + textOf(metres / prefix.factor, 3) + " " + prefix.name +
-      "m behind the data" + (scene.screenDistance ? "" : " (one depth)"));
+      "m behind the data" +
+      (scene.choosesScreen       ? " (automatic)"
+          : scene.screenDistance ? ""
+                                 : " (one depth)"));
   }
   if (!image.backgroundDisplacement.empty())
   {

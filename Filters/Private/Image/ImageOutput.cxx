@@ -177,6 +177,7 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
   addFieldValue<vtkStringArray>(output, "PathModel",
     image.pathModel == schlieren::PathModel::Straight ? "Straight" : "Refracted");
   addFieldValue<vtkDoubleArray>(output, "KScale", image.kScale);
+  addFieldValue<vtkDoubleArray>(output, "ScreenDistance", image.screenDistance);
   addFieldValue<vtkDoubleArray>(output, "UndisturbedLevel", image.undisturbedLevel);
   addFieldValue<vtkDoubleArray>(output, "SaturatedShare", image.saturatedFraction);
   addFieldValue<vtkDoubleArray>(output, "LightEmitted", image.light.emitted);

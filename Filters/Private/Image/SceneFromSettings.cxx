@@ -203,6 +203,9 @@ schlieren::Scene sceneFrom(
   {
     scene.screenDistance = settings.ScreenDistance;
   }
+  // Waves need pixels and memory as the distance is: theirs is one depth, which a bench has, too.
+  scene.choosesScreen =
+    settings.ScreenDistance < 0 && scene.lightModel == schlieren::LightModel::Rays;
   scene.focusOffset = settings.FocusOffset;
   scene.exitInto = static_cast<schlieren::ExitInto>(settings.ExitInto);
   scene.exitRefractivity = settings.ExitRefractivity;

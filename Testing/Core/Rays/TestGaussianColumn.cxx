@@ -6,6 +6,7 @@
 #include "Fields.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace schlieren
 {
@@ -199,6 +200,53 @@ TEST_P(GaussianColumn, ShadowgraphMatchesLensFormula)
   // The second derivative of a quadratic spline is a staircase: D h / 2 d2 eps / dy2 is 0.025 here.
   EXPECT_LT(worst, 0.025);
   EXPECT_GT(image.intensity[pixelOf(image, 60, 3)], 1.3); // bright: the column is a converging lens
+}
+
+/// The light in the middle is the brightest, I = 1 / (1 - D / f), and passes 3/2 at a third of the focal length. Rays bend
+/// in the middle of the data, from where the distance counts that makes I.
+TEST_P(GaussianColumn, AutomaticScreenFillsHalfOfTheScale)
+{
+  const double focal = 1 / (2 * std::sqrt(pi) * peak / radius);
+  for (const double strength : { 1., 0.01 })
+  {
+    SampledField<float> column(cube(128, half),
+      [strength, full = columnAlong({ 0, 0, 1 })](double x, double y, double z)
+      { return strength * full(x, y, z); });
+    column.field.ambient = 0;
+    Scene scene;
+    scene.device = GetParam();
+    scene.cutoff = Cutoff::Shadowgraph;
+    scene.choosesScreen = true;
+    scene.view.viewDirection = { 0, -1, 0 };
+    scene.view.viewUp = { 0, 0, 1 };
+    scene.view.parallelScale = 1;
+    // Whatever the number of pixels, and how their settings are chosen.
+    for (const auto& [size, target] : { std::pair{ 40, 0. }, { 160, 0. }, { 40, 0.02 } })
+    {
+      scene.view.width = 3 * size;
+      scene.view.height = size;
+      scene.targetError = target;
+      const Image image = Bench().render(column.field, scene);
+      const double expected = focal / strength / 3 - half;
+      EXPECT_NEAR(image.screenDistance, expected, 0.03 * expected) << size;
+      const float brightest = *std::max_element(image.intensity.begin(), image.intensity.end());
+      EXPECT_NEAR(brightest, 1.5, 0.05) << size;
+    }
+  }
+}
+
+TEST_P(GaussianColumn, AutomaticScreenIsOneDepthAwayWhereNothingBends)
+{
+  SampledField<float> still(cube(32, half), [](double, double, double) { return peak; });
+  Scene scene;
+  scene.device = GetParam();
+  scene.cutoff = Cutoff::Shadowgraph;
+  scene.choosesScreen = true;
+  EXPECT_DOUBLE_EQ(Bench().render(still.field, scene).screenDistance, 2 * half);
+  scene.screenDistance = 0.25; // is not automatic
+  EXPECT_EQ(Bench().render(still.field, scene).screenDistance, 0.25);
+  scene.cutoff = Cutoff::KnifeEdge;
+  EXPECT_EQ(Bench().render(still.field, scene).screenDistance, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(, GaussianColumn, bothDevices(), deviceName);

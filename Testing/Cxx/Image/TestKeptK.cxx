@@ -186,6 +186,36 @@ TEST_F(KeptK, IsThatOfAWholeImage)
   EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
 }
 
+// The stronger the flow, the nearer is the screen; in a series it stays.
+TEST_F(KeptK, AutomaticScreenIsKeptLikeIt)
+{
+  this->filter->SetCutoff(Filter::SHADOWGRAPH);
+  const auto distanceAt = [this](double time)
+  {
+    this->filter->UpdateTimeStep(time);
+    return fieldValue(this->filter, "ScreenDistance");
+  };
+  const double first = distanceAt(0);
+  EXPECT_EQ(distanceAt(2), first);
+  this->filter->SetSmoothingRadius(2);
+  EXPECT_EQ(distanceAt(1), first);
+  this->filter->FitK();
+  const double second = distanceAt(1);
+  EXPECT_NEAR(second, first / 2, 0.05 * first);
+  this->filter->SetScreenDistance(3); // what is kept waits
+  EXPECT_EQ(distanceAt(2), 3);
+  this->filter->SetScreenDistance(-1);
+  EXPECT_EQ(distanceAt(2), second);
+  this->filter->SetKMode(Filter::K_AUTOMATIC_KEPT);
+  this->filter->SetViewDirection(0.6, 0, -0.8);
+  EXPECT_EQ(distanceAt(1), second);
+  this->filter->SetKMode(Filter::K_AUTOMATIC);
+  EXPECT_NE(distanceAt(1), second);
+  this->filter->SetViewDirection(0, 0, -1);
+  this->filter->SetLightModel(Filter::LIGHT_AUTO); // one depth
+  EXPECT_NEAR(distanceAt(1), 2, 1e-6);
+}
+
 namespace
 {
 

@@ -215,7 +215,15 @@ TEST(Legend, ShowsLightOfAShadowgraphAndNothingOfAPattern)
   EXPECT_EQ(legendText(filter, "LegendLabel"), "light (undisturbed: 1)");
   filter->SetLengthScale(1e-2); // the cube's depth is 2
   filter->Update();
+  const std::string note = legendText(filter, "LegendNotes");
+  EXPECT_NE(note.find("m behind the data (automatic)"), std::string::npos) << note;
+  EXPECT_NEAR(
+    std::atof(note.substr(note.find(' ')).c_str()), 0.01 * fieldValue(filter, "ScreenDistance"), 1)
+    << note;
+  filter->SetLightModel(vtkSchlierenFilter::LIGHT_AUTO);
+  filter->Update();
   EXPECT_EQ(legendText(filter, "LegendNotes"), "screen 20 mm behind the data (one depth)");
+  filter->SetLightModel(vtkSchlierenFilter::LIGHT_RAYS);
   filter->SetScreenDistance(0.5);
   filter->Update();
   EXPECT_EQ(legendText(filter, "LegendNotes"), "screen 5 mm behind the data");
