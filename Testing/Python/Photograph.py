@@ -4,18 +4,15 @@
 view of it without another fit, ParaView's filters behind it, states, and a mistake in one message."""
 
 import os
-import sys
 
 import numpy as np
+from defaults_testing import check_defaults, property_tables
 from paraview import simple, smstate
 from plugin_testing import CompareWithPhotograph, Schlieren, comes_back, gaussian_column, image_array, is_empty, output
 from schlieren.vtkSchlierenFilters import vtkCompareWithPhotograph
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGWriter
-
-sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Utilities"))
-import property_tables
 
 SIZE = 200
 column = gaussian_column(48)
@@ -45,19 +42,10 @@ without_flow = write(np.full((SIZE, SIZE), (0.9 * undisturbed) ** (1 / gamma)), 
 comparison = CompareWithPhotograph(Input=bench, Photograph=photograph, WithoutFlow=without_flow)
 
 # Proxies and the class have the XML's defaults, and PrintSelf names them.
-made, checked = vtkCompareWithPhotograph(), 0
-printed = str(made)
-for item in property_tables.read(property_tables.PHOTOGRAPH_FILES).values():
-    if item.group in ("Inputs", "Information"):
-        continue
-    value = getattr(comparison, item.name)
-    assert (list(value) if isinstance(item.default, list) else value) == item.default, (item.name, value)
-    inside = getattr(made, "Get" + item.name)()
-    expected = item.entries[item.default] if item.entries else item.default
-    assert (list(inside) if isinstance(inside, tuple) else inside) == expected, (item.name, inside)
-    assert f"{item.name}:" in printed, item.name
-    checked += 1
-assert checked == 18, checked
+made = vtkCompareWithPhotograph()
+checked = check_defaults(comparison, made, property_tables.PHOTOGRAPH_FILES)
+assert len(checked) == 18, checked
+assert all(f"{item.name}:" in str(made) for item in checked)
 
 
 def field(name, proxy=comparison):

@@ -6,35 +6,20 @@ import os
 import sys
 
 import numpy as np
+from defaults_testing import check_defaults, property_tables
 from paraview.simple import AppendDatasets, Calculator, Clip, Sphere
 from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkRefractiveIndex, vtkSchlierenFilter
-
-sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Utilities"))
-import property_tables
 
 source = gaussian_column(32)
 
 refractivity = RefractiveIndex(source)
 bench = Schlieren(source)
 
-# Proxies and classes have the XML's defaults. Lists begin empty; Quality is a name for values of other properties.
-checked = 0
-for proxy, made, files in ((refractivity, vtkRefractiveIndex(), property_tables.FILES[:1]),
-                           (bench, vtkSchlierenFilter(), property_tables.FILES)):
-    for item in property_tables.read(files).values():
-        if item.group in ("Inputs", "Commands", "Information") or item.default is None or item.is_array:
-            continue
-        value = getattr(proxy, item.name)
-        assert (list(value) if isinstance(item.default, list) else value) == item.default, (item.name, value)
-        if item.default == [] or item.name == "Quality":
-            continue
-        inside = getattr(made, item.command.replace("Set", "Get", 1))()
-        inside = list(inside) if isinstance(inside, tuple) else inside
-        expected = item.entries[item.default] if item.entries else item.default
-        assert inside == expected, f"{item.name} is {inside} in C++, {expected} in the XML"
-        checked += 1
-assert checked > 80, checked
+# Proxies and classes have the XML's defaults.
+checked = (check_defaults(refractivity, vtkRefractiveIndex(), property_tables.FILES[:1]) +
+           check_defaults(bench, vtkSchlierenFilter(), property_tables.FILES))
+assert len(checked) > 80, len(checked)
 for proxy in (refractivity, bench):
     for name in ("Density", "Temperature", "Pressure", "Humidity", "IndexArray"):
         assert len(getattr(proxy, name)) == 2, name

@@ -4,15 +4,12 @@
 states, and a mistake in one message."""
 
 import os
-import sys
 
 import numpy as np
+from defaults_testing import check_defaults, property_tables
 from paraview import simple, smstate
 from plugin_testing import Schlieren, Wavefront, comes_back, image_array, is_empty, output
 from schlieren.vtkSchlierenFilters import vtkWavefront
-
-sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Utilities"))
-import property_tables
 
 SIZE, HALF, DIAMETER, CENTER, WAVELENGTH = 240, 0.01125, 0.012, [0.012, 0], 1064e-9  # pixels, m
 jet = simple.OpenDataFile(os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Data", "ladenburg_jet_3d.vti"))
@@ -21,19 +18,10 @@ bench = Schlieren(jet, Density=["POINTS", "rho"], FocalPoint=[0.015, 0, 0], Para
 wavefront = Wavefront(Input=bench)
 
 # Proxies and the class have the XML's defaults, and PrintSelf names them.
-made, checked = vtkWavefront(), 0
-printed = str(made)
-for item in property_tables.read(property_tables.WAVEFRONT_FILES).values():
-    if item.group in ("Inputs", "Information") or item.name == "Report":
-        continue
-    value = getattr(wavefront, item.name)
-    assert (list(value) if isinstance(item.default, list) else value) == item.default, (item.name, value)
-    inside = getattr(made, "Get" + item.name)()
-    expected = item.entries[item.default] if item.entries else item.default
-    assert (list(inside) if isinstance(inside, tuple) else inside) == expected, (item.name, inside)
-    assert f"{item.name}:" in printed, item.name
-    checked += 1
-assert checked == 6, checked
+made = vtkWavefront()
+checked = check_defaults(wavefront, made, property_tables.WAVEFRONT_FILES)
+assert len(checked) == 6, checked
+assert all(f"{item.name}:" in str(made) for item in checked)
 
 
 def numbers(proxy=wavefront):
