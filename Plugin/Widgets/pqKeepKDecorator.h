@@ -9,8 +9,8 @@
 class QToolButton;
 class vtkEventQtSlotConnect;
 
-/// Adds a button behind K Mode that finds an automatic k again, and sets K Scale to the k in use when the user chooses Value as K Mode in the panel, which keeps the
-/// image. Scripts, undo and state files set both themselves.
+/// Adds a button behind K Mode that finds an automatic k again, and sets K Scale to the k in use when the user chooses Value as
+/// K Mode in the panel, which keeps the image. Scripts, undo and state files set both themselves.
 class pqKeepKDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

@@ -126,14 +126,15 @@ FlowDefaults completed(const std::vector<FlowArray>& arrays, const Completion& c
 
 Completion offerFor(const std::vector<FlowArray>& arrays)
 {
-  for (const Completion::Kind completion : { Completion::UniformPressure, Completion::Isentropic })
+  for (const Completion& completion :
+    { Completion{ Completion::UniformPressure }, Completion{ Completion::Isentropic } })
   {
     if (!completed(arrays, completion).arrays.empty())
     {
       return completion;
     }
   }
-  return Completion::None;
+  return {};
 }
 
 void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)

@@ -9,7 +9,6 @@
 #include <QString>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 class pqOutputPort;
@@ -46,15 +45,8 @@ struct Completion
     Density
   };
 
-  Completion(Kind of, std::string name = "") // NOLINT: each kind is one
-    : kind(of)
-    , array(std::move(name))
-  {
-  }
-  operator Kind() const { return this->kind; } // NOLINT
-
-  Kind kind;
-  std::string array; ///< of a Density
+  Kind kind = None;
+  std::string array{}; ///< of a Density
 };
 
 /// Chooses defaults of completed arrays.

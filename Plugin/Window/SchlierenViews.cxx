@@ -420,7 +420,7 @@ private:
 } // namespace
 
 SchlierenViews::Result SchlierenViews::add(
-  Arrangement arrangement, const Cell& cell, Completion completion)
+  Arrangement arrangement, const Cell& cell, const Completion& completion)
 {
   pqOutputPort* flow = pqActiveObjects::instance().activePort();
   const QString missing = flow ? problemOfServer(flow->getServer()) : QString();

@@ -34,14 +34,13 @@ struct Result
   bool isMade;
   bool isSure; ///< whether the choice needs no check by the user
   QString message;
-  Completion offer = Completion::None; ///< none were made, but with this they can be
+  Completion offer{}; ///< none were made, but with this they can be
 };
 
 /// Adds views, linked to the 3-D view's camera, as one undo step. Uses the flow and settings of the
 /// selected Schlieren filter (or that of a selected image), or the settings of the active view's
 /// representation. `cell`: for one image.
-Result add(
-  Arrangement arrangement, const Cell& cell = {}, Completion completion = Completion::None);
+Result add(Arrangement arrangement, const Cell& cell = {}, const Completion& completion = {});
 
 /// Shows the image of a Schlieren filter in grey in a flat view beside the 3-D view.
 void show(pqPipelineSource* filter);

@@ -186,8 +186,8 @@ void pqSchlierenToolBar::addMenu()
   window->menuBar()->insertMenu(menus.empty() ? nullptr : menus.last(), menu);
 }
 
-void pqSchlierenToolBar::add(
-  SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell, Completion completion)
+void pqSchlierenToolBar::add(SchlierenViews::Arrangement arrangement,
+  const SchlierenViews::Cell& cell, const Completion& completion)
 {
   if (!this->HasSession)
   {
@@ -201,14 +201,14 @@ void pqSchlierenToolBar::add(
   // Queued, because buttons are deleted.
   const auto takes = [this, arrangement, cell](const Completion& chosen)
   { return [this, arrangement, cell, chosen]() { this->add(arrangement, cell, chosen); }; };
-  if (result.offer == Completion::UniformPressure)
+  if (result.offer.kind == Completion::UniformPressure)
   {
     QObject::connect(this->offer("UniformPressure", QString("Air at %1 Pa").arg(pressureOfRoom)),
       &QPushButton::clicked, this, takes(result.offer), Qt::QueuedConnection);
     QObject::connect(this->offer("Water", "Water"), &QPushButton::clicked, this,
-      takes(Completion::Water), Qt::QueuedConnection);
+      takes({ Completion::Water }), Qt::QueuedConnection);
   }
-  else if (result.offer == Completion::Isentropic)
+  else if (result.offer.kind == Completion::Isentropic)
   {
     QObject::connect(this->offer("Isentropic",
                        QString("Isentropic air, at rest %1 K and %2 Pa")
@@ -229,7 +229,7 @@ void pqSchlierenToolBar::add(
         QAction* action = menu->addAction(QString::fromStdString(array.name));
         QObject::connect(action, &QAction::triggered, this->message(), &QMessageBox::hide);
         QObject::connect(action, &QAction::triggered, this,
-          takes(Completion(Completion::Density, array.name)), Qt::QueuedConnection);
+          takes({ Completion::Density, array.name }), Qt::QueuedConnection);
       }
     }
     if (!menu->isEmpty())

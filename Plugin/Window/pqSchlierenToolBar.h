@@ -38,7 +38,7 @@ private:
   void makeRoom();
   /// Makes views, or shows why not and offers what completes the flow.
   void add(SchlierenViews::Arrangement arrangement, const SchlierenViews::Cell& cell = {},
-    Completion completion = Completion::None);
+    const Completion& completion = {});
   /// Returns a button of the message.
   QPushButton* offer(const char* name, const QString& text);
   void showExample();
