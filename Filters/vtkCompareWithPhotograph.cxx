@@ -74,7 +74,7 @@ void addArray(vtkImageData* output, const char* name, const Plane& plane, const 
   array->SetName(name);
   array->SetNumberOfValues(static_cast<vtkIdType>(plane.size()));
   std::copy(plane.values.begin(), plane.values.end(), array->GetPointer(0));
-  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
+  setUnit(array, unit);
   output->GetPointData()->AddArray(array);
 }
 
@@ -89,7 +89,7 @@ void addShift(vtkImageData* output, const FeatureShift& shift)
     array->SetComponentName(component, components[component]);
   }
   array->SetNumberOfTuples(static_cast<vtkIdType>(shift.acrossRight.size()));
-  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), "data units");
+  setUnit(array, "data units");
   const double* spacing = output->GetSpacing();
   for (std::size_t i = 0; i < shift.acrossRight.size(); ++i)
   {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkWavefront.h"
 
+#include "Common/NumberText.h"
 #include "Guarded.h"
 #include "Image/FieldData.h"
 #include "Ranks/Ranks.h"
-#include "UnitPrefix.h"
 #include "Wavefront/BeamQuality.h"
 #include "Wavefront/Zernike.h"
 
@@ -20,8 +20,8 @@
 #include "vtkTable.h"
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 using namespace filters;
@@ -45,7 +45,7 @@ vtkSmartPointer<vtkDoubleArray> arrayFrom(
   array->SetName(name.c_str());
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
-  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
+  setUnit(array, unit);
   return array;
 }
 
@@ -106,46 +106,24 @@ Aperture apertureOf(
   }
   if (isBeyond || dark > 0 || inside == 0)
   {
-    std::ostringstream text;
-    text.precision(2);
-    text << "The aperture ";
-    if (isBeyond)
-    {
-      text << "reaches beyond the image";
-    }
-    else if (inside == 0)
-    {
-      text << "covers no pixel of the image";
-    }
-    else
-    {
-      text << "has no light through the data at " << 100. * dark / inside << " % of its pixels";
-    }
-    text << ". Choose another ApertureDiameter or ApertureCenter; with an "
-            "ApertureDiameter of 0, it is the largest one inside the flow.";
-    throw std::runtime_error(text.str());
+    const std::string problem = isBeyond ? "reaches beyond the image"
+      : inside == 0
+      ? "covers no pixel of the image"
+      : "has no light through the data at " + textOf(100. * dark / inside, 2) + " % of its pixels";
+    throw std::runtime_error("The aperture " + problem +
+      ". Choose another ApertureDiameter or ApertureCenter; with an ApertureDiameter of 0, it is "
+      "the largest one inside the flow.");
   }
   return aperture;
 }
 
 std::string inWords(const BeamQuality& found, double diameter)
 {
-  const auto length = [](double metres)
-  {
-    const UnitPrefix prefix = unitPrefixOf(metres);
-    std::ostringstream text;
-    text.precision(3);
-    text << metres / prefix.factor << " " << prefix.name << "m";
-    return text.str();
-  };
-  std::ostringstream text;
-  text.precision(4);
-  text << "Over an aperture of " << length(diameter) << ": OPDrms " << length(found.rms)
-       << ", peak to valley " << length(found.peakToValley) << ", Strehl ratio " << found.strehl
-       << " (Mar\xC3\xA9"
-       << "chal " << found.marechal << "), " << 100 * found.energyWithinAiry
-       << " % of the light within 1.22 \xCE\xBB/D.";
-  return text.str();
+  return "Over an aperture of " + lengthInWords(diameter, 3) + ": OPDrms " +
+    lengthInWords(found.rms, 3) + ", peak to valley " + lengthInWords(found.peakToValley, 3) +
+    ", Strehl ratio " + textOf(found.strehl, 4) + " (Mar\xC3\xA9" + "chal " +
+    textOf(found.marechal, 4) + "), " + textOf(100 * found.energyWithinAiry, 4) +
+    " % of the light within 1.22 \xCE\xBB/D.";
 }
 
 } // namespace

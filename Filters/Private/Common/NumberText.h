@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "UnitPrefix.h"
+
 #include <cstdio>
 #include <string>
 
@@ -22,6 +24,13 @@ inline std::string textOf(double value, int digits = 6)
   char text[32];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
+}
+
+/// Returns a length with so many significant digits, in a unit that suits it.
+inline std::string lengthInWords(double metres, int digits)
+{
+  const UnitPrefix prefix = unitPrefixOf(metres);
+  return textOf(metres / prefix.factor, digits) + " " + prefix.name + "m";
 }
 
 } // namespace filters

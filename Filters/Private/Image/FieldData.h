@@ -2,14 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkNew.h"
 
 #include <initializer_list>
 
 namespace filters
 {
+
+/// Sets the unit of an array, which ParaView shows.
+inline void setUnit(vtkDataArray* array, const char* unit)
+{
+  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
+}
 
 /// Adds an array of values to the field data.
 template <class Array, class Values>

@@ -7,7 +7,6 @@
 #include "Image/ImageStatus.h"
 #include "Image/RealOptics.h"
 #include "SchlierenSettings.h"
-#include "UnitPrefix.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
@@ -89,9 +88,7 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   if (schlieren::techniqueOf(scene.cutoff).plane == schlieren::RecordedPlane::Screen)
   {
     const double metres = settings.LengthScale * image.screenDistance;
-    const UnitPrefix prefix = unitPrefixOf(metres);
-    notes.push_back("screen " + textOf(metres / prefix.factor, 3) + " " + prefix.name +
-      "m behind the data" +
+    notes.push_back("screen " + lengthInWords(metres, 3) + " behind the data" +
       (scene.choosesScreen       ? " (automatic)"
           : scene.screenDistance ? ""
                                  : " (one depth)"));

@@ -43,11 +43,6 @@ namespace
 
 constexpr const char* dataUnits = "data units";
 
-void setUnit(vtkDataArray* array, const char* unit)
-{
-  array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
-}
-
 /// Makes an array that takes over the memory of the values.
 template <class Array, class Value>
 vtkSmartPointer<Array> newArray(
