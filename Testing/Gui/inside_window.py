@@ -166,6 +166,9 @@ def save_state(name):
         os.close(output)
 
 
+_failed = set()  # sessions
+
+
 def add_steps(name, folder, count):
     """Buttons out of sight that run the scripts of Session.python; the window becomes as small as its panels allow, for
     half of a session's time goes into drawing its views."""
@@ -179,12 +182,16 @@ def add_steps(name, folder, count):
 
 
 def _run_step(name, path, number):
+    """Runs a step, unless one of the same session has failed: it could wait for minutes for what that one did not do."""
+    if name in _failed:
+        return
     try:
         with open(path, encoding="utf-8") as file:
             exec(compile(file.read(), path, "exec"), {"__name__": "__main__"})
         print(f"Step {number} of {name} is done.", flush=True)
     except Exception:  # PyQt would end the window
         traceback.print_exc()
+        _failed.add(name)
 
 
 def confirm():
