@@ -288,8 +288,6 @@ bool Pilot<Real>::makeFiner(const Monitor& monitor)
   {
     const Frame& frame = setup_.key.frame;
     constexpr double mostBent = 4; // pixels, away from straight light
-    const double bent =
-      std::min(mostBent, view().largestDeflection * (frame.exit - frame.entry) / frame.pixelSize);
     std::vector<Column::Part> parts;
     for (const PatchList& list : layout_.ofVoxels)
     {
@@ -297,6 +295,9 @@ bool Pilot<Real>::makeFiner(const Monitor& monitor)
       {
         const std::int64_t from[2] = { patch.fromColumn, patch.fromRow };
         const std::int64_t size[2] = { patch.columns, patch.rows };
+        const double bent = std::min(mostBent,
+          scouts_.largestDeflectionAround(from[0], from[1], size[0], size[1]) *
+            (frame.exit - frame.entry) / frame.pixelSize);
         Column::Part part{};
         for (std::size_t axis = 0; axis < 2; ++axis)
         {

@@ -90,6 +90,23 @@ const Scout* Scouts::at(std::int64_t column, std::int64_t row) const
     : nullptr;
 }
 
+double Scouts::largestDeflectionAround(
+  std::int64_t column, std::int64_t row, std::int64_t columns, std::int64_t rows) const
+{
+  double largest = 0;
+  for (std::int64_t j = row / stride_ - 1; j <= (row + rows) / stride_ + 1; ++j)
+  {
+    for (std::int64_t i = column / stride_ - 1; i <= (column + columns) / stride_ + 1; ++i)
+    {
+      if (const Scout* scout = at(i, j); scout && scout->fate == RayFate::Left)
+      {
+        largest = std::max(largest, std::hypot(scout->deflection[0], scout->deflection[1]));
+      }
+    }
+  }
+  return largest;
+}
+
 /// By how much the light of neighbouring rays differs from a linear change. That of fringes changes as the path does, that of
 /// cutoffs as the deflection, and that of a screen as the area J on which it lands: by J' / J^2.
 double Scouts::variationAt(std::int64_t column, std::int64_t row) const

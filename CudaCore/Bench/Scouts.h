@@ -54,6 +54,10 @@ public:
   /// Null outside of the view.
   const Scout* at(std::int64_t column, std::int64_t row) const;
 
+  /// The largest |eps| of those in and around `columns` x `rows` pixels from a pixel on; see PilotView.
+  double largestDeflectionAround(
+    std::int64_t column, std::int64_t row, std::int64_t columns, std::int64_t rows) const;
+
   /// Whether pixels receive light from elsewhere. Fringes need the paths of their own pixels, and are in focus.
   bool areShifted() const { return !isOfCamera_ && !technique_->hasFringes; }
   bool areOfCamera() const { return isOfCamera_; }
