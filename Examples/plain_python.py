@@ -4,16 +4,24 @@
 
     python3 Examples/plain_python.py        (writes plain_python.png)
 
-The package paraview-schlieren puts the classes where python3 finds them; after a build, PYTHONPATH has to name the folder of
-the plugin. They take any dataset of VTK, of ParaView's own VTK (Debian's python3-paraview).
+The package paraview-schlieren puts the classes where python3 finds them; after a build they lie beside the plugin. They take
+any dataset of VTK, of ParaView's own VTK (Debian's python3-paraview).
 """
 
+import os
+import sys
+
 import numpy as np
-from schlieren.vtkSchlierenFilters import vtkRefractiveIndex, vtkSchlierenFilter
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkImagingCore import vtkImageShiftScale
-from vtkmodules.vtkIOImage import vtkPNGWriter
+
+built = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "build", "release", "plugin-file.txt")
+if os.path.exists(built):
+    with open(built) as file:
+        sys.path.append(os.path.dirname(file.read().strip()))
+from schlieren.vtkSchlierenFilters import vtkRefractiveIndex, vtkSchlierenFilter  # noqa: E402
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkCommonDataModel import vtkImageData  # noqa: E402
+from vtkmodules.vtkImagingCore import vtkImageShiftScale  # noqa: E402
+from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402
 
 points = 96
 z, y, x = np.meshgrid(*3 * [np.linspace(-0.05, 0.05, points)], indexing="ij")
@@ -47,3 +55,4 @@ png = vtkPNGWriter()
 png.SetFileName("plain_python.png")
 png.SetInputConnection(grey.GetOutputPort())
 png.Write()
+print("Wrote", os.path.abspath("plain_python.png"))
