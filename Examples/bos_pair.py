@@ -164,3 +164,4 @@ for windows in ((32,), (32, 16), (32, 16, 16)):
 for name, values in (("bos_without_flow.png", without), ("bos_with_flow.png", with_flow)):
     from matplotlib import image
     image.imsave(name, values[::-1], cmap="gray", vmin=0, vmax=4095)
+    print("Wrote", os.path.abspath(name))

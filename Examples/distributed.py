@@ -74,6 +74,7 @@ def show(name, flow, scale, direction):
         writer.SetFileName(name + ".png")
         writer.SetInputConnection(grey.GetOutputPort())
         writer.Write()
+        print("Wrote", *(os.path.abspath(name + ending) for ending in (".vti", ".png")))
 
 
 show("sphere", ProgrammableSource(OutputDataSetType="vtkStructuredGrid", ScriptRequestInformation=EXTENT,

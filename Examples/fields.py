@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Five fields of a reactor in one schlieren image, tinted by the field that light crosses.
 
-    pvpython Examples/fields.py        (writes fields.png)
+    pvpython Examples/fields.py        (writes fields.png, and fields_figure.png with a legend)
 """
 
 import os
@@ -15,6 +15,7 @@ sys.path.insert(0, os.path.join(root, "Examples"))
 from load_schlieren import load_schlieren  # noqa: E402
 
 load_schlieren(globals())
+import schlieren_figure  # noqa: E402, which comes with the plugin
 
 disk = OpenDataFile(os.path.join(root, "Testing", "Data", "disk_exodus", "disk_out_ref.ex2"))
 disk.UpdatePipeline()
@@ -48,3 +49,5 @@ schlieren.SamplesPerPixel = 4  # a small image: not as many as the preset has
 schlieren.Outside = "Passes"  # the round reactor lies in a box
 schlieren.UpdatePipeline()
 SaveData("fields.png", proxy=schlieren)  # the array Color
+schlieren_figure.save("fields_figure.png", schlieren, title="Five fields of a reactor")
+print("Wrote", *map(os.path.abspath, ("fields.png", "fields_figure.png")), "and beside it numbers, settings and a state")

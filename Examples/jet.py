@@ -46,5 +46,6 @@ view.InteractionMode = "2D"
 ResetCamera(view)
 view.CameraParallelScale = 0.0081
 SaveScreenshot("jet.png", view)
+print("Wrote", os.path.abspath("jet.png"))
 Delete(view)
 del view

@@ -75,6 +75,7 @@ for place, (title, values, colors, limits) in zip(axes.flat, shown):
     place.set_title(title, fontsize=9)
     place.tick_params(labelsize=7)
 figure.savefig("numerical_schlieren.png", dpi=110)
+print("Wrote", os.path.abspath("numerical_schlieren.png"))
 
 for name, seconds in times.items():
     print(f"{name}: {seconds:.2f} s")

@@ -32,6 +32,7 @@ schlieren = Schlieren(Input=case, Cutoff="Interferogram", Wavelength=546.1,
                       ImageSize=[480, 300], Quality="Fine")
 schlieren.UpdatePipeline(last)
 schlieren_figure.save("openfoam_jet.png", schlieren, title="Under-expanded air jet, 546 nm")
+print("Wrote", os.path.abspath("openfoam_jet.png"), "and beside it numbers, settings and a state")
 
 # How many fringes the axis is off the air around, along the jet.
 image = servermanager.Fetch(schlieren)
