@@ -106,7 +106,7 @@ examples:
   %(prog)s
   %(prog)s flow.vtu --array rho --view y
   %(prog)s case.foam --formula 'p/(287.05*T)' --set Outside=Passes
-  %(prog)s bluntfinxyz.bin --density-scale 0.72 --length-scale 0.0127
+  %(prog)s bluntfinxyz.bin --view y --density-scale 0.72 --length-scale 0.0127
   %(prog)s plume.vti --set Quality=Fine --set SamplesPerPixel=1""")
     add = parser.add_argument
     add("file", nargs="?", metavar="FILE",
