@@ -35,7 +35,7 @@ def oblique_shock():
     """Fringes in white light, which know the zeroth order."""
     flow = read(XMLImageDataReader, "oblique_shock_extruded.vti")
     return dict(Input=flow, Density=["POINTS", "rho"], DensityScale=1.225 / 1.4, LengthScale=0.01, Cutoff="Interferogram",
-                WhiteLight=1, FocalPoint=[2.6, 0.5, 0.5], ParallelScale=0.5)
+                WhiteLight=1, FocalPoint=[1.8, 0.4, 0.5], ParallelScale=0.4)
 
 
 def blunt_fin():
@@ -121,7 +121,9 @@ def main(folder, size=SIZE):
         sheet.text(left, top - 20, line, 13, sheet.DIM, room=size[0])
         sheet.image(left, top, images[flow.__name__])
         print(f"{title}: {time.monotonic() - begin:.1f} s", flush=True)
-    sheet.write(os.path.join(folder, "gallery.png"))
+    path = os.path.abspath(os.path.join(folder, "gallery.png"))
+    sheet.write(path)
+    print("Wrote", path)
     return images
 
 
