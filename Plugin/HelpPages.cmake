@@ -22,7 +22,7 @@ foreach (page IN LISTS pages)
   endforeach ()
   string(REGEX REPLACE "href=\"([a-z_]+)\\.md" "href=\"\\1.html" text "${text}")
   # What is not in the help is a text without a link.
-  string(REGEX REPLACE "<a href=\"\\.\\.[^>]*>([^<]*(<code>[^<]*</code>)?[^<]*)</a>" "\\1" text "${text}")
+  string(REGEX REPLACE "<a href=\"(\\.\\.|development|scripts)[^>]*>([^<]*(<code>[^<]*</code>)?[^<]*)</a>" "\\2" text "${text}")
   string(REGEX MATCHALL "images/[a-z_]+\\.[a-z]+" images "${text}")
   foreach (image IN LISTS images)
     file(COPY "${PAGES}/${image}" DESTINATION "${OUTPUT}/images")

@@ -22,7 +22,7 @@ namespace schlieren
 {
 
 /// Edge in cells. Larger ones find clearly less to skip in real flows, and these cost but 4 % of the medium's
-/// memory (Documentation/performance.md).
+/// memory (Documentation/development/performance.md).
 constexpr int brickEdge = 4;
 
 template <class Real>

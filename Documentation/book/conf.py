@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The pages as a book in HTML, by Sphinx with MyST (Debian: python3-sphinx, python3-myst-parser). Utilities/guide starts it."""
 
+import glob
 import os
 import re
 
@@ -9,7 +10,8 @@ project = "Schlieren"
 author = copyright = "Schlieren contributors"
 extensions = ["myst_parser"]
 root_doc = "README"
-include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "Documentation/*.md", "CudaCore/README.md",
+include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "Documentation/*.md",
+                    "Documentation/development/*.md", "CudaCore/README.md",
                     "Testing/Data/README.md", "Testing/Benchmarks/Results/README.md",
                     "Testing/Benchmarks/Window/README.md"]
 html_theme = "alabaster"
@@ -24,9 +26,12 @@ myst_heading_anchors = 6
 
 
 def add_contents(app, name, source):
-    """The order of the pages is that of the table in the README."""
+    """The order of the pages is that of the README's links; the others follow."""
     if name == root_doc:
-        pages = dict.fromkeys(re.findall(r"\]\((Documentation/\w+)\.md", source[0].split("## Documentation")[1]))
+        pages = dict.fromkeys(re.findall(r"\]\((Documentation/[\w/]+)\.md", source[0]))
+        folder = os.path.join(app.srcdir, "Documentation")
+        pages.update(dict.fromkeys(sorted(os.path.relpath(name, app.srcdir)[:-3] for name in
+                                          glob.glob(os.path.join(folder, "**", "*.md"), recursive=True))))
         more = ["CudaCore/README", "Testing/Data/README", "Testing/Benchmarks/results",
                 "Testing/Benchmarks/Window/README", "CHANGELOG", "CONTRIBUTING"]
         source[0] += "\n".join(["", "```{toctree}", ":hidden:", "", *pages, *more, "```", ""])

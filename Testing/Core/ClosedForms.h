@@ -222,7 +222,7 @@ inline RayState leapfrogged(
     const Point middle = from.position + (s / 2) * from.momentum;
     const Point p = from.momentum + s * form.halfGradient(middle);
     const Point mean = 0.5 * (from.momentum + p);
-    // On the mean of n^2 and |p|^2, which are the same: see Documentation/theory.md.
+    // On the mean of n^2 and |p|^2, which are the same: see Documentation/development/theory.md.
     return RayState{ middle + (s / 2) * p, p,
       from.path + s / 2 * (1 + form.excess(middle) + dot(mean, mean)) };
   };

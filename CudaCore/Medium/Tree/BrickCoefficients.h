@@ -11,7 +11,7 @@ namespace schlieren
 inline constexpr int supportOfFronts = 2;
 
 /// How samples become the coefficients of a B-spline: by c = N - outer d2, d2 being second differences along each axis
-/// (a quasi-interpolant of third order: de Boor & Fix 1973), limited at fronts (Documentation/theory.md).
+/// (a quasi-interpolant of third order: de Boor & Fix 1973), limited at fronts (Documentation/development/theory.md).
 struct CoefficientRule
 {
   double outer;     ///< 1/8 of quadratic splines, 1/6 of cubic ones

@@ -275,7 +275,7 @@ TEST(TargetErrorScenes, KeepTheirTargets)
     sum.print(name(cutoff));
   }
   all.print("all");
-  // The aim is 0.99 and 0.9: see Documentation/accuracy.md for what is reached, and where it fails.
+  // The aim is 0.99 and 0.9: see Documentation/development/accuracy.md for what is reached, and where it fails.
   EXPECT_GE(all.kept(), 0.97);
   constexpr double ofHundreds = 0.88, ofSome = 0.8; // fewer than thirty, of which one is 0.04
   EXPECT_GE(all.effective(), isLong ? ofHundreds : ofSome);
