@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pairs of images of Documentation/before_after.md: one property, two values.
+
+    pvpython Documentation/scripts/before_after.py [FOLDER [PROPERTY...]]        (writes pair_*.jpg into it)
+"""
+
+import os
+import sys
+
+from paraview import servermanager
+from paraview.simple import *
+from PIL import Image
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "Examples"))
+from load_schlieren import load_schlieren  # noqa: E402
+
+load_schlieren(globals())
+from schlieren_figure import pixels_of  # noqa: E402, which comes with the plugin
+
+KNIFE = {"Cutoff": "Knife Edge", "KMode": "Value", "KScale": 250, "KnifeEdgeAngle": 90}
+SHADOW = {"Cutoff": "Shadowgraph", "ScreenDistance": 0.1}
+FRINGES = {"Cutoff": "Interferogram"}
+STRIPES = {"Cutoff": "Background Oriented", "BackgroundPattern": "Stripes", "BackgroundPeriod": 0.0008, "FringeAngle": 90}
+# The property, its values to the left and to the right, and what else is set.
+PAIRS = (
+    ("KnifeEdgeAngle", 0, 90, KNIFE),
+    ("KScale", 60, 600, KNIFE),
+    ("CutoffOffset", 0, 0.3, KNIFE),
+    ("InvertCutoff", 0, 1, KNIFE),
+    ("SmoothingRadius", 0, 6, {**KNIFE, "KnifeEdgeAngle": 0, "KScale": 1000}),
+    ("Cutoff", "Circular", "Circular Complement", {}),
+    ("ScreenDistance", 0.02, 0.3, SHADOW),
+    ("LightModel", "Rays", "Waves", {**SHADOW, "ScreenDistance": 0.2, "Wavelength": 532}),
+    ("SourceShape", "Point", "Disc", {**SHADOW, "FocalLength": 1, "SourceWidth": 5, "SamplesPerPixel": 64}),
+    ("FringeSpacing", 0, 0.0008, {**FRINGES, "FringeAngle": 90}),
+    ("WhiteLight", 0, 1, FRINGES),
+    ("Symmetry", "None", "Axisymmetric", {**KNIFE, "KnifeEdgeAngle": 0}),
+    ("BackgroundDistance", 0.02, 0.3, STRIPES),
+    ("ViewDirection", [0, 0, -1], [0.9, 0, -0.4], KNIFE),
+    ("FNumber", 0, 2, {**KNIFE, "KnifeEdgeAngle": 0, "ViewAngle": 10, "LensFocalLength": 50, "SamplesPerPixel": 64}))
+
+
+def main(folder, size=(300, 160), chosen=()):
+    """
+    Writes a JPEG of each pair, or of the chosen properties; returns the pairs of images, rows x columns x 3 bytes, by the
+    properties' names.
+    """
+    jet = OpenFOAMReader(FileName=os.path.join(ROOT, "Testing", "Data", "ladenburg_openfoam", "ladenburg.foam"))
+    last = jet.TimestepValues[-1]
+    jet.UpdatePipeline(last)
+    made = {}
+    for name, *values, others in PAIRS:
+        if chosen and name not in chosen:
+            continue
+        sheet = Image.new("RGB", (2 * size[0] + 8, size[1]), "white")
+        made[name] = []
+        for column, value in enumerate(values):
+            schlieren = Schlieren(Input=jet, FocalPoint=[0.0135, 0, 0], ParallelScale=0.0076,  # noqa: F821
+                                  ImageSize=list(size), **{"Quality": "Fine", **others, name: value})
+            schlieren.UpdatePipeline(last)
+            made[name].append(pixels_of(servermanager.Fetch(schlieren)))
+            sheet.paste(Image.fromarray(made[name][-1][::-1]), (column * (size[0] + 8), 0))
+        path = os.path.abspath(os.path.join(folder, f"pair_{name.lower()}.jpg"))
+        sheet.save(path, quality=80)
+        print("Wrote", path, flush=True)
+    return made
+
+
+if __name__ == "__main__":
+    main(sys.argv[1] if len(sys.argv) > 1 else ".", chosen=sys.argv[2:])

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scripts of the README and of pages run as they are printed, and make what the pages say."""
+
+import os
+import re
+
+import numpy as np
+from demo_testing import DATA, SOURCE, image_array
+from paraview import servermanager
+from paraview.simple import Delete, GetActiveView
+
+os.makedirs("run/build/release", exist_ok=True)
+os.chdir("run")
+for name, target in (("Testing", os.path.join(SOURCE, "Testing")), ("jet.vti", os.path.join(DATA, "ladenburg_jet_3d.vti"))):
+    if not os.path.lexists(name):
+        os.symlink(target, name)
+with open("build/release/plugin-file.txt", "w") as file:
+    file.write(os.environ["SCHLIEREN_PLUGIN"] + "\n")
+
+
+def snippets(*page):
+    with open(os.path.join(SOURCE, *page), encoding="utf-8") as file:
+        return re.findall(r"^```python\n(.*?)^```", file.read(), re.DOTALL | re.MULTILINE)
+
+
+def run(text, names, *changes):
+    for printed, quicker in changes:
+        assert printed in text, f"The page has no {printed}"
+        text = text.replace(printed, quicker)
+    exec(compile(text, "page", "exec"), names)
+
+
+names = {}
+run(snippets("README.md")[0], names)
+for ending in (".png", ".json", ".pvsm", "_intensity.png"):
+    assert os.path.getsize("jet" + ending) > 1000, ending
+figure = image_array("jet.png")
+assert figure.shape[0] > 480 and figure.shape[1] > 900 and figure.std() > 20, figure.shape
+
+run(snippets("Documentation", "wavefront.md")[0], names)
+report = names["wavefront"].GetProperty("Report").GetData()
+print(report)
+row = servermanager.Fetch(names["numbers"]).GetRowData()
+numbers = {name: row.GetArray(name).GetValue(0) for name in ("OPDrms", "StrehlRatio", "EncircledEnergy")}
+assert abs(numbers["OPDrms"] / 514e-9 - 1) < 0.005 and abs(numbers["StrehlRatio"] - 0.137) < 0.001, numbers
+assert abs(numbers["EncircledEnergy"] - 0.047) < 0.001, numbers
+
+names["flow"] = names["jet"]
+run(snippets("Documentation", "bench.md")[0], names, ("ImageSize=[612, 512]", "ImageSize=[64, 54]"),
+    ("SamplesPerPixel=64", "SamplesPerPixel=1"))
+for bench, arrays in ((names["bos"], ("Recorded", "RecordedBackground", "BackgroundDisplacement")),
+                      (names["knife"], ("Intensity",))):
+    bench.ImageSize = [64, 54]
+    bench.UpdatePipeline()
+    for array in arrays:
+        assert np.ptp(bench.PointData[array].GetRange(0)) > 0, array
+
+# A view that was not reset to the flow shows nothing of it.
+run(snippets("Documentation", "representation.md")[0], names, ("ImageResolution=[3840, 2160]", "ImageResolution=[480, 270]"))
+shown = image_array("jet.png")
+assert shown.std() > 15, f"The image is empty: {shown.std()}"
+Delete(GetActiveView())
