@@ -120,7 +120,11 @@ void addReport(vtkImageData* output, const Compared& found)
     add("PhotographKUncertainty", found.cutoff.k * found.kUncertainty);
     add("PhotographOffset", found.cutoff.offset);
   }
-  add("PhotographAngle", found.cutoff.angle);
+  if (!found.cutoff.isAngleHidden)
+  {
+    add("PhotographAngle", found.cutoff.angle);
+    add("PhotographAngleUncertainty", found.angleUncertainty);
+  }
   add("PhotographFullFraction", found.fullFraction);
   add("PhotographBlackLevel", found.black);
   add("PhotographResidual", found.residual);

@@ -18,7 +18,8 @@
  * `PhotographPlace` (x and y of the photograph's middle, data units); `PhotographScale` (data units per pixel); `PhotographRotation`
  * (degrees to the left); `PhotographContrast` (k / (1/2 - offset), per radian); `PhotographContrastUncertainty` (one
  * standard deviation); `PhotographK` and `PhotographKUncertainty` (per radian), `PhotographOffset`, of a knife edge only where all light
- * passes it at 1 % of the points, as they cannot be separated otherwise; `PhotographAngle` (degrees);
+ * passes it at 1 % of the points, as they cannot be separated otherwise; `PhotographAngle` and `PhotographAngleUncertainty`
+ * (degrees), not where light is deflected along one direction only, as any angle fits then;
  * `PhotographFullFraction` (where all light passes the edge); `PhotographBlackLevel`; `PhotographResidual` (root mean square of
  * Difference); `PhotographCorrelation`; `FeatureShiftMedian` and `FeatureShift95` (its median, and what 95 % do not exceed). What the
  * technique does not have is left out. `LegendNotes` of the input gets the most important ones.

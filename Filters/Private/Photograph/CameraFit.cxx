@@ -42,9 +42,10 @@ class Residuals
 {
 public:
   Residuals(const SimulatedLight& light, const Exposure& exposure, const CameraFit& start,
-    Fitted what, const std::function<bool(double, double)>& uses)
+    Fitted what, Blur blur, const std::function<bool(double, double)>& uses)
     : Light(light)
     , Start(start)
+    , FitsBlur(blur == Blur::Fitted)
     , FitsLight(what == Fitted::Light || what == Fitted::All)
     , FitsBlack(what == Fitted::BrightnessAndBlack || what == Fitted::All)
     , HasOther(!exposure.withoutFlow.values.empty() && !light.isDarkWithoutFlow())
@@ -70,7 +71,7 @@ public:
 
   int inputs() const
   {
-    return this->LightCount() + 1 + (this->FitsBlack ? 1 : 0) + (this->HasOther ? 0 : 6);
+    return this->BlurredCount() + (this->FitsBlack ? 1 : 0) + (this->HasOther ? 0 : 6);
   }
   int values() const { return static_cast<int>(this->Blocks.size()); }
 
@@ -82,7 +83,10 @@ public:
     {
       x[next++] = fit.light[static_cast<std::size_t>(i)];
     }
-    x[next++] = std::log(fit.camera.blur);
+    if (this->FitsBlur)
+    {
+      x[next++] = std::log(fit.camera.blur);
+    }
     if (this->FitsBlack)
     {
       x[next++] = std::atanh(std::clamp((fit.camera.black - blackMiddle) / blackHalf, -0.99, 0.99));
@@ -102,7 +106,10 @@ public:
     {
       fit.light[static_cast<std::size_t>(i)] = x[next++];
     }
-    fit.camera.blur = std::clamp(std::exp(x[next++]), leastBlur, largestBlur);
+    if (this->FitsBlur)
+    {
+      fit.camera.blur = std::clamp(std::exp(x[next++]), leastBlur, largestBlur);
+    }
     if (this->FitsBlack)
     {
       fit.camera.black = blackMiddle + blackHalf * std::tanh(x[next++]);
@@ -132,7 +139,7 @@ public:
     const CameraFit fit = this->FitOf(x);
     const Plane light = this->LightOf(fit);
     std::vector<Plane> others;
-    for (int i = 0; i < this->LightCount() + 1; ++i)
+    for (int i = 0; i < this->BlurredCount(); ++i)
     {
       Vector other = x;
       other[i] += step;
@@ -172,10 +179,10 @@ private:
     double byLight, byBlack, bySurface;
   };
 
-  int LightCount() const
-  {
-    return this->FitsLight ? static_cast<int>(this->Start.light.size()) : 0;
-  }
+  int LightCount() const { return this->FitsLight ? static_cast<int>(this->Light.free()) : 0; }
+
+  /// Of the unknowns that change the blurred light.
+  int BlurredCount() const { return this->LightCount() + (this->FitsBlur ? 1 : 0); }
 
   /// Returns the blurred light of the blocks.
   Plane LightOf(const CameraFit& fit) const
@@ -210,6 +217,7 @@ private:
 
   const SimulatedLight& Light;
   const CameraFit& Start;
+  bool FitsBlur;
   bool FitsLight;
   bool FitsBlack;
   bool HasOther; // a photograph without flow
@@ -231,10 +239,10 @@ double Camera::surfaceAt(double x, double y) const
 }
 
 CameraFit fitCamera(const SimulatedLight& light, const Exposure& exposure, const CameraFit& start,
-  Fitted what, const std::function<bool(double, double)>& uses)
+  Fitted what, Blur blur, const std::function<bool(double, double)>& uses)
 {
-  Residuals residuals(light, exposure, start, what, uses);
-  if (residuals.values() <= residuals.inputs())
+  Residuals residuals(light, exposure, start, what, blur, uses);
+  if (residuals.inputs() == 0 || residuals.values() <= residuals.inputs())
   {
     return start;
   }

@@ -46,20 +46,27 @@ struct CameraFit
 /// What a fit may change.
 enum class Fitted
 {
-  Brightness,         ///< the blur, and the surface where there is no photograph without flow
+  Brightness,         ///< the surface where there is no photograph without flow
   BrightnessAndBlack, ///< and the black level
   Light,              ///< and the parameters of the light, but not the black level
   All
 };
 
+/// Whether the blur is fitted, too. A fit that starts with another contrast can end in the widest blur instead of the right contrast.
+enum class Blur
+{
+  Kept,
+  Fitted
+};
+
 /**
- * Fits a camera and the light's parameters by Levenberg's and Marquardt's method with the robust loss
+ * Fits a camera and the light's free parameters by Levenberg's and Marquardt's method with the robust loss
  * 2 s^2 (sqrt(1 + (difference / s)^2) - 1), s = 0.02, to the means of both over blocks of the image (about 200 blocks to a row). `uses`: of a
- * block's column and row, each 0 to 1, whether it is compared; null: all. Returns `start` unchanged where there are fewer
- * blocks than unknowns.
+ * block's column and row, each 0 to 1, whether it is compared; null: all. Returns `start` unchanged where nothing is to
+ * be fitted, or there are fewer blocks than unknowns.
  */
 CameraFit fitCamera(const SimulatedLight& light, const Exposure& exposure, const CameraFit& start,
-  Fitted what, const std::function<bool(double, double)>& uses = nullptr);
+  Fitted what, Blur blur = Blur::Fitted, const std::function<bool(double, double)>& uses = nullptr);
 
 /// Returns the image as the camera records it. Beyond the photograph, undisturbed light is as bright as in its median.
 Plane recorded(const SimulatedLight& light, const Exposure& exposure, const CameraFit& fit);

@@ -169,13 +169,13 @@ CameraFit firstFit(
   {
     CameraFit one = start;
     one.light = parameters;
-    one = fitCamera(light, exposure, one, what);
+    one = fitCamera(light, exposure, one, what, Blur::Kept);
     if (one.cost < best.cost)
     {
       best = one;
     }
   }
-  return best;
+  return fitCamera(light, exposure, best, what);
 }
 
 /// Returns the light that the camera has seen, relative to undisturbed light: what recorded() makes values of.
@@ -233,7 +233,7 @@ Place improved(Place place, const SimulatedLight& light, const Photograph& photo
   return place;
 }
 
-/// Finds the relative standard deviations of contrast and k by fits to halves of the image: columns, rows and fields of a
+/// Finds the standard deviations of contrast, k (relative) and angle by fits to halves of the image: columns, rows and fields of a
 /// chequerboard in turn. That of the Jacobian is 3 to 20 times too small, as striae are no white noise.
 void measureUncertainty(Compared& result, const SimulatedLight& light, const Exposure& exposure,
   const CameraFit& fit, Fitted what)
@@ -244,21 +244,23 @@ void measureUncertainty(Compared& result, const SimulatedLight& light, const Exp
     { return field(x); },
     [&](double, double y) { return field(y); },
     [&](double x, double y) { return field(x) + field(y); } };
-  double ofContrast = 0, ofK = 0;
+  double ofContrast = 0, ofK = 0, ofAngle = 0;
   for (const auto& way : ways)
   {
     SimulatedLight::Values half[2];
     for (int which = 0; which < 2; ++which)
     {
       const auto uses = [&](double x, double y) { return way(x, y) % 2 == which; };
-      half[which] = light.values(fitCamera(light, exposure, fit, what, uses).light);
+      half[which] = light.values(fitCamera(light, exposure, fit, what, Blur::Fitted, uses).light);
     }
     // The mean of both halves differs from them by half of their distance.
     ofContrast += std::pow(std::log(half[1].contrast / half[0].contrast) / 2, 2);
     ofK += std::pow(std::log(half[1].k / half[0].k) / 2, 2);
+    ofAngle += std::pow(std::remainder(half[1].angle - half[0].angle, 360) / 2, 2);
   }
   result.contrastUncertainty = std::sqrt(ofContrast / static_cast<double>(ways.size()));
   result.kUncertainty = std::sqrt(ofK / static_cast<double>(ways.size()));
+  result.angleUncertainty = std::sqrt(ofAngle / static_cast<double>(ways.size()));
 }
 
 void measureDifference(Compared& result, const Plane& known)
@@ -334,9 +336,16 @@ void describe(
     sentences.push_back("Its contrast, the relative change of the light, is " + contrast + ".");
     result.notes.push_back("photograph: contrast " + contrast);
   }
-  if (std::isfinite(cutoff.angle))
+  if (cutoff.isAngleHidden)
   {
-    sentences.push_back("The cutoff's angle is " + textOf(cutoff.angle, 4) + " degrees.");
+    sentences.push_back("Light is deflected along one direction only, so the cutoff's angle is not "
+                        "seen; the numbers are those of a cutoff at " +
+      textOf(cutoff.angle, 4) + " degrees.");
+  }
+  else if (std::isfinite(cutoff.angle))
+  {
+    sentences.push_back("The cutoff's angle is " + textOf(cutoff.angle, 4) + " +- " +
+      textOf(result.angleUncertainty, 2) + " degrees.");
   }
   if (std::isfinite(cutoff.offset) && !result.isKKnown)
   {

@@ -9,6 +9,7 @@
 #include "Photograph/FeatureShift.h"
 #include "Photograph/Placing.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct Compared
   bool isKKnown = false;           ///< of a knife edge: whether k and offset can be separated
   double contrastUncertainty = 0;  ///< one standard deviation, relative
   double kUncertainty = 0;         ///< the same
+  double angleUncertainty = std::numeric_limits<double>::quiet_NaN(); ///< the same, degrees
   double black = 0;
   double fullFraction = 0; ///< of the points compared: how many have all light
   double residual = 0;     ///< root mean square of the difference

@@ -23,6 +23,8 @@ namespace
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double largestOffset = 0.48; // beyond it, there is hardly any light to compare with
 constexpr double leastLight = 0.02;    // of undisturbed light behind a cutoff
+// Deflection across the main direction over that along it, below which noise and errors of the image settle the angle.
+constexpr double leastAcross = 0.02;
 
 double fieldValue(vtkImageData* image, const char* name, double otherwise)
 {
@@ -91,6 +93,23 @@ SimulatedLight::SimulatedLight(vtkImageData* image)
     this->Range = { range->GetComponent(0, 0), range->GetComponent(1, 0) };
     this->Start = { 0, angle };
   }
+  if (this->Start.size() > 1)
+  {
+    double uu = 0, uv = 0, vv = 0;
+    for (std::size_t i = 0; i < this->Open.size(); ++i)
+    {
+      if (this->Open.values[i] >= 1)
+      {
+        const double u = this->Deflection[0].values[i], v = this->Deflection[1].values[i];
+        uu += u * u;
+        uv += u * v;
+        vv += v * v;
+      }
+    }
+    const double half = std::hypot(0.5 * (uu - vv), uv), mean = 0.5 * (uu + vv);
+    this->DeflectionAngle = 0.5 * std::atan2(2 * uv, uu - vv);
+    this->IsAngleHidden = mean - half <= leastAcross * leastAcross * (mean + half);
+  }
   if (this->Is == Technique::Other)
   {
     this->Intensity = planeOf(image, "Intensity");
@@ -104,10 +123,15 @@ SimulatedLight::SimulatedLight(vtkImageData* image)
 std::vector<SimulatedLight::Parameters> SimulatedLight::starts() const
 {
   std::vector<Parameters> all{ this->Start };
-  for (int turn = 1; turn < 4 && this->Start.size() > 1; ++turn)
+  if (this->IsAngleHidden && std::abs(std::cos(this->Start.back() - this->DeflectionAngle)) < 0.1)
   {
-    all.push_back(this->Start);
-    all.back().back() += turn * vtkMath::Pi() / 2;
+    all.front().back() = this->DeflectionAngle;
+  }
+  const int sides = this->Start.size() < 2 ? 1 : this->IsAngleHidden ? 2 : 4;
+  for (int side = 1; side < sides; ++side)
+  {
+    all.push_back(all.front());
+    all.back().back() += side * 2 * vtkMath::Pi() / sides;
   }
   return all;
 }
@@ -198,10 +222,10 @@ SimulatedLight::Values SimulatedLight::values(const Parameters& parameters) cons
     case Technique::KnifeEdge:
     {
       const double offset = offsetOf(parameters[1]);
-      return { factor, factor * (0.5 - offset), offset, degrees() };
+      return { factor, factor * (0.5 - offset), offset, degrees(), this->IsAngleHidden };
     }
     case Technique::GradedFilter:
-      return { unknown, factor * this->KScale, unknown, degrees() };
+      return { unknown, factor * this->KScale, unknown, degrees(), this->IsAngleHidden };
     case Technique::Circular:
       return { factor, factor, unknown, unknown };
     default:

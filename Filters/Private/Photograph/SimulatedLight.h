@@ -26,6 +26,9 @@ namespace filters
  * - Graded Filter: ln of the factor to k, angle; the filter lies where it is simulated;
  * - Circular and Circular Complement: ln k;
  * - other techniques: none; the light is Intensity.
+ *
+ * Where light is deflected along one direction only, all angles show the same but for the contrast, which takes up the cosine: a
+ * fit changes the contrast and leaves the angle as it is.
  */
 class SimulatedLight
 {
@@ -36,8 +39,11 @@ public:
   using Parameters = std::vector<double>;
   /// The image's own.
   const Parameters& start() const { return this->Start; }
-  /// Those that a fit should begin with: the edge on four sides, as nobody knows on which it was.
+  /// Those that a fit should begin with: the edge on four sides, as nobody knows on which it was; on two where the angle is not
+  /// seen, across the deflection if the image's edge lies along it.
   std::vector<Parameters> starts() const;
+  /// How many of the parameters, from the first on, a fit may change.
+  std::size_t free() const { return this->Start.size() - (this->IsAngleHidden ? 1 : 0); }
 
   /// Returns the light relative to undisturbed light. Behind a Circular Complement, which is dark without flow, it is
   /// relative to full light.
@@ -53,10 +59,11 @@ public:
   /// What the parameters stand for; of what a technique does not have, NaN.
   struct Values
   {
-    double contrast; ///< relative change of the light per radian
-    double k;        ///< per radian
-    double offset;   ///< of the knife edge, 0 to 1/2 further in
-    double angle;    ///< degrees
+    double contrast;            ///< relative change of the light per radian
+    double k;                   ///< per radian
+    double offset;              ///< of the knife edge, 0 to 1/2 further in
+    double angle;               ///< degrees
+    bool isAngleHidden = false; ///< whether the others hold for this angle, which is not seen
   };
   Values values(const Parameters& parameters) const;
 
@@ -75,6 +82,8 @@ private:
 
   Technique Is = Technique::Other;
   Parameters Start;
+  bool IsAngleHidden = false;
+  double DeflectionAngle = 0; // of the direction along which light is deflected most, radians
   double KScale = 0;
   std::array<Plane, 2> Deflection;
   Plane Open;
