@@ -23,7 +23,7 @@ using filters::Grid;
 using filters::Place;
 using filters::Plane;
 
-constexpr int columns = 400, rows = 300;
+constexpr int columns = 200, rows = 150;
 constexpr double halfHeight = 0.01125; // m
 constexpr double pixel = 2 * halfHeight / rows;
 
@@ -64,16 +64,16 @@ struct Film
   double black = 0.03;
   double exposure = 0.92;
   double striae = 0.03;
-  int dust = 40;
+  int dust = 10;
   double vignette = 0.35;
-  double blur = 0.8; // pixels
+  double blur = 0.5; // pixels
   double fullWell = 12000;
   int bits = 8;
   double mirror = 0.47; // radius, in parts of the width
   int width = columns, height = rows;
 };
 
-constexpr double mirrorX = 5, mirrorY = 2.5; // of its middle, pixels from the photograph's
+constexpr double mirrorX = 2.5, mirrorY = 1.25; // of its middle, pixels from the photograph's
 
 /// The photograph with flow and without; its mirror.
 struct Taken
@@ -106,7 +106,7 @@ inline Taken take(const Plane& light, const Grid& ofLight, const Place& place, d
     }
     return plane;
   };
-  const Plane wide = noise(12), narrow = noise(3);
+  const Plane wide = noise(0.03 * w), narrow = noise(0.0075 * w);
   Plane brightness(w, h), seen(w, h);
   const filters::Lookup lightAt(light);
   const auto inLight = [&](double x, int axis)
@@ -120,7 +120,7 @@ inline Taken take(const Plane& light, const Grid& ofLight, const Place& place, d
     {
       const double x = column - 0.5 * (w - 1), y = row - 0.5 * (h - 1);
       const double r = std::hypot(x - mirrorX, y - mirrorY);
-      const double inside = 1 / (1 + std::exp((r - film.mirror * w) / 0.7));
+      const double inside = 1 / (1 + std::exp((r - film.mirror * w) / (0.002 * w)));
       const double middle = (x - 30) * (x - 30) + (y + 20) * (y + 20);
       brightness(column, row) =
         static_cast<float>(inside * (1 - film.vignette * middle / (0.25 * w * w)) *
@@ -168,7 +168,7 @@ inline Taken take(const Plane& light, const Grid& ofLight, const Place& place, d
     for (std::size_t i = 0; i < exposed.size(); ++i)
     {
       const double electrons = std::max(0.f, exposed.values[i]) * film.fullWell;
-      const double counted = electrons + std::sqrt(electrons) * normal(random) + 8 * normal(random);
+      const double counted = electrons + std::sqrt(electrons) * normal(random);
       const double value = film.black +
         (1 - film.black) * std::pow(std::clamp(counted / film.fullWell, 0., 1.), film.gamma);
       array->SetTuple1(static_cast<vtkIdType>(i), std::round(std::clamp(value, 0., 1.) * white));
