@@ -129,7 +129,7 @@ VTKSCHLIERENFILTERS_EXPORT bool marksGas(const std::string& array);
 VTKSCHLIERENFILTERS_EXPORT bool dependsOnRange(const std::string& name);
 
 /// Returns the factor to SI units by the unit in an array's name for `property` (Density,
-/// Temperature or Pressure); 0: no unit, or an unknown one.
+/// Temperature, Pressure or, of electrons, IndexArray); 0: no unit, or an unknown one.
 VTKSCHLIERENFILTERS_EXPORT double scaleByUnit(
   const std::string& property, const std::string& array);
 

@@ -56,7 +56,8 @@ struct MediumSettings
     GLADSTONE_DALE_MIXTURE = 3,
     CIDDOR = 4,
     TRANSFER_FUNCTIONS = 5,
-    WATER = 6
+    WATER = 6,
+    ELECTRON_DENSITY = 7
   };
 
   // end

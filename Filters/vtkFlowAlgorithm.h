@@ -73,11 +73,12 @@ public:
     GLADSTONE_DALE_MIXTURE = 3,
     CIDDOR = 4,
     TRANSFER_FUNCTIONS = 5,
-    WATER = 6
+    WATER = 6,
+    ELECTRON_DENSITY = 7
   };
 
   /// How the refractivity N = n - 1 is found. Default: Auto.
-  vtkSetClampMacro(IndexModel, int, AUTO, WATER);
+  vtkSetClampMacro(IndexModel, int, AUTO, ELECTRON_DENSITY);
   vtkGetMacro(IndexModel, int);
 
   /// The gas whose Gladstone-Dale constant at Wavelength is used, by name or, in scripts, by
@@ -166,8 +167,8 @@ public:
   vtkGetMacro(RelativeHumidity, double);
 
   /// Wavelength of the light in vacuum, nanometres: of gases chosen by name, of moist air (300 to
-  /// 1700), and in images of an interferogram and of waves (Light Model). 632.8 is a helium-neon
-  /// laser. Default: 632.8.
+  /// 1700), of electrons, and in images of an interferogram and of waves (Light Model). 632.8 is a
+  /// helium-neon laser. Default: 632.8.
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);
 

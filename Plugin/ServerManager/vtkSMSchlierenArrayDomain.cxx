@@ -30,8 +30,15 @@ FlowDefaults defaultsFor(const std::string& property, const std::vector<FlowArra
   {
     return flowDefaults(arrays, MediumSettings::CIDDOR);
   }
-  const FlowDefaults index = flowDefaults(arrays, MediumSettings::REFRACTIVE_INDEX);
-  return index.arrays.empty() ? flowDefaults(arrays, MediumSettings::REFRACTIVITY) : index;
+  for (const auto model : { MediumSettings::REFRACTIVE_INDEX, MediumSettings::REFRACTIVITY })
+  {
+    FlowDefaults index = flowDefaults(arrays, model);
+    if (!index.arrays.empty())
+    {
+      return index;
+    }
+  }
+  return flowDefaults(arrays, MediumSettings::ELECTRON_DENSITY);
 }
 
 /// Chooses an array; an empty name: none is known.

@@ -64,6 +64,7 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
       case MediumSettings::GLADSTONE_DALE_MIXTURE:
       case MediumSettings::CIDDOR:
       case MediumSettings::TRANSFER_FUNCTIONS:
+      case MediumSettings::ELECTRON_DENSITY:
         break; // the scale of a density that is no longer alone, or of no density, is not known
     }
   }

@@ -23,14 +23,14 @@ SaveData("wing.cgns", proxy=original)
 
 with open(os.path.join(SOURCE, "Documentation", "density.md"), encoding="utf-8") as file:
     snippets = re.findall(r"^```python\n(.*?)^```", file.read(), re.DOTALL | re.MULTILINE)
-assert len(snippets) == 9, f"There are {len(snippets)} snippets: check the new ones below, too"
+assert len(snippets) == 10, f"There are {len(snippets)} snippets: check the new ones below, too"
 names, benches = {}, []
 for snippet in snippets:
     names.pop("schlieren", None)
     exec(compile(snippet, "density.md", "exec"), names)
     if "schlieren" in names:
         benches.append(names["schlieren"])
-assert len(benches) == 6
+assert len(benches) == 7
 
 
 def arrays(proxy, *wanted, of="POINTS"):
@@ -93,6 +93,12 @@ for bench in benches:
     bench.ImageSize = [32, 32]
     bench.Outside = "Passes"
     assert np.ptp(image_array(bench, "OpticalPathDifference")) > 0
+
+# A plasma of 1e19 cm^-3 and a width of 0.5 mm: the closed form of the integral of N along the axis.
+plasma = next(bench for bench in benches if bench.Input == names["plasma"])
+plasma.ImageSize = [33, 33]
+phase = 2 * np.pi * image_array(plasma, "OpticalPathDifference") / 532e-9
+assert abs(phase.min() / -13.29185 - 1) < 2e-3, phase.min()
 
 # Water by its temperature is water by its index.
 by_name = next(bench for bench in benches if bench.Gas == "water")

@@ -60,6 +60,7 @@ std::string inWords(const MediumSettings& settings)
     const double scale = index == S::DensityArray ? settings.DensityScale
       : index == S::TemperatureArray              ? kelvinsOf(settings)
       : index == S::PressureArray                 ? settings.PressureScale
+      : index == S::IndexArray                    ? perCubicMetreOf(settings)
                                                   : 1;
     if (scale != 1)
     {
@@ -116,6 +117,10 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
       return { S::TemperatureArray };
     case IndexArrays::Index:
       return { S::IndexArray };
+    case IndexArrays::Electrons:
+      return settings.Arrays[S::DensityArray].isNamed()
+        ? std::vector<std::size_t>{ S::IndexArray, S::DensityArray }
+        : std::vector<std::size_t>{ S::IndexArray };
     case IndexArrays::Density:
       break;
   }
@@ -136,6 +141,15 @@ double kelvinsOf(const MediumSettings& settings)
 double zeroOf(const MediumSettings& settings)
 {
   return ArrayName(settings.Arrays[S::TemperatureArray].name).ZeroInKelvins();
+}
+
+double perCubicMetreOf(const MediumSettings& settings)
+{
+  const std::string& name = settings.Arrays[S::IndexArray].name;
+  return kindOf(settings.IndexModel).arrays == IndexArrays::Electrons &&
+      ArrayName(name).HasUnit(Quantity::Electrons)
+    ? scaleByUnit("IndexArray", name)
+    : 1;
 }
 
 bool isOpen(const MediumSettings& settings)
@@ -185,6 +199,11 @@ FlowDefaults chooseArrays(
       : temperature.isChosen() ? temperature
                                : ArraySelection{ defaults.arrayOf("Temperature"), -1,
                                    defaults.association == FlowArray::Cells };
+  }
+  ArraySelection& density = settings.Arrays[S::DensityArray];
+  if (isAuto && settings.IndexModel == S::ELECTRON_DENSITY && !density.isChosen())
+  {
+    density = { defaults.arrayOf("Density"), -1, defaults.association == FlowArray::Cells };
   }
   for (const std::size_t index : arraysOfModel(settings))
   {
@@ -260,6 +279,23 @@ void chooseMixture(
   }
 }
 
+/// Takes electrons beside a density that the user has chosen.
+void chooseElectrons(
+  const MediumSettings& given, const std::vector<FlowArray>& known, MediumSettings& settings)
+{
+  if (given.IndexModel != S::AUTO || settings.IndexModel != S::GLADSTONE_DALE)
+  {
+    return;
+  }
+  const FlowDefaults electrons = flowDefaults(known, S::ELECTRON_DENSITY);
+  if (!electrons.arrays.empty() && electrons.association == associationIn(settings))
+  {
+    settings.IndexModel = S::ELECTRON_DENSITY;
+    settings.Arrays[S::IndexArray] = { electrons.arrayOf("IndexArray"), -1,
+      electrons.association == FlowArray::Cells };
+  }
+}
+
 /// Sets the factors to SI units.
 void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, MediumChoice& choice)
 {
@@ -280,7 +316,7 @@ void chooseScales(const MediumSettings& given, const FlowDefaults& defaults, Med
   {
     settings.PressureScale = scaleOf(S::PressureArray, given.PressureScale);
   }
-  else if (arrays == IndexArrays::Density)
+  else if (arrays == IndexArrays::Density || arrays == IndexArrays::Electrons)
   {
     settings.DensityScale = scaleOf(S::DensityArray, given.DensityScale);
   }
@@ -300,6 +336,7 @@ MediumChoice choiceOf(const MediumSettings& all, const std::vector<FlowArray>& k
   MediumSettings& settings = choice.settings;
   const FlowDefaults defaults = chooseArrays(given, known, choice);
   chooseMixture(given, known, settings);
+  chooseElectrons(given, known, settings);
   chooseScales(given, defaults, choice);
   ArraySelection& mask = settings.Arrays[S::MaskArray];
   if (!mask.isChosen())

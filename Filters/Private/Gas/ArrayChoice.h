@@ -66,6 +66,9 @@ double kelvinsOf(const MediumSettings& settings);
 /// Returns the zero of that unit, K: of degrees Celsius 273.15.
 double zeroOf(const MediumSettings& settings);
 
+/// Returns the factor from the electron density to m^-3, by the unit in the array's name; 1 without one, 0: unknown.
+double perCubicMetreOf(const MediumSettings& settings);
+
 /// Returns the indices into MediumSettings::Arrays that the model reads besides fractions and
 /// fields.
 std::vector<std::size_t> arraysOfModel(const MediumSettings& settings);

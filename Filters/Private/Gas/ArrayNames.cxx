@@ -85,11 +85,14 @@ const Names densities = { "rho", "density", "dens", "ro", "massdensity", "massev
   "densidad", "densit" };
 const Names temperatures = { "t", "temp", "temperature" };
 const Names pressures = { "p", "pres", "press", "prs", "pressure" };
+const Names electrons = { "ne", "nelec", "nelectron", "nelectrons", "electrondensity",
+  "electronnumberdensity", "edens" };
 
 const Names& namesOf(Quantity quantity)
 {
   return quantity == Quantity::Density  ? densities
     : quantity == Quantity::Temperature ? temperatures
+    : quantity == Quantity::Electrons   ? electrons
                                         : pressures;
 }
 
@@ -167,6 +170,42 @@ double rounded(double value)
   return std::strtod(text, nullptr);
 }
 
+/// Returns the cubic metres of "/m3", "m-3", "(m3)", "cc", and "m3" within a name; 0: unknown.
+double volumeOf(std::string unit)
+{
+  if (!unit.empty() && unit[0] == '/')
+  {
+    unit.erase(0, 1);
+  }
+  if (unit.size() > 2 && unit.front() == '(' && unit.back() == ')')
+  {
+    unit = unit.substr(1, unit.size() - 2);
+  }
+  for (const auto& [volume, cubicMetres] : volumes)
+  {
+    if (unit == volume || unit == volume + "-1")
+    {
+      return cubicMetres;
+    }
+  }
+  for (const auto& [length, cubicMetres] : cubes)
+  {
+    if (unit == length + "3" || unit == length + "-3")
+    {
+      return cubicMetres;
+    }
+  }
+  return 0;
+}
+
+/// Returns the factor of a number by a volume: "m-3", "1/cm3", "#/cc".
+double numberScale(const std::string& unit)
+{
+  const bool hasNumerator = !unit.empty() && (unit[0] == '1' || unit[0] == '#');
+  const double cubicMetres = volumeOf(hasNumerator ? unit.substr(1) : unit);
+  return cubicMetres > 0 ? rounded(1 / cubicMetres) : 0;
+}
+
 /// Returns the factor of a mass by a volume: "kg/m3", "kgm-3", "g/cc", and "kgm3" within a name.
 double densityScale(const std::string& unit)
 {
@@ -176,28 +215,9 @@ double densityScale(const std::string& unit)
     {
       continue;
     }
-    std::string rest = unit.substr(mass.size());
-    if (!rest.empty() && rest[0] == '/')
+    if (const double cubicMetres = volumeOf(unit.substr(mass.size())); cubicMetres > 0)
     {
-      rest.erase(0, 1);
-    }
-    if (rest.size() > 2 && rest.front() == '(' && rest.back() == ')')
-    {
-      rest = rest.substr(1, rest.size() - 2);
-    }
-    for (const auto& [volume, cubicMetres] : volumes)
-    {
-      if (rest == volume || rest == volume + "-1")
-      {
-        return rounded(kilograms / cubicMetres);
-      }
-    }
-    for (const auto& [length, cubicMetres] : cubes)
-    {
-      if (rest == length + "3" || rest == length + "-3")
-      {
-        return rounded(kilograms / cubicMetres);
-      }
+      return rounded(kilograms / cubicMetres);
     }
   }
   return 0;
@@ -289,6 +309,10 @@ double scaleOfUnit(Quantity quantity, const std::string& text)
   if (quantity == Quantity::Density)
   {
     return densityScale(unit);
+  }
+  if (quantity == Quantity::Electrons)
+  {
+    return numberScale(unit);
   }
   if (quantity == Quantity::Pressure && contains(text, "mPa"))
   {

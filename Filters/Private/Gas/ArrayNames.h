@@ -18,7 +18,8 @@ enum class Quantity
 {
   Density,
   Temperature,
-  Pressure
+  Pressure,
+  Electrons ///< their number per volume
 };
 
 /// The ways in which a name matches a quantity, best first.
@@ -80,7 +81,7 @@ private:
   std::string Bracket; ///< the text in the last brackets
 };
 
-/// Returns the factor of a unit ("g/cm3", "kg m^-3", "hPa") to kg/m^3, K or Pa; 0: unknown.
+/// Returns the factor of a unit ("g/cm3", "kg m^-3", "hPa") to kg/m^3, K, Pa or m^-3; 0: unknown.
 double scaleOfUnit(Quantity quantity, const std::string& unit);
 
 } // namespace filters

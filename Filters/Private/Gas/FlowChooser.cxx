@@ -52,7 +52,7 @@ FlowChooser::FlowChooser(const std::vector<FlowArray>& all)
 bool FlowChooser::choose()
 {
   return this->refractivity() || this->refractiveIndex() || this->density(true) ||
-    this->state(true);
+    this->electrons() || this->state(true);
 }
 
 bool FlowChooser::choose(MediumSettings::IndexModels model)
@@ -68,6 +68,8 @@ bool FlowChooser::choose(MediumSettings::IndexModels model)
       return this->state(false);
     case IndexArrays::Temperature:
       return this->temperature();
+    case IndexArrays::Electrons:
+      return this->electrons();
     case IndexArrays::Density:
       return this->density(kind.gases == IndexGases::Mixture) ||
         (kind.gases == IndexGases::Mixture && this->state(true));
@@ -225,7 +227,33 @@ bool FlowChooser::density(bool ofSpecies)
     this->species(true);
   }
   this->Result.message += this->Result.fractions.empty() ? "; gas: air." : "; the rest: air.";
+  if (ofSpecies && this->Result.fractions.empty())
+  {
+    this->electrons();
+  }
   return true;
+}
+
+bool FlowChooser::electrons()
+{
+  constexpr double least = 1e6; // fewer are fractions, of neon, or are relative
+  for (const FlowArray::Association association : associations)
+  {
+    const Found found = this->find(Quantity::Electrons, association);
+    const bool isBesideGas = !this->Result.arrays.empty();
+    if (!found.array || !(found.array->range[1] * found.scale > least) ||
+      (isBesideGas && association != this->Result.association))
+    {
+      continue;
+    }
+    this->Result.indexModel = MediumSettings::ELECTRON_DENSITY;
+    this->Result.association = association;
+    this->Result.arrays.emplace_back("IndexArray", found.array->name);
+    this->Result.message += (isBesideGas ? " Electron density: " : "Electron density: ") +
+      quoted(found.array->name) + unitInWords(found.scale, "m\xe2\x81\xbb\xc2\xb3") + ".";
+    return true;
+  }
+  return false;
 }
 
 void FlowChooser::species(bool withDensity)

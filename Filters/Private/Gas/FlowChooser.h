@@ -66,6 +66,8 @@ private:
   bool refractiveIndex();
   bool density(bool ofSpecies);
   void species(bool withDensity);
+  /// Chooses an electron density, beside a density that has been chosen or alone.
+  bool electrons();
   /// Returns whether a temperature is in a known unit; else notes it.
   bool areKelvins(const Found& temperature);
   /// Chooses a temperature, of water.

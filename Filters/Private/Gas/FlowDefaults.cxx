@@ -230,7 +230,8 @@ bool dependsOnRange(const std::string& text)
   const ArrayName name(text);
   const std::string words = name.Joined();
   return name.As(Quantity::Temperature) != Understood::Not ||
-    name.As(Quantity::Pressure) != Understood::Not || name.Is(indexNames) ||
+    name.As(Quantity::Pressure) != Understood::Not ||
+    name.As(Quantity::Electrons) != Understood::Not || name.Is(indexNames) ||
     name.Is(humidityNames) || solids.count(words) || gases.count(words) || words == oversetCells ||
     fractionOf({ text, FlowArray::Points, 1, { 0, 1 } });
 }
@@ -239,6 +240,7 @@ double scaleByUnit(const std::string& property, const std::string& array)
 {
   return ArrayName(array).Scale(property == "Density" ? Quantity::Density
       : property == "Temperature"                     ? Quantity::Temperature
+      : property == "IndexArray"                      ? Quantity::Electrons
                                                       : Quantity::Pressure);
 }
 

@@ -197,6 +197,7 @@ bool usesWavelength(const MediumSettings& settings)
   const std::vector<std::string> names = namesUsed(settings);
   const IndexGases gases = kindOf(settings.IndexModel).gases;
   return gases == IndexGases::MoistAir || gases == IndexGases::Water ||
+    kindOf(settings.IndexModel).arrays == IndexArrays::Electrons ||
     std::any_of(names.begin(), names.end(), schlieren::findGas);
 }
 
@@ -212,6 +213,14 @@ std::function<double(double)> dispersionOfGases(const MediumSettings& settings, 
     const auto at = [](double wavelength)
     { return schlieren::waterRefractivity(293.15, wavelength); };
     return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };
+  }
+  if (kindOf(settings.IndexModel).arrays == IndexArrays::Electrons)
+  {
+    if (settings.Arrays[MediumSettings::DensityArray].isNamed())
+    {
+      return nullptr; // electrons and gas disperse differently
+    }
+    return [reference](double wavelength) { return std::pow(wavelength / reference, 2); };
   }
   const std::vector<std::string> names = namesUsed(settings);
   const schlieren::Gas* gas = names.empty() ? nullptr : schlieren::findGas(names.back());

@@ -36,12 +36,12 @@ schlieren::Component componentFrom(
 /// Returns the wavelength in metres. Throws std::runtime_error where it is not positive.
 double wavelengthOfGases(const MediumSettings& settings);
 
-/// Returns whether the refractivity depends on the wavelength: moist air, and gases chosen by name.
+/// Returns whether the refractivity depends on the wavelength: moist air, electrons, and gases chosen by name.
 bool usesWavelength(const MediumSettings& settings);
 
 /// Returns the ratio of the refractivity at a wavelength to that at `reference` (both in metres)
 /// for the gas of the index model: of a mixture, its background; of moist air, dry air, from whose
-/// dispersion that of vapour differs by percents. Null for unknown gases.
+/// dispersion that of vapour differs by percents. Null for unknown gases, and for electrons beside a gas.
 std::function<double(double wavelength)> dispersionOfGases(
   const MediumSettings& settings, double reference);
 

@@ -142,6 +142,22 @@ Implausible ofWater(const FlowInUse& flow)
   return found.text.empty() ? ofTemperature(flow) : found;
 }
 
+Implausible ofElectrons(const FlowInUse& flow)
+{
+  constexpr double fewest = 1e12; // m^-3: glow discharges have more
+  const FlowArray& electrons = flow.arrays[0];
+  Implausible found = ofAny(electrons, "electron density");
+  if (found.text.empty() && electrons.range[1] < fewest &&
+    !ArrayName(electrons.name).HasUnit(filters::Quantity::Electrons))
+  {
+    found = { "thin",
+      "The electron density " + described(electrons) +
+        " is too low to bend light if it is in m^-3. If it is in cm^-3, give it a name with its "
+        "unit, such as 'ne [cm^-3]'; if it is relative, make one in m^-3 with Calculator." };
+  }
+  return found;
+}
+
 Implausible ofMoistAir(const FlowInUse& flow)
 {
   const FlowArray& temperature = flow.arrays[0];
@@ -215,6 +231,12 @@ Implausible implausible(const FlowInUse& flow)
       [[fallthrough]]; // a mixture whose density follows from temperature and pressure
     case filters::IndexArrays::Air:
       return flow.arrays.size() == 2 ? ofMoistAir(flow) : Implausible();
+    case filters::IndexArrays::Electrons:
+      if (Implausible found = ofElectrons(flow); !found.text.empty())
+      {
+        return found;
+      }
+      [[fallthrough]];
     case filters::IndexArrays::Index:
       if (flow.isConstant && !flow.arrays.empty() && !exactly(flow.arrays[0]).empty())
       {

@@ -231,7 +231,37 @@ Model water(const MediumSettings& settings)
   return OfState{ model };
 }
 
-Model gladstoneDale(const MediumSettings& settings)
+/// N of an electron density, n^2 = 1 - n_e / n_c without collisions and magnetic field (I. H. Hutchinson, Principles of
+/// Plasma Diagnostics, 2nd ed., 2002, ch. 4), and of the density of a gas beside it.
+class Plasma : public StateModel
+{
+public:
+  double scale = 1;        // the factor to m^-3
+  double overCritical = 0; // 1 / n_c times that
+  bool hasGas = false;     // as last value
+  double gas = 0;          // N by its value
+
+  double refractivity(const double* values) const override
+  {
+    const double over = this->overCritical * values[0];
+    return -over / (1 + std::sqrt(1 - over)) + (this->hasGas ? this->gas * values[1] : 0);
+  }
+
+  bool isDoubtful(const double* values) const override
+  {
+    return this->overCritical * values[0] > 1;
+  }
+
+  std::string warning(const std::string& fraction) const override
+  {
+    return "The electron density is above the critical one, " +
+      textOf(this->scale / this->overCritical) + " m^-3 at this Wavelength, in " + fraction +
+      " of the points, which count as a body, as light does not enter them. Check the unit, m^-3 "
+      "unless the array's name has another one, such as 'ne [cm^-3]'.";
+  }
+};
+
+Linear gladstoneDaleOf(const MediumSettings& settings)
 {
   const schlieren::Gas* gas = gasFrom("Gas", settings.Gas);
   const double constant =
@@ -239,6 +269,26 @@ Model gladstoneDale(const MediumSettings& settings)
   requireFinite("GladstoneDaleConstant", constant);
   requireFinite("DensityScale", settings.DensityScale);
   return Linear{ constant * settings.DensityScale, 0 };
+}
+
+Model gladstoneDale(const MediumSettings& settings) { return gladstoneDaleOf(settings); }
+
+Model plasma(const MediumSettings& settings)
+{
+  constexpr double electronRadius = 2.8179403205e-15; // classical, m (CODATA 2022)
+  auto model = std::make_shared<Plasma>();
+  model->scale = perCubicMetreOf(settings);
+  if (model->scale == 0)
+  {
+    throw std::runtime_error("The unit in the name of the electron density '" +
+      settings.Arrays[MediumSettings::IndexArray].name +
+      "' is not known. Make one in m^-3 with Calculator, and choose it for IndexArray.");
+  }
+  const double wavelength = wavelengthOfGases(settings);
+  model->overCritical = model->scale * electronRadius * wavelength * wavelength / M_PI;
+  model->hasGas = settings.Arrays[MediumSettings::DensityArray].isNamed();
+  model->gas = model->hasGas ? gladstoneDaleOf(settings).scale : 0;
+  return OfState{ model };
 }
 
 Model gasMixture(const MediumSettings& settings)
@@ -339,6 +389,7 @@ constexpr IndexModelKind kinds[] = {
   { MediumSettings::GLADSTONE_DALE_MIXTURE, IndexArrays::Density, IndexGases::Mixture, gasMixture },
   { MediumSettings::CIDDOR, IndexArrays::Air, IndexGases::MoistAir, ciddorAir },
   { MediumSettings::WATER, IndexArrays::Temperature, IndexGases::Water, water },
+  { MediumSettings::ELECTRON_DENSITY, IndexArrays::Electrons, IndexGases::One, plasma },
   { MediumSettings::TRANSFER_FUNCTIONS, IndexArrays::Fields, IndexGases::None, transferFunctions },
 };
 

@@ -25,6 +25,7 @@ enum class IndexArrays
   Index, ///< n or N itself
   Air,   ///< temperature, pressure and humidity
   Temperature,
+  Electrons, ///< their density and, if chosen, that of a gas beside them
   Fields
 };
 

@@ -298,8 +298,9 @@ Implausible implausibleIn(const Flow& flow)
     settings.IndexModel == MediumSettings::REFRACTIVITY;
   used.scales = settings.IndexModel == MediumSettings::CIDDOR || settings.usesGasLaw()
     ? std::vector<double>{ kelvinsOf(settings), settings.PressureScale }
-    : settings.IndexModel == MediumSettings::WATER
-    ? std::vector<double>{ kelvinsOf(settings) }
+    : settings.IndexModel == MediumSettings::WATER ? std::vector<double>{ kelvinsOf(settings) }
+    : settings.IndexModel == MediumSettings::ELECTRON_DENSITY
+    ? std::vector<double>{ perCubicMetreOf(settings), settings.DensityScale }
     : std::vector<double>{ isIndex ? 1 : settings.DensityScale };
   used.zero = zeroOf(settings);
   const bool isOfTable = !isCustom(settings.Gas);

@@ -484,6 +484,104 @@ TEST(Water, MistakesAreOneMessageEach)
   EXPECT_NE(complaints->Errors[0].find("'T' is not in kelvins"), std::string::npos);
 }
 
+namespace
+{
+
+/// N of an electron density, m^-3, from the constants of nature (CODATA 2018).
+double refractivityOfElectrons(double density, double wavelength)
+{
+  constexpr double charge = 1.602176634e-19, mass = 9.1093837015e-31,
+                   permittivity = 8.8541878128e-12, speed = 299792458;
+  const double frequency = 2 * M_PI * speed / wavelength;
+  const double critical = permittivity * mass * frequency * frequency / (charge * charge);
+  return std::sqrt(1 - density / critical) - 1;
+}
+
+double electrons(const Vec& x) { return 1e25 * (2 + x[0] + x[1]); }
+
+} // namespace
+
+// N of electrons and of a gas beside them add up, of points and of cells; which arrays, and in what unit, their names say.
+TEST(ElectronDensity, AloneAndBesideAGas)
+{
+  for (const bool isOfCells : { false, true })
+  {
+    const auto add = isOfCells ? [](vtkDataSet* data, const char* name, const ScalarField& field)
+    { addCellArray(data, name, field); }
+                               : [](vtkDataSet* data, const char* name, const ScalarField& field)
+    { addPointArray(data, name, field); };
+    auto image = cube(5);
+    add(image, "ne [cm^-3]", [](const Vec& x) { return 1e-6 * electrons(x); });
+    auto filter = automatic(image);
+    filter->SetWavelength(532);
+    EXPECT_LT(largestError(
+                filter, [](const Vec& x) { return refractivityOfElectrons(electrons(x), 532e-9); }),
+      1e-8);
+    EXPECT_STREQ(filter->GetArraysUsed(), "IndexArray: 'ne [cm^-3]' times 1e+06.");
+
+    add(image, "rho", density);
+    const auto both = [](const Vec& x)
+    { return refractivityOfElectrons(electrons(x), 532e-9) + air * density(x); };
+    image->Modified();
+    EXPECT_LT(largestError(filter, both), 1e-8);
+    EXPECT_STREQ(filter->GetArraysUsed(), "IndexArray: 'ne [cm^-3]' times 1e+06; Density: 'rho'.");
+    filter->SetInputArrayToProcess(vtkRefractiveIndex::DENSITY, 0, 0,
+      isOfCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
+      "rho"); // chosen, as ParaView does
+    EXPECT_LT(largestError(filter, both), 1e-8);
+    filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE);
+    EXPECT_LT(largestError(filter, [](const Vec& x) { return air * density(x); }), 1e-14);
+  }
+}
+
+// Light does not enter where they are above the critical density; which unit is not known, or not meant, is said.
+TEST(ElectronDensity, Mistakes)
+{
+  auto image = cube(5);
+  addPointArray(image, "ne", [](const Vec& x) { return x[0] < 0 ? 1e25 : 1e28; });
+  auto filter = automatic(image);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->Update();
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(
+    complaints->Warnings[0].find("critical one, 2.7841e+27 m^-3 at this Wavelength, in 60 %"),
+    std::string::npos)
+    << complaints->Warnings[0];
+  EXPECT_TRUE(std::isnan(arrayOf(filter, "Refractivity")->GetComponent(4, 0)));
+
+  addPointArray(image, "ne [1e19/m3]", electrons);
+  addPointArray(image, "few", [](const Vec& x) { return 1e10 * (2 + x[0]); });
+  filter = automatic(image);
+  filter->SetIndexModel(vtkRefractiveIndex::ELECTRON_DENSITY);
+  expectOneMessage(
+    filter.Get(),
+    [](vtkRefractiveIndex* f) { choose(f, vtkRefractiveIndex::INDEX_ARRAY, "ne [1e19/m3]"); },
+    { "unit in the name of the electron density 'ne [1e19/m3]'", "Calculator" },
+    [](vtkRefractiveIndex* f) { choose(f, vtkRefractiveIndex::INDEX_ARRAY, "ne"); });
+  auto few = automatic(image);
+  few->SetIndexModel(vtkRefractiveIndex::ELECTRON_DENSITY);
+  choose(few.Get(), vtkRefractiveIndex::INDEX_ARRAY, "few");
+  complaints = vtkSmartPointer<Complaints>::Take(new Complaints(few));
+  few->Update();
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(complaints->Warnings[0].find("too low to bend light"), std::string::npos);
+}
+
+// A plasma of 1e19 cm^-3 in 532 nm: the integral of N along the axis is that of the closed form, to a thousandth.
+TEST(ElectronDensity, PathThroughAPlasma)
+{
+  auto image = cube(81, 4);
+  addPointArray(image, "ne", [](const Vec& x) { return 1e25 * std::exp(-dot(x, x)); });
+  auto filter = bench(image, 33);
+  filter->SetIndexModel(vtkRefractiveIndex::AUTO);
+  filter->SetInputArrayToProcess(vtkRefractiveIndex::INDEX_ARRAY, 0, 0, 0, "");
+  filter->SetWavelength(532);
+  filter->SetLengthScale(1e-3);
+  filter->Update();
+  const std::vector<double> path = valuesOf(filter, "OpticalPathDifference");
+  EXPECT_NEAR(2 * M_PI * path[path.size() / 2] / 532e-9, -26.5837, 2e-3);
+}
+
 // A line beside the arrays, and nothing to be warned of; percents of humidity are.
 TEST(Ciddor, OutsideItsRangeIsSaidBesideTheArrays)
 {

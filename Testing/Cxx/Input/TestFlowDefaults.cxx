@@ -200,6 +200,38 @@ TEST(FlowDefaults, MoistAirWhereThereIsNoDensity)
     MediumSettings::GLADSTONE_DALE);
 }
 
+TEST(FlowDefaults, ElectronsBesideAGasOrAlone)
+{
+  const double high = 1e25;
+  const std::pair<const char*, double> names[] = { { "ne", 0 }, { "n_e", 0 },
+    { "electron_density", 0 }, { "ElectronNumberDensity", 0 }, { "neMean", 0 }, { "ne [m^-3]", 1 },
+    { "ne [cm^-3]", 1e6 }, { "n_e (1/cm3)", 1e6 }, { "ne_cm-3", 1e6 },
+    { "Electron Density [#/cc]", 1e6 }, { "ne [m\xe2\x81\xbb\xc2\xb3]", 1 }, { "ne_per_m3", 1 } };
+  for (const auto& [name, scale] : names)
+  {
+    const FlowDefaults alone = flowDefaults({ scalar(name, 0, high), scalar("Mach", 0, 2) });
+    EXPECT_EQ(alone.indexModel, MediumSettings::ELECTRON_DENSITY) << name;
+    EXPECT_EQ(alone.arrays, (Arrays{ { "IndexArray", name } }));
+    EXPECT_EQ(scaleByUnit("IndexArray", name), scale) << name;
+  }
+  const FlowArray electrons = scalar("ne", 0, high);
+  const FlowDefaults both = flowDefaults({ scalar("rho", 1, 2), electrons });
+  EXPECT_EQ(both.indexModel, MediumSettings::ELECTRON_DENSITY);
+  EXPECT_EQ(both.arrays, (Arrays{ { "Density", "rho" }, { "IndexArray", "ne" } }));
+  EXPECT_EQ(both.message,
+    "Density: 'rho' in kg/m\xc2\xb3; gas: air. Electron density: 'ne' in "
+    "m\xe2\x81\xbb\xc2\xb3.");
+  // Neon, a quantity relative to another, one in cells beside a gas at points, and one beside a mixture.
+  for (const FlowArray& other : { scalar("ne", 0, 1), scalar("n_e", 0, 0.5), scalar("nu", 0, high),
+         scalar("ne", 0, high, FlowArray::Cells), scalar("ne [1/acre]", 0, high) })
+  {
+    EXPECT_EQ(flowDefaults({ scalar("rho", 1, 2), other }).arrays, (Arrays{ { "Density", "rho" } }))
+      << other.name;
+  }
+  EXPECT_EQ(flowDefaults({ scalar("rho", 1, 2), scalar("Y_He", 0, 1), electrons }).indexModel,
+    MediumSettings::GLADSTONE_DALE_MIXTURE);
+}
+
 TEST(FlowDefaults, PressureUnits)
 {
   const auto scaleOf = [](const FlowArray& pressure) -> double
