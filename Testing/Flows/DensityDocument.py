@@ -23,14 +23,14 @@ SaveData("wing.cgns", proxy=original)
 
 with open(os.path.join(SOURCE, "Documentation", "density.md"), encoding="utf-8") as file:
     snippets = re.findall(r"^```python\n(.*?)^```", file.read(), re.DOTALL | re.MULTILINE)
-assert len(snippets) == 10, f"There are {len(snippets)} snippets: check the new ones below, too"
+assert len(snippets) == 11, f"There are {len(snippets)} snippets: check the new ones below, too"
 names, benches = {}, []
 for snippet in snippets:
     names.pop("schlieren", None)
     exec(compile(snippet, "density.md", "exec"), names)
     if "schlieren" in names:
         benches.append(names["schlieren"])
-assert len(benches) == 7
+assert len(benches) == 8
 
 
 def arrays(proxy, *wanted, of="POINTS"):
@@ -87,6 +87,14 @@ def index_of_water(kelvin, micrometres=0.6328):
 assert abs(index_of_water(293.15, 0.5893) - 1.33335) < 1e-5, "Water at 20 C, sodium light"
 T, N = arrays(names["water"], "Temperature", "N")
 assert np.abs(N - (index_of_water(T) - 1)).max() < 2e-6
+
+# Sea water without salt is water, in air; what 35 g/kg of salt add is near to what the density of it says (UNESCO 1981).
+sea = names["sea"].Function.replace("^", "**")
+assert abs(1.00027 * eval(sea, {"S": 0, "T": 20}) - index_of_water(293.15)) < 3e-5
+salt = eval(sea, {"S": 35, "T": 20}) - eval(sea, {"S": 0, "T": 20})
+assert abs(salt / (1024.763 - 998.206) / 2.457e-4 - 1) < 0.03, salt
+n, S, T = arrays(names["sea"], "n", "S", "T")
+check_near(n, eval(sea, {"S": S, "T": T}), 1e-7)
 
 # Each bench gives an image, here a small one.
 for bench in benches:
