@@ -32,7 +32,7 @@ def add_contents(app, name, source):
         folder = os.path.join(app.srcdir, "Documentation")
         pages.update(dict.fromkeys(sorted(os.path.relpath(name, app.srcdir)[:-3] for name in
                                           glob.glob(os.path.join(folder, "**", "*.md"), recursive=True))))
-        more = ["CudaCore/README", "Testing/Data/README", "Testing/Benchmarks/results",
+        more = ["CudaCore/README", "Testing/Data/README", "Testing/Benchmarks/Results/README",
                 "Testing/Benchmarks/Window/README", "CHANGELOG", "CONTRIBUTING"]
         source[0] += "\n".join(["", "```{toctree}", ":hidden:", "", *pages, *more, "```", ""])
 
