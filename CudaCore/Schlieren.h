@@ -80,15 +80,14 @@ struct Fringes
   std::function<double(double wavelength)> dispersion;
 };
 
-/// A disc in the plane where undisturbed light is a point, which delays and weakens what meets it (Zernike 1942); or all that
-/// is around it does, where Scene::invertCutoff.
+/// A disc in the plane where undisturbed light is a point, which delays and weakens what meets it (Zernike 1942).
 struct PhasePlate
 {
   double diameter =
     0; ///< by the focal length, radians; 0: the undisturbed light of each point of the source alone
   double delay =
     0.25; ///< waves: of 1/4 the light is 1 + 2 phi of a small phase phi, of -1/4 it is 1 - 2 phi
-  double transmission = 1; ///< of light, 0 ... 1; 0: an opaque stop, or the opening of one
+  double transmission = 1; ///< of light, 0 ... 1; 0: an opaque stop
 };
 
 enum class PatternKind
@@ -135,7 +134,6 @@ struct Scene
   Cutoff cutoff = Cutoff::KnifeEdge; ///< the imaging technique
   double knifeEdgeAngle = 0;         ///< degrees; 0 measures the deflection along u, 90 along v
   double cutoffOffset = 0;      ///< how far the edge is in, as a fraction of the source's image
-  bool invertCutoff = false;    ///< I becomes 1 - I (knife edge and graded filter); see PhasePlate
   std::optional<double> kScale; ///< k = f/a; unset: 99th percentile of |eps| is full scale, about
   /// Transmission at evenly spaced places from 0 to 1, linear in between; at least 2.
   std::vector<double> gradedFilter{ 0, 1 };

@@ -183,8 +183,8 @@ def take_tiles(take, frame, options, scratch):
     knife_tile("knife 90", "Knife edge, 90°", "bright: light bent upwards", KnifeEdgeAngle=90)
     knife_tile("knife 45", "Knife edge, 45°", "bright: light bent to the upper right",
                KnifeEdgeAngle=45)
-    knife_tile("inverted", "Knife edge, 90°, inverted", "bright: light bent downwards",
-               KnifeEdgeAngle=90, InvertCutoff=1)
+    knife_tile("inverted", "Knife edge, 270°", "bright: light bent downwards",
+               KnifeEdgeAngle=270)
 
     group("Other stops")
     knife_tile("offset", "Knife edge, 90°, a quarter further in", "undisturbed light: 0.25",

@@ -113,12 +113,10 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   int Cutoff = 0;
   double KnifeEdgeAngle = 0;
   double CutoffOffset = 0;
-  bool InvertCutoff = false;
   int KMode = 0;
   double KScale = 1000;
   double FocalLength = 1;
   double SourceWidth = 1;
-  double CutoffPosition = 0;
   std::string ColorFilterImage;
   double FringeSpacing = 0;
   double FringeAngle = 0;
@@ -173,12 +171,10 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
     use("Cutoff", &S::Cutoff);
     use("KnifeEdgeAngle", &S::KnifeEdgeAngle);
     use("CutoffOffset", &S::CutoffOffset);
-    use("InvertCutoff", &S::InvertCutoff);
     use("KMode", &S::KMode);
     use("KScale", &S::KScale);
     use("FocalLength", &S::FocalLength);
     use("SourceWidth", &S::SourceWidth);
-    use("CutoffPosition", &S::CutoffPosition);
     use("ColorFilterImage", &S::ColorFilterImage);
     use("FringeSpacing", &S::FringeSpacing);
     use("FringeAngle", &S::FringeAngle);

@@ -144,12 +144,6 @@ MediumSettings vtkFlowAlgorithm::GetMediumSettings()
   return settings;
 }
 
-double vtkFlowAlgorithm::GetGladstoneDaleConstantUsed()
-{
-  return isCustom(this->Gas) ? this->GladstoneDaleConstant
-                             : vtkGasTable::GetConstant(this->Gas, this->Wavelength);
-}
-
 void vtkFlowAlgorithm::AddTransferFunction(vtkPiecewiseFunction* function)
 {
   this->Functions.emplace_back(function);

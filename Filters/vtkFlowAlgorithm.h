@@ -246,10 +246,6 @@ public:
 
   // end
 
-  /// Returns the Gladstone-Dale constant in use, m^3/kg: that of Gas at Wavelength, or
-  /// GladstoneDaleConstant. NaN for an unknown gas.
-  double GetGladstoneDaleConstantUsed();
-
   ///@{
   /// The functions f_i, one for each field, or none (the default): straight lines from 0 to 1, also
   /// for functions that are null or have no points. Values may be any; x is between 0 and 1. Moving

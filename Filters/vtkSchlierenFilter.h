@@ -208,20 +208,14 @@ public:
 
   /// Which deflection the knife edge or the graded filter measures, degrees: 0 for a vertical edge,
   /// where deflection to the right is bright; 90 for a horizontal one, where deflection upwards is
-  /// bright. Default: 0.
+  /// bright; 180 more exchanges bright and dark. Default: 0.
   vtkSetMacro(KnifeEdgeAngle, double);
   vtkGetMacro(KnifeEdgeAngle, double);
 
   /// Position of the knife edge or the graded filter relative to the middle of the source's image,
-  /// as a fraction of its width. Default: 0.
+  /// as a fraction of its width, of Source Width where K Mode is Bench. Default: 0.
   vtkSetMacro(CutoffOffset, double);
   vtkGetMacro(CutoffOffset, double);
-
-  /// Put the knife edge or the graded filter on the other side: bright and dark are exchanged.
-  /// Default: off.
-  vtkSetMacro(InvertCutoff, bool);
-  vtkGetMacro(InvertCutoff, bool);
-  vtkBooleanMacro(InvertCutoff, bool);
 
   /// Values of KMode.
   enum KModes
@@ -249,11 +243,6 @@ public:
   /// millimetres. Default: 1.
   vtkSetMacro(SourceWidth, double);
   vtkGetMacro(SourceWidth, double);
-
-  /// Distance of the edge from the middle of the source's image, towards covering it, millimetres.
-  /// Default: 0.
-  vtkSetMacro(CutoffPosition, double);
-  vtkGetMacro(CutoffPosition, double);
 
   /// The image of the colour filter, which covers k times the deflection from -1 to 1 along both
   /// axes: the name of a PNG file that the server can read, or the file's content as text,

@@ -72,7 +72,7 @@ Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, const PixelPlaces& p
   switch (scene.cutoff)
   {
     case Cutoff::KnifeEdge:
-      return KnifeEdge{ axis, scene.source.shape == SourceShape::Disc, scene.invertCutoff };
+      return KnifeEdge{ axis, scene.source.shape == SourceShape::Disc };
     case Cutoff::Circular:
       return Circular{ k };
     case Cutoff::CircularComplement:
@@ -83,7 +83,7 @@ Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, const PixelPlaces& p
       table_.clear();
       std::transform(scene.gradedFilter.begin(), scene.gradedFilter.end(),
         std::back_inserter(table_), [](double value) { return static_cast<float>(value); });
-      return GradedFilter{ axis, scene.invertCutoff, { table_.data(), table_.size() } };
+      return GradedFilter{ axis, { table_.data(), table_.size() } };
     case Cutoff::ColorFilter:
     {
       // Linear in between, off by no more than 4e-7.

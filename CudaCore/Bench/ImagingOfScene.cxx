@@ -68,8 +68,7 @@ Mask plateMask(const Scene& scene, double wavelength)
   const PhasePlate& plate = scene.phasePlate;
   const std::complex<double> passing =
     std::polar(std::sqrt(plate.transmission), 2 * pi * plate.delay * scene.wavelength / wavelength);
-  return scene.invertCutoff ? discMask(plate.diameter, 1, passing)
-                            : discMask(plate.diameter, passing, 1);
+  return discMask(plate.diameter, passing, 1);
 }
 
 /// What a cutoff lets pass of rays, as an amplitude.
@@ -111,7 +110,7 @@ Imaging imagingOf(
   switch (scene.cutoff)
   {
     case Cutoff::KnifeEdge:
-      return { edgeMask(scene.knifeEdgeAngle, scene.cutoffOffset / k, scene.invertCutoff),
+      return { edgeMask(scene.knifeEdgeAngle, scene.cutoffOffset / k),
         pointsAcross(scene, k, scene.wavelength * k > width) };
     case Cutoff::PhaseContrast:
       return { plateMask(scene, wavelength), pointsOf(scene) };

@@ -126,7 +126,7 @@ void validateScene(const Scene& scene)
   const double k = scene.kScale.value_or(0);
   require(k >= 0 && std::isfinite(k), "KScale is ", k,
     ", but it is a focal length divided by a source width. Set it to zero or more; to swap "
-    "bright and dark use InvertCutoff.");
+    "bright and dark turn KnifeEdgeAngle by 180 degrees.");
   const double screen = scene.screenDistance.value_or(0);
   require(screen >= 0 && screen <= largestDistance, "ScreenDistance is ", screen,
     ". Set it to zero or more, up to 1e30 data units.");

@@ -49,12 +49,11 @@ struct KnifeEdge
 
   CutoffAxis axis;
   bool isOfDisc; ///< the source's image is a disc
-  bool inverted; ///< the knife cuts from the other side: I becomes 1 - I
 
-  static KnifeEdge at(double degrees, double k, bool inverted, double offset = 0,
-    SourceShape source = SourceShape::Slit)
+  static KnifeEdge at(
+    double degrees, double k, double offset = 0, SourceShape source = SourceShape::Slit)
   {
-    return { CutoffAxis::at(degrees, k, offset), source == SourceShape::Disc, inverted };
+    return { CutoffAxis::at(degrees, k, offset), source == SourceShape::Disc };
   }
 
   SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&light)[channels]) const
@@ -66,7 +65,7 @@ struct KnifeEdge
       const double cosine = sqrt(1 - sine * sine);
       fraction = limited(0.5 + (sine * cosine + angleOf(cosine, sine)) / pi);
     }
-    light[0] = inverted ? 1 - fraction : fraction;
+    light[0] = fraction;
   }
 
   /// Whether bending this ray a little more would change nothing.
@@ -83,13 +82,11 @@ struct GradedFilter
   static constexpr int channels = 1;
 
   CutoffAxis axis;
-  bool inverted; ///< I becomes 1 - I
-  Table table;   ///< from place 0 to 1
+  Table table; ///< from place 0 to 1
 
   SCHLIEREN_HD void shade(const RayAtFilm& ray, double (&light)[channels]) const
   {
-    const double fraction = interpolate(table, axis.placeOf(ray.deflection));
-    light[0] = inverted ? 1 - fraction : fraction;
+    light[0] = interpolate(table, axis.placeOf(ray.deflection));
   }
 
   SCHLIEREN_HD bool saturates(const double (&eps)[2]) const

@@ -124,15 +124,14 @@ EvenPhase fringesOf(const FieldBeforeScreen& before, const Screen& screen, const
 
 } // namespace
 
-Mask edgeMask(double degrees, double place, bool isOther)
+Mask edgeMask(double degrees, double place)
 {
   const double normal[2] = { std::cos(degrees * radiansPerDegree),
     std::sin(degrees * radiansPerDegree) };
   return [=](const Angles& at, const Angles& cell) -> Value
   {
-    const double passing = fractionBehind(at[0] * normal[0] + at[1] * normal[1] - place,
+    return fractionBehind(at[0] * normal[0] + at[1] * normal[1] - place,
       cell[0] * std::abs(normal[0]) + cell[1] * std::abs(normal[1]));
-    return isOther ? 1 - passing : passing;
   };
 }
 

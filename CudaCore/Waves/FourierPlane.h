@@ -25,8 +25,8 @@ using Angles = std::array<double, 2>;
 /// it. A cell without a size is undisturbed light, which is a point.
 using Mask = std::function<std::complex<double>(const Angles& place, const Angles& cell)>;
 
-/// A straight edge. Light passes that is bent along `degrees`, from u to v, by more than `place`, or by less where `isOther`.
-Mask edgeMask(double degrees, double place, bool isOther);
+/// A straight edge. Light passes that is bent along `degrees`, from u to v, by more than `place`.
+Mask edgeMask(double degrees, double place);
 /// A disc, and what is around it. Where its diameter is 0 only undisturbed light meets it, wherever that is.
 Mask discMask(double diameter, std::complex<double> disc, std::complex<double> around);
 /// A filter that lets a fraction of the light pass, and does not delay it.

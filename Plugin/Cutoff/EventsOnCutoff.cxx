@@ -186,8 +186,7 @@ void pqCutoffView::keyPressEvent(QKeyEvent* event)
   }
   else
   {
-    cutoff =
-      withSensitivity(cutoff, rounded(cutoff.K * (up ? sensitivityStep : 1 / sensitivityStep), 4));
+    cutoff.K = rounded(cutoff.K * (up ? sensitivityStep : 1 / sensitivityStep), 4);
   }
   this->moveTo(cutoff);
 }

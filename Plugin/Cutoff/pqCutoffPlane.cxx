@@ -39,16 +39,6 @@ double rounded(double value, int digits)
   return exponent > 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
 }
 
-pqCutoff withSensitivity(pqCutoff cutoff, double k)
-{
-  if (cutoff.EdgeIsFastened)
-  {
-    cutoff.Offset *= k / cutoff.K;
-  }
-  cutoff.K = k;
-  return cutoff;
-}
-
 QPointF pqCutoff::normal() const
 {
   const double angle = qDegreesToRadians(this->Angle);
@@ -71,7 +61,7 @@ double pqCutoff::transmission(const QPointF& deflection) const
   switch (this->Kind)
   {
     case KnifeEdge:
-      schlieren::KnifeEdge::at(this->Angle, this->K, this->Inverted, this->Offset,
+      schlieren::KnifeEdge::at(this->Angle, this->K, this->Offset,
         this->IsOfDisc ? schlieren::SourceShape::Disc : schlieren::SourceShape::Slit)
         .shade(ray, light);
       break;
@@ -88,7 +78,7 @@ double pqCutoff::transmission(const QPointF& deflection) const
     {
       const double place = schlieren::limited(this->placeOf(deflection));
       const double fraction = this->Graded ? schlieren::limited(this->Graded(place)) : place;
-      light[0] = this->Inverted ? 1 - fraction : fraction;
+      light[0] = fraction;
       break;
     }
     case NoCutoff:
@@ -175,15 +165,12 @@ pqCutoff pqCutoffPlane::dragged(
     case DarkLine:
     case BrightLine:
     {
-      // Moves lines relative to the edge if that is fixed, else to undeflected light.
-      const double place = handle == DarkLine ? 0 : 1;
-      const double fixed = start.EdgeIsFastened ? start.deflectionOf(0.5) : 0;
-      const double before = start.deflectionOf(place) - fixed;
+      const double before = start.deflectionOf(handle == DarkLine ? 0 : 1);
       if (std::abs(before) > 1e-6 / start.K)
       {
         const double sign = before < 0 ? -1 : 1;
         const double after = std::max(pixel, sign * (before + shift));
-        cutoff = withSensitivity(start, rounded(start.K * sign * before / after, digitsOfK));
+        cutoff.K = rounded(start.K * sign * before / after, digitsOfK);
       }
       break;
     }

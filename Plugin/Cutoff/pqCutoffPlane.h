@@ -24,12 +24,10 @@ struct pqCutoff
   Kinds Kind = NoCutoff;
   bool HasEdge = false; ///< straight; else a circle or a square
   double K = 0;
-  double Angle = 0;            ///< degrees
-  double Offset = 0;           ///< of the edge, as a fraction of the source's image
-  bool Inverted = false;       ///< knife edge and graded filter
-  bool IsOfDisc = false;       ///< whether the source is a disc
-  bool IsSquare = false;       ///< whether a colour filter is an image, not the wheel
-  bool EdgeIsFastened = false; ///< changes of k keep the edge: Offset is in proportion to k
+  double Angle = 0;                     ///< degrees
+  double Offset = 0;                    ///< of the edge, as a fraction of the source's image
+  bool IsOfDisc = false;                ///< whether the source is a disc
+  bool IsSquare = false;                ///< whether a colour filter is an image, not the wheel
   std::function<double(double)> Graded; ///< transmission, 0 to 1, across the filter's width, 0 to 1
 
   /// Returns the direction of the deflection that the edge measures.
@@ -86,9 +84,6 @@ private:
   QRectF Square;
   double Range;
 };
-
-/// Changes the sensitivity, and the offset if the edge is fixed.
-pqCutoff withSensitivity(pqCutoff cutoff, double k);
 
 /// Rounds to significant digits.
 double rounded(double value, int digits);

@@ -221,8 +221,8 @@ void pqCutoffView::drawLines(QPainter& painter) const
     painter.setPen(Qt::white);
     painter.drawText(label.translated(8, 0), Qt::AlignCenter, name);
   };
-  draw(pqCutoffPlane::DarkLine, 0, this->Cutoff.Inverted ? "1" : "0");
-  draw(pqCutoffPlane::BrightLine, 1, this->Cutoff.Inverted ? "0" : "1");
+  draw(pqCutoffPlane::DarkLine, 0, "0");
+  draw(pqCutoffPlane::BrightLine, 1, "1");
   draw(pqCutoffPlane::EdgeLine, 0.5, QString::fromUtf8("½"));
 
   setPen(pqCutoffPlane::TurnHandle, Qt::DotLine);

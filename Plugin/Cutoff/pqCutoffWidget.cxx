@@ -60,22 +60,19 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
   cutoff.Kind = static_cast<pqCutoff::Kinds>(kind);
   cutoff.HasEdge = Filter::CutoffHasEdge(kind);
   cutoff.Angle = valueOf(proxy, "KnifeEdgeAngle");
-  cutoff.Inverted = valueOf(proxy, "InvertCutoff") != 0;
   cutoff.IsOfDisc = valueOf(proxy, "SourceShape") == Filter::DISC;
   cutoff.IsSquare = *vtkSMPropertyHelper(proxy, "ColorFilterImage").GetAsString() != '\0';
   const int mode = vtkSMPropertyHelper(proxy, "KMode").GetAsInt();
   if (mode == Filter::K_BENCH)
   {
     const double width = valueOf(proxy, "SourceWidth"); // millimetres
-    cutoff.EdgeIsFastened = true;
     cutoff.K = kOfWidth(kind) * 1e3 * valueOf(proxy, "FocalLength") / width;
-    cutoff.Offset = valueOf(proxy, "CutoffPosition") / width;
   }
   else
   {
     cutoff.K = valueOf(proxy, mode == Filter::K_VALUE ? "KScale" : "KScaleUsed");
-    cutoff.Offset = valueOf(proxy, "CutoffOffset");
   }
+  cutoff.Offset = valueOf(proxy, "CutoffOffset");
   if (!std::isfinite(cutoff.K) || !std::isfinite(cutoff.Offset))
   {
     cutoff.K = cutoff.Offset = 0; // optics of zero width
@@ -117,9 +114,9 @@ pqCutoffWidget::pqCutoffWidget(vtkSMProxy* smProxy, vtkSMPropertyGroup*, QWidget
   QObject::connect(this->View, &pqCutoffView::grabbed, this, &pqCutoffWidget::grabbed);
   QObject::connect(this->View, &pqCutoffView::dragged, this, &pqCutoffWidget::dragged);
   QObject::connect(this->View, &pqCutoffView::released, this, &pqCutoffWidget::released);
-  for (const char* name : { "Cutoff", "KnifeEdgeAngle", "CutoffOffset", "InvertCutoff", "KMode",
-         "KScale", "FocalLength", "SourceWidth", "CutoffPosition", "SourceShape",
-         "ColorFilterImage", "GradedFilter", "KScaleUsed" })
+  for (const char* name :
+    { "Cutoff", "KnifeEdgeAngle", "CutoffOffset", "KMode", "KScale", "FocalLength", "SourceWidth",
+      "SourceShape", "ColorFilterImage", "GradedFilter", "KScaleUsed" })
   {
     this->Connection->Connect(
       smProxy->GetProperty(name), vtkCommand::ModifiedEvent, this, SLOT(readCutoff()));
@@ -169,7 +166,7 @@ void pqCutoffWidget::grabbed()
 QMap<QString, QVariant> pqCutoffWidget::changes() const
 {
   const pqCutoff& now = this->View->cutoff();
-  const bool fromOptics = now.EdgeIsFastened;
+  const bool fromOptics = vtkSMPropertyHelper(this->proxy(), "KMode").GetAsInt() == Filter::K_BENCH;
   QMap<QString, QVariant> values;
   switch (this->View->handle())
   {
@@ -177,9 +174,7 @@ QMap<QString, QVariant> pqCutoffWidget::changes() const
       values["KnifeEdgeAngle"] = now.Angle;
       break;
     case pqCutoffPlane::EdgeLine:
-      fromOptics ? values["CutoffPosition"] =
-                     rounded(now.Offset * valueOf(this->proxy(), "SourceWidth"), digits)
-                 : values["CutoffOffset"] = now.Offset;
+      values["CutoffOffset"] = now.Offset;
       break;
     case pqCutoffPlane::DarkLine:
     case pqCutoffPlane::BrightLine:

@@ -38,6 +38,7 @@ constexpr int opacityOfPanel = 235;
 // Fractions of a view's sides and area that the panel may cover.
 constexpr float largestSide = 0.6f;
 constexpr float largestArea = 0.12f, largestOfLeast = 0.25f; // with all texts, with the least
+constexpr int largestFont = 10;                              // points
 constexpr int smallestFont = 8;                              // pixels, that are still legible
 
 std::string textOf(double value)
@@ -237,7 +238,7 @@ bool LegendPanel::Fit(vtkContext2D* painter, Layout& layout)
   const auto room = static_cast<float>(this->GetScene()->GetSceneWidth());
   const auto rise = static_cast<float>(this->GetScene()->GetSceneHeight());
   const int smallest =
-    std::min(this->FontSize, (smallestFont + this->PixelsPerPoint - 1) / this->PixelsPerPoint);
+    std::min(largestFont, (smallestFont + this->PixelsPerPoint - 1) / this->PixelsPerPoint);
   layout.Notes = this->Notes.size();
   layout.HasRuler = this->MetresPerPixel > 0;
   layout.Side = this->HasPlane() ? sideOfPlane : heightOfScale;
@@ -245,7 +246,7 @@ bool LegendPanel::Fit(vtkContext2D* painter, Layout& layout)
   {
     const bool isLeast = layout.Notes == 0 && !layout.HasRuler && layout.Side != sideOfPlane;
     const float largest = isLeast ? largestOfLeast : largestArea;
-    for (this->Points = this->FontSize; this->Points >= smallest; --this->Points)
+    for (this->Points = largestFont; this->Points >= smallest; --this->Points)
     {
       this->UseText(painter, VTK_TEXT_LEFT);
       layout.Font = this->HeightOfFont(painter);

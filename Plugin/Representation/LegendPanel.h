@@ -22,7 +22,6 @@ public:
   bool Paint(vtkContext2D* painter) override;
 
   int Corner = 1;            ///< of vtkSchlierenLegend::Corners
-  int FontSize = 10;         // at most
   double MetresPerPixel = 0; // of the view; 0: unknown
   int PixelsPerPoint = 1;    // more in a screenshot that is larger than its view
 

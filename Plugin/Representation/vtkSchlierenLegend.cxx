@@ -64,13 +64,10 @@ void vtkSchlierenLegend::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Corner: " << this->Shown->Corner << "\n";
-  os << indent << "FontSize: " << this->Shown->FontSize << "\n";
   os << indent << "Title: " << this->Shown->Title << "\n";
 }
 
 void vtkSchlierenLegend::SetCorner(int corner) { this->Shown->Corner = corner; }
-
-void vtkSchlierenLegend::SetFontSize(int points) { this->Shown->FontSize = points; }
 
 void vtkSchlierenLegend::CopyFieldData(vtkImageData* from, vtkImageData* to)
 {

@@ -46,11 +46,8 @@ public:
   void SetImage(vtkImageData* image) { this->SetImage(image, Painting{}); }
   void SetImage(vtkImageData* image, const Painting& painting);
 
-  /// Sets the corner, one of Corners (default: LOWER_RIGHT), and the size of the font, points
-  /// (default: 10): smaller in views that the legend would cover more than a quarter of, down to 8 points; there, the
-  /// last lines are left out, too.
+  /// Sets the corner, one of Corners (default: LOWER_RIGHT).
   void SetCorner(int corner);
-  void SetFontSize(int points);
 
   /// Copies the arrays of an image's field data that a legend needs.
   static void CopyFieldData(vtkImageData* from, vtkImageData* to);

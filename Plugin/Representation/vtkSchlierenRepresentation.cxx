@@ -117,11 +117,6 @@ void vtkSchlierenRepresentation::SetLegendCorner(int corner)
   this->Actor->GetLegend()->SetCorner(corner);
 }
 
-void vtkSchlierenRepresentation::SetLegendFontSize(int points)
-{
-  this->Actor->GetLegend()->SetFontSize(points);
-}
-
 int vtkSchlierenRepresentation::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");

@@ -37,11 +37,10 @@ public:
   void SetTimeSlice(double seconds);
 
   ///@{
-  /// Set whether a legend is drawn (default: on), its corner, one of vtkSchlierenLegend::Corners
-  /// (default: lower right), and the size of its font, points (default: 10).
+  /// Set whether a legend is drawn (default: on), and its corner, one of vtkSchlierenLegend::Corners
+  /// (default: lower right).
   void SetLegend(bool isShown);
   void SetLegendCorner(int corner);
-  void SetLegendFontSize(int points);
   ///@}
 
   /// Return whether the last image is complete, and its reduction; see vtkSchlierenActor.

@@ -54,11 +54,6 @@ void vtkSchlierenSliceRepresentation::SetLegendCorner(int corner)
   this->Legend->SetCorner(corner);
 }
 
-void vtkSchlierenSliceRepresentation::SetLegendFontSize(int points)
-{
-  this->Legend->SetFontSize(points);
-}
-
 void vtkSchlierenSliceRepresentation::SetVisibility(bool isVisible)
 {
   this->Superclass::SetVisibility(isVisible);

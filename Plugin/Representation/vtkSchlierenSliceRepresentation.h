@@ -22,11 +22,10 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Set whether a legend is drawn (default: on), its corner, one of vtkSchlierenLegend::Corners
-  /// (default: lower right), and the size of its font, points (default: 10).
+  /// Set whether a legend is drawn (default: on), and its corner, one of vtkSchlierenLegend::Corners
+  /// (default: lower right).
   void SetLegend(bool isShown);
   void SetLegendCorner(int corner);
-  void SetLegendFontSize(int points);
   ///@}
 
   void SetVisibility(bool isVisible) override;

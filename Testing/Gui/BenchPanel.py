@@ -118,7 +118,6 @@ def choose_preset(name):
 
 
 # What was set before leaves no trace: the same bench as by a script.
-user.click("InvertCutoff/CheckBox")
 user.choose("CutoffOffset/DoubleLineEdit0", "0.3")
 choose_preset("Phase Contrast, laser")
 user.check("Cutoff/ComboBox", "currentText", "Phase Contrast")
@@ -126,7 +125,7 @@ user.check("PhasePlateDelay", "visible", "true")
 user.check("KMode", "visible", "false")
 choose_preset("Knife Edge, Toepler's bench: mirror of 1 m, slit of 1 mm")
 user.check("KMode/ComboBox", "currentText", "Bench")
-user.check("InvertCutoff/CheckBox", "checked", "false")
+user.check("CutoffOffset/DoubleLineEdit0", "text", "0")
 user.check("SourceLength", "visible", "true")
 user.apply()
 
@@ -143,11 +142,11 @@ user.check("KMode/ComboBox", "currentText", "Bench")
 user.python(keep("toepler again"))
 
 # What is typed but not applied: of the bench it is gone, anything else waits on.
-user.choose("CutoffPosition/DoubleLineEdit0", "0.3")
+user.choose("CutoffOffset/DoubleLineEdit0", "0.3")
 user.choose("ImageSize/LineEdit0", "40")
 choose_preset("Interferogram, finite fringes")
 user.check("Cutoff/ComboBox", "currentText", "Interferogram")
-user.check("CutoffPosition/DoubleLineEdit0", "text", "0")
+user.check("CutoffOffset", "visible", "false")
 user.check("ImageSize/LineEdit0", "text", "40")
 user.check_at(PANEL + "/Accept", "enabled", "true")
 user.reset()

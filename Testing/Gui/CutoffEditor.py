@@ -144,16 +144,16 @@ expect("circle", Cutoff="Circular", KScale=float(f"{narrower:.4g}"))
 user.menu("menu_Edit", "actionEditUndo")
 user.check("KMode/ComboBox", "currentText", "Automatic")
 
-# Real optics: where the edge is in millimetres, and the width of the source, with the edge in its place.
+# Real optics: where the edge is, and the width of the source.
 user.choose("Cutoff/ComboBox", "Knife Edge")
 user.choose("KMode/ComboBox", "Bench")
 user.apply()
 settle()
 user.check(PLANE, "range", RANGE)
 drag((0, 0), tuple(np.rint(25 * along)))
-position = 1e3 * FOCAL_LENGTH * PIXEL * (np.rint(25 * along) @ along)
-expect("optics", Cutoff="Knife Edge", KMode="Bench", KScale=1.02 * K, CutoffPosition=round(position, 3))
-full = position / 1e3 / FOCAL_LENGTH + 0.5 / K
+offset = round(edge + K * PIXEL * (np.rint(25 * along) @ along), 3)
+expect("optics", Cutoff="Knife Edge", KMode="Bench", KScale=1.02 * K, CutoffOffset=offset)
+full = (0.5 + offset) / K
 way = np.rint(40 * along)
 drag(np.rint(full / PIXEL * along), tuple(way))
 expect("source", SourceWidth=float(f"{1 + 2 * K * PIXEL * (way @ along):.4g}"))

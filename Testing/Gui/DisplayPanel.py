@@ -13,7 +13,7 @@ SEARCH = PANEL + "/SearchBox/"
 
 LOOK = """
 OURS = ["Representation", "DataAxesGrid", "SchlierenBench", "SchlierenLegend"]
-LEGEND = ["SchlierenLegend", "SchlierenLegendCorner", "SchlierenLegendFontSize"]
+LEGEND = ["SchlierenLegend", "SchlierenLegendCorner"]
 
 def seen():
     "The properties and the headings of the display's part of the panel."

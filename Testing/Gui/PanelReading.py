@@ -40,7 +40,7 @@ settle(bench)
 assert information(bench, "KScaleUsed") == 500
 """)
 user.check("Sensitivity/Note", "text", "k = 500: full scale is a deflection of 1 mrad; optics: 2 m focal length, "
-           "source 4 mm wide, the edge 0 mm in (offset 0)")
+           "source 4 mm wide, the edge 0 mm in")
 
 
 def check_label(name, text):
@@ -49,7 +49,7 @@ def check_label(name, text):
 
 # Data that are not in SI need these. Units stand where they are seen however wide the panel is.
 for name, text in (("LengthScale", "Length Scale (m per unit)"),
-                   ("GladstoneDaleConstant", "Gladstone Dale Constant (m³/kg)"), ("ImageSize", "Image Size (px)"),
+                   ("ImageSize", "Image Size (px)"),
                    ("KnifeEdgeAngle", "Knife Edge Angle (°)")):
     user.check(name, "visible", "true")
     check_label(name, text)

@@ -34,8 +34,8 @@ RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
 FILTER = as_text(png([[RED, GREEN], [BLUE, WHITE]]))
 # Every property of the bench, unlike its default.
 SETTINGS = {"Wavelength": 500.0, "Cutoff": "Color Filter", "KnifeEdgeAngle": 30.0, "CutoffOffset": 0.1,
-            "InvertCutoff": 1, "KMode": "Bench", "KScale": 500.0, "FocalLength": 2.0,
-            "SourceWidth": 0.5, "SourceLength": 5.0, "CutoffPosition": 0.25, "ColorFilterImage": FILTER,
+            "KMode": "Bench", "KScale": 500.0, "FocalLength": 2.0,
+            "SourceWidth": 0.5, "SourceLength": 5.0, "ColorFilterImage": FILTER,
             "FringeSpacing": 0.125, "FringeAngle": 45.0,
             "WhiteLight": 1, "ScreenDistance": 3.0, "FocusOffset": 0.5, "SourceDistance": 30.0, "SourceShape": "Slit", "LightModel": "Waves",
             "Bandwidth": 5.0, "PhasePlateDiameter": 0.5, "PhasePlateDelay": -0.25,

@@ -67,8 +67,7 @@ for item in properties.values():
 for shown, names in (
         (WITH_K, "KMode KScale FocalLength SourceWidth"),
         (WITH_K | WITH_FRINGES, "Sensitivity"),
-        (WITH_EDGE, "KnifeEdgeAngle CutoffOffset CutoffPosition"),
-        (WITH_EDGE | {vtkSchlierenFilter.PHASE_CONTRAST}, "InvertCutoff"),
+        (WITH_EDGE, "KnifeEdgeAngle CutoffOffset"),
         ({vtkSchlierenFilter.PHASE_CONTRAST}, "PhasePlateDiameter PhasePlateDelay PhasePlateTransmission Bandwidth"),
         (WITH_FRINGES | {vtkSchlierenFilter.PHASE_CONTRAST}, "Wavelength"), (WITH_FRINGES, "FringeSpacing WhiteLight"), (WITH_FRINGES | WITH_BACKGROUND, "FringeAngle"),
         (WITH_SCREEN, "ScreenDistance"), (set(CUTOFFS.values()) - WITH_SCREEN, "FocusOffset"),
@@ -100,7 +99,7 @@ bench.SamplesPerPixel = 4  # the first is at the pixel's centre
 assert output(bench).GetDimensions() == (48, 32, 1)
 before = work(bench)
 reference = image_array(bench, "Intensity")
-for name, value in (("KnifeEdgeAngle", 30), ("InvertCutoff", 1), ("Cutoff", "Shadowgraph")):
+for name, value in (("KnifeEdgeAngle", 30), ("CutoffOffset", 0.1), ("Cutoff", "Shadowgraph")):
     default = current(name)
     setattr(bench, name, value)
     assert not np.array_equal(image_array(bench, "Intensity"), reference), name

@@ -36,7 +36,6 @@ def draw(path, is_remote=False):
     view = simple.CreateRenderView(ViewSize=[240, 180], OrientationAxesVisibility=0, CameraParallelProjection=1)
     display = simple.Show(flow, view)
     display.SetRepresentationType("Schlieren")
-    display.SchlierenLegendFontSize = 5  # as much as there is room for
     surface = simple.Show(simple.Sphere(Radius=3, Center=[2, 0, 0]), view)
     surface.DiffuseColor = [1, 0, 0]
     simple.ResetCamera(view)

@@ -74,12 +74,6 @@ double kOfOptics(const SchlierenSettings& optics)
     : std::numeric_limits<double>::quiet_NaN();
 }
 
-double offsetOfOptics(const SchlierenSettings& optics)
-{
-  return optics.SourceWidth > 0 ? optics.CutoffPosition / optics.SourceWidth
-                                : std::numeric_limits<double>::quiet_NaN();
-}
-
 void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
 {
   scene.cutoffOffset = optics.CutoffOffset;
@@ -96,13 +90,7 @@ void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
         "extended source is not "
         "known. Set KMode to Value and KScale to 2 FocalLength over the filter's width.");
     }
-    if (!std::isfinite(optics.CutoffPosition))
-    {
-      refuse("CutoffPosition", optics.CutoffPosition, "mm",
-        "which is no place. Set it to how far the edge is in, 0 for the middle.");
-    }
     scene.kScale = kOfOptics(optics);
-    scene.cutoffOffset = offsetOfOptics(optics);
   }
   else if (optics.KMode == SchlierenSettings::K_VALUE)
   {
@@ -166,8 +154,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
   }
   if (settings.KMode == SchlierenSettings::K_BENCH && technique.hasEdge)
   {
-    words += ", the edge " + textOf(settings.CutoffPosition, 4) + " mm in (offset " +
-      textOf(offsetOfOptics(settings), 4) + ")";
+    words += ", the edge " + textOf(settings.CutoffOffset * settings.SourceWidth, 4) + " mm in";
   }
   return words;
 }

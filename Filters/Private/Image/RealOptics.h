@@ -23,11 +23,10 @@ bool usesK(const SchlierenSettings& optics);
 /// Returns whether k is used and automatic.
 bool choosesK(const SchlierenSettings& optics);
 
-/// Return k and offset of real optics, used or not; NaN without real optics.
+/// Returns k of real optics, used or not; NaN without real optics.
 double kOfOptics(const SchlierenSettings& optics);
-double offsetOfOptics(const SchlierenSettings& optics);
 
-/// Sets k and the cutoff's offset to those given or of the optics, or leaves them to the tracer.
+/// Sets the cutoff's offset, and k to that given or of the optics, or leaves it to the tracer.
 void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene);
 
 /// Returns the plate of a phase contrast. Throws std::runtime_error.

@@ -166,7 +166,6 @@ schlieren::Scene sceneFrom(
   scene.lens = lensFrom(settings);
   scene.cutoff = static_cast<schlieren::Cutoff>(settings.Cutoff);
   scene.knifeEdgeAngle = settings.KnifeEdgeAngle;
-  scene.invertCutoff = settings.InvertCutoff;
   // Skips k where the cutoff does not use it, because it may be invalid then.
   if (usesK(settings))
   {

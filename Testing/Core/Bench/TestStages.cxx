@@ -33,7 +33,7 @@ TEST(Stages, CutoffTracesNothing)
   EXPECT_EQ(image.traceSeconds, 0);
   scene.kScale = 17;
   bench.render(blob.field, scene);
-  scene.invertCutoff = true;
+  scene.cutoffOffset = 0.1;
   bench.render(blob.field, scene);
   scene.cutoff = Cutoff::Shadowgraph;
   image = bench.render(blob.field, scene);

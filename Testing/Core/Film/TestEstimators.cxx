@@ -356,7 +356,7 @@ TEST(Estimators, ManyRaysPerPixelHaveThePixelsMean)
         rays[number].exits = exits[number].data();
       }
       Films films(1, {}, size, size, 10000000);
-      expose(rays, KnifeEdge::at(0, 1, false), { 0, 1, 0 }, margin, 1, films);
+      expose(rays, KnifeEdge::at(0, 1), { 0, 1, 0 }, margin, 1, films);
       const PixelArray<float> image = films.developIntensity(passes, 1);
       for (int pixel = 0; pixel < size * size; ++pixel)
       {

@@ -87,7 +87,7 @@ TEST(Exposure, CountsAllRaysWithAnyThreads)
   {
     SCOPED_TRACE(spread);
     const InventedRays invented(3, spread);
-    const KnifeEdge knife = KnifeEdge::at(30, 400, false);
+    const KnifeEdge knife = KnifeEdge::at(30, 400);
     const Projection projection{ -40, 1.25, 1 };
     RayCounts counts;
     for (const TracedRays& rays : invented.rays)

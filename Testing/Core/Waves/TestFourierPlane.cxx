@@ -35,9 +35,9 @@ std::vector<SourcePoint> slitOf(double width, int points, double degrees = 0)
   }
   return all;
 }
-Imaging edgeOf(double source, int points, double place = 0, bool isOther = false, double angle = 0)
+Imaging edgeOf(double source, int points, double place = 0, double angle = 0)
 {
-  return { edgeMask(angle, place, isOther), slitOf(source, points, angle) };
+  return { edgeMask(angle, place), slitOf(source, points, angle) };
 }
 Imaging plateOf(double diameter, Complex plate, Complex around = 1)
 {
@@ -118,7 +118,7 @@ TEST(FourierPlane, UndisturbedLightIsHalfOfASlitAndAQuarterOfALaser)
   }
   // A quarter of the source's image is behind the edge.
   EXPECT_NEAR(benchOf(1e-4, 32, edgeOf(1e-3, 40, 0.25e-3)).image(straight)[16], 0.25, 1e-6);
-  EXPECT_NEAR(benchOf(1e-4, 32, edgeOf(1e-3, 40, 0.25e-3, true)).image(straight)[16], 0.75, 1e-6);
+  EXPECT_NEAR(benchOf(1e-4, 32, edgeOf(1e-3, 40, -0.25e-3, 180)).image(straight)[16], 0.75, 1e-6);
   EXPECT_NEAR(benchOf(1e-4, 32, plateOf(0, 0.4)).image(straight)[16], 0.16, 1e-6);
   EXPECT_NEAR(benchOf(1e-4, 32, plateOf(1e-4, 0.4)).image(straight)[16], 0.16, 1e-6);
   EXPECT_NEAR(benchOf(1e-4, 32, {}).image(straight)[16], 1, 1e-12);
@@ -201,8 +201,7 @@ TEST(FourierPlane, FollowTheEdgesAngle)
   const double size = 1e-3, path = 30 * perWave;
   const double source = 5 * steepestOfColumn(path, size);
   const Numbers right = benchOf(4e-5, 100, edgeOf(source, 32)).image(column(path, size));
-  const Numbers left =
-    benchOf(4e-5, 100, edgeOf(source, 32, 0, false, 180)).image(column(path, size));
+  const Numbers left = benchOf(4e-5, 100, edgeOf(source, 32, 0, 180)).image(column(path, size));
   for (std::size_t i = 0; i < left.size(); ++i)
   {
     EXPECT_NEAR(left[i], right[left.size() - 1 - i], 1e-6);
@@ -238,7 +237,7 @@ TEST(FourierPlane, StopsAndAperturesPassOrdersOfAGrating)
     { discMask(order, Complex(0, 1), 1), [](int n) { return n == 0 ? Complex(0, 1) : 1.; } },
     { discMask(3 * order, 1, Complex(0, 0.5)),
       [](int n) { return std::abs(n) < 2 ? 1 : Complex(0, 0.5); } },
-    { edgeMask(0, 0.5 * order, false), [](int n) { return n > 0 ? 1. : 0.; } },
+    { edgeMask(0, 0.5 * order), [](int n) { return n > 0 ? 1. : 0.; } },
     // A slit.
     { filterMask(
         [=](const Angles& at) { return at[0] > -0.5 * order && at[0] < 2.5 * order ? 1. : 0.; }),

@@ -298,34 +298,27 @@ TEST(WaveStage, GradedFilterOfALaserIsAsThatOfRays)
   scene.kScale = radius / (5 * strongPath);
   scene.cutoff = Cutoff::GradedFilter;
   scene.gradedFilter = { 0.2, 0.6, 0.9 };
-  for (const bool inverted : { false, true })
-  {
-    scene.invertCutoff = inverted;
-    scene.lightModel = LightModel::Waves;
-    const Image waves = Bench().render(field, scene);
-    scene.lightModel = LightModel::Rays;
-    const Image rays = Bench().render(field, scene);
-    EXPECT_LT(rms(rowOf(waves, 48), rowOf(rays, 48)), 6e-3);
-    EXPECT_GT(rms(rowOf(rays, 48), Numbers(96, 0.6)), 0.05);
-    EXPECT_NEAR(waves.undisturbedLevel, rays.undisturbedLevel, 1e-6);
-  }
+  scene.lightModel = LightModel::Waves;
+  const Image waves = Bench().render(field, scene);
+  scene.lightModel = LightModel::Rays;
+  const Image rays = Bench().render(field, scene);
+  EXPECT_LT(rms(rowOf(waves, 48), rowOf(rays, 48)), 6e-3);
+  EXPECT_GT(rms(rowOf(rays, 48), Numbers(96, 0.6)), 0.05);
+  EXPECT_NEAR(waves.undisturbedLevel, rays.undisturbedLevel, 1e-6);
 }
 
 TEST(WaveStage, PhaseContrastIsOfItsPlate)
 {
   Scene scene = laserShadowgraph();
   scene.cutoff = Cutoff::PhaseContrast;
-  for (const auto& [plate, inverted] :
-    { std::pair(PhasePlate{ 0, 0.25, 1 }, false), std::pair(PhasePlate{ 0, -0.25, 0.04 }, false),
-      std::pair(PhasePlate{ 0, 0, 0 }, false), std::pair(PhasePlate{ 0, 0.25, 0.5 }, true) })
+  for (const PhasePlate& plate :
+    { PhasePlate{ 0, 0.25, 1 }, PhasePlate{ 0, -0.25, 0.04 }, PhasePlate{ 0, 0, 0 } })
   {
     scene.phasePlate = plate;
-    scene.invertCutoff = inverted;
-    scene.lightModel = inverted ? LightModel::Auto : LightModel::Waves;
+    scene.lightModel = plate.transmission < 1 ? LightModel::Auto : LightModel::Waves;
     const Image image = Bench().render(columnInVacuum(), scene);
     ASSERT_EQ(image.lightModel, LightModel::Waves);
     const Complex factor = std::polar(std::sqrt(plate.transmission), 2 * pi * plate.delay);
-    const Complex disc = inverted ? 1 : factor, around = inverted ? factor : 1;
     Numbers exact;
     for (int i = 0; i < image.width; ++i)
     {
@@ -333,11 +326,11 @@ TEST(WaveStage, PhaseContrastIsOfItsPlate)
         [&](double x)
         {
           const double turned = phase * std::exp(-x * x / (radius * radius));
-          return std::norm(disc + around * (std::polar(1., turned) - 1.));
+          return std::norm(factor + std::polar(1., turned) - 1.);
         }));
     }
     EXPECT_LT(rms(rowOf(image, 48), exact), 2e-3) << plate.transmission;
-    EXPECT_NEAR(image.undisturbedLevel, inverted ? 1 : plate.transmission, 1e-12);
+    EXPECT_NEAR(image.undisturbedLevel, plate.transmission, 1e-12);
   }
 }
 

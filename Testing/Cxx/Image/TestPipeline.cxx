@@ -188,7 +188,7 @@ TEST(Pipeline, NothingIsDoneTwice)
   // What turns rays into light and dark needs no re-tracing.
   filter->SetKnifeEdgeAngle(90);
   EXPECT_TRUE(workOfUpdate(filter) == none);
-  filter->SetInvertCutoff(true);
+  filter->SetCutoffOffset(0.1);
   EXPECT_TRUE(workOfUpdate(filter) == none);
   filter->SetKMode(vtkSchlierenFilter::K_VALUE);
   filter->SetKScale(123);
@@ -258,11 +258,9 @@ TEST(Pipeline, AnotherWavelengthConvertsOnlyWhatDependsOnIt)
   filter->SetWavelength(600);
   EXPECT_TRUE(workOfUpdate(filter) == none);
   filter->SetGas("helium");
-  EXPECT_EQ(filter->GetGladstoneDaleConstantUsed(), vtkGasTable::GetConstant("helium", 600));
   EXPECT_EQ(workOfUpdate(filter).builds, 1);
   const double red = largest(valuesOf(filter, "OpticalPathDifference"));
   filter->SetWavelength(400);
-  EXPECT_EQ(filter->GetGladstoneDaleConstantUsed(), vtkGasTable::GetConstant("helium", 400));
   EXPECT_EQ(workOfUpdate(filter).builds, 1);
   EXPECT_NEAR(largest(valuesOf(filter, "OpticalPathDifference")) / red,
     vtkGasTable::GetConstant("helium", 400) / vtkGasTable::GetConstant("helium", 600), 1e-5);

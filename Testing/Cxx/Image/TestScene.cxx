@@ -92,16 +92,15 @@ TEST_F(Scene, HasWhatIsSet)
   EXPECT_EQ(made.smoothingRadius, 3.5);
 }
 
-// k = f / a and the offset is a fraction of a, whatever KScale and CutoffOffset say.
+// k = f / a, whatever KScale says.
 TEST_F(Scene, SensitivityFollowsFromOptics)
 {
   this->filter->SetKMode(Filter::K_BENCH);
   this->filter->SetFocalLength(1.5);
   this->filter->SetSourceWidth(0.5);
-  this->filter->SetCutoffPosition(0.125);
   this->filter->SetCutoffOffset(7);
   EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 3000);
-  EXPECT_DOUBLE_EQ(this->scene().cutoffOffset, 0.25);
+  EXPECT_DOUBLE_EQ(this->scene().cutoffOffset, 7);
   this->filter->SetKMode(Filter::K_VALUE);
   EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 1000);
   EXPECT_DOUBLE_EQ(this->scene().cutoffOffset, 7);
@@ -124,9 +123,8 @@ TEST_F(Scene, SensitivityIsStatedInWords)
     "k = 4000: full scale is a deflection of 0.25 mrad");
   this->filter->SetCutoff(Filter::KNIFE_EDGE);
   this->filter->SetKMode(Filter::K_BENCH);
-  this->filter->SetCutoffPosition(-0.1);
-  EXPECT_NE(
-    sensitivityInWords(this->filter->GetSettings(), 4000).find("the edge -0.1 mm in (offset -0.1)"),
+  this->filter->SetCutoffOffset(-0.1);
+  EXPECT_NE(sensitivityInWords(this->filter->GetSettings(), 4000).find("the edge -0.1 mm in"),
     std::string::npos);
   EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 0), "");
   this->filter->SetCutoff(Filter::SHADOWGRAPH);
@@ -171,8 +169,6 @@ TEST_F(Scene, OpticsThatCannotBeAreRefused)
     EXPECT_NE(this->error().find("SourceWidth is "), std::string::npos) << wrong;
     this->filter->SetSourceWidth(1);
   }
-  this->filter->SetCutoffPosition(notANumber);
-  EXPECT_NE(this->error().find("CutoffPosition is nan mm"), std::string::npos);
   // Where they do not count, they may be anything.
   this->filter->SetFocalLength(0);
   this->filter->SetCutoff(Filter::INTERFEROGRAM);
