@@ -10,7 +10,6 @@
 #include "Device/CudaDevice.h"
 #include "Device/Parallel.h"
 #include "Film/Image.h"
-#include "Film/Sensor.h"
 #include "Medium/Index/IndexModels.h"
 #include "Medium/Samples/Ambient.h"
 #include "Medium/Samples/Field.h"

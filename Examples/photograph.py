@@ -13,7 +13,7 @@ import sys
 
 import numpy as np
 from paraview.simple import *
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
@@ -50,13 +50,19 @@ turn, edge, offset = np.radians(3), 92.5, -0.1
 camera = dict(
     Density=["POINTS", "rho"], FocalPoint=[middle + 0.0004, -0.0003, 0], ViewUp=[-np.sin(turn), np.cos(turn), 0],
     ParallelScale=1.05 * half, ImageSize=size, KMode="Value", KScale=1.6 * field(schlieren, "KScale"), CutoffOffset=offset,
-    KnifeEdgeAngle=edge - np.degrees(turn), FullWell=20000, ReadNoise=10, BitDepth=16)
+    KnifeEdgeAngle=edge - np.degrees(turn))
+noise = np.random.default_rng(1)
 experiment.UpdatePipeline()
 for name, constant in (("photograph.png", 2.26e-4), ("without_flow.png", 1e-12)):  # of a gas that bends no light
     photographed = Schlieren(Input=experiment, GladstoneDaleConstant=constant, **camera)
     photographed.UpdatePipeline()
     data = image(photographed)
-    data.GetPointData().SetActiveScalars("Recorded")
+    # What a sensor makes of the light: 20000 electrons fill a pixel, 10 are the noise of reading.
+    electrons = 0.8 * 20000 * vtk_to_numpy(data.GetPointData().GetArray("Intensity"))
+    read = noise.normal(electrons, np.sqrt(np.maximum(electrons, 0) + 10 ** 2)) / 20000
+    recorded = numpy_to_vtk((65535 * np.clip(read, 0, 1) + 0.5).astype(np.uint16), deep=True)
+    recorded.SetName("Recorded")
+    data.GetPointData().SetScalars(recorded)
     writer = vtkPNGWriter()
     writer.SetFileName(name)
     writer.SetInputData(data)

@@ -131,11 +131,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   double LensFocalLength = 50;
   double FocusDistance = 0;
   double SensorWidth = 0;
-  double FullWell = 0;
-  double Exposure = 0.8;
-  double ReadNoise = 10;
-  double Gamma = 1;
-  int BitDepth = 8;
   double SourceDistance = 0;
   int SourceShape = 0;
   double SourceLength = 10;
@@ -189,11 +184,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
     use("LensFocalLength", &S::LensFocalLength);
     use("FocusDistance", &S::FocusDistance);
     use("SensorWidth", &S::SensorWidth);
-    use("FullWell", &S::FullWell);
-    use("Exposure", &S::Exposure);
-    use("ReadNoise", &S::ReadNoise);
-    use("Gamma", &S::Gamma);
-    use("BitDepth", &S::BitDepth);
     use("SourceDistance", &S::SourceDistance);
     use("SourceShape", &S::SourceShape);
     use("SourceLength", &S::SourceLength);

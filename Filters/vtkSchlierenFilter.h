@@ -25,10 +25,7 @@
  * - `Background` (float) and `BackgroundDisplacement` (3 floats, data units), with
  *   BACKGROUND_ORIENTED only: the image without the flow, and the point of the pattern that is
  *   seen, less that without the flow (the image has moved in the opposite direction); with an
- *   FNumber, this and the rays' other arrays are means over the aperture;
- * - `Recorded` and, with BACKGROUND_ORIENTED, `RecordedBackground` (unsigned chars, or unsigned
- *   shorts for a BitDepth above 8), with a FullWell: what the sensor makes of `Intensity` and
- *   `Background`.
+ *   FNumber, this and the rays' other arrays are means over the aperture.
  *
  * Field data: `AxisRight` and `AxisUp` (u and v), `Device`, `PathModel` (`Straight` or `Refracted`),
  * `KScale` (the k used), `UndisturbedLevel` (intensity of undisturbed light), `SaturatedShare`
@@ -323,26 +320,6 @@ public:
   /// Width of the sensor behind the lens, millimetres: sets the View Angle. 0: off. Default: 0.
   vtkSetMacro(SensorWidth, double);
   vtkGetMacro(SensorWidth, double);
-
-  /// The camera's sensor: electrons that a pixel can hold; 0: none. Default: 0.
-  vtkSetMacro(FullWell, double);
-  vtkGetMacro(FullWell, double);
-
-  /// How much of the full well light 1 fills; more than 0. Default: 0.8.
-  vtkSetMacro(Exposure, double);
-  vtkGetMacro(Exposure, double);
-
-  /// Standard deviation of the noise of reading, electrons. Default: 10.
-  vtkSetMacro(ReadNoise, double);
-  vtkGetMacro(ReadNoise, double);
-
-  /// Recorded values are the light to the power of 1 over this; 1: linear. Default: 1.
-  vtkSetMacro(Gamma, double);
-  vtkGetMacro(Gamma, double);
-
-  /// Bits of the recorded values; the array has 8 or 16. Default: 8.
-  vtkSetClampMacro(BitDepth, int, 1, 16);
-  vtkGetMacro(BitDepth, int);
 
   /// Light diverges from a point at this distance before the middle of the data, data units; more
   /// than half of the data's depth. 0: it is collimated. Default: 0.

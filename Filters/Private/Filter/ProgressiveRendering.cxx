@@ -383,10 +383,6 @@ bool vtkSchlierenFilter::Show(
   {
     addColor(output, image, colors);
   }
-  if (this->FullWell != 0)
-  {
-    addRecorded(output, sensorFrom(*this), scene.threads);
-  }
   if (schlieren::techniqueOf(scene.cutoff).hasFringes && scene.fringes.finite)
   {
     addFringeSpacing(output, scene.fringes.spacing);

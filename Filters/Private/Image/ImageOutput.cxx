@@ -7,7 +7,6 @@
 
 #include "Common/AvailableMemory.h"
 
-#include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -21,7 +20,6 @@
 #include "vtkStringArray.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkUnsignedShortArray.h"
 
 #include "Schlieren.h"
 
@@ -198,41 +196,6 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
     addFieldValue<vtkStringArray>(output, "ErrorLimit", limitInWords(image.accuracy));
     addFieldValue<vtkDoubleArray>(output, "StepSize", image.stepSize);
     addFieldValue<vtkIntArray>(output, "SamplesPerPixel", image.samplesPerPixel);
-  }
-}
-
-void addRecorded(vtkImageData* output, const schlieren::Sensor& sensor, int threads)
-{
-  constexpr int bitsOfBytes = 8;
-  vtkPointData* arrays = output->GetPointData();
-  std::uint32_t number = 0;
-  for (const auto& [name, from] :
-    { std::pair("Recorded", "Intensity"), std::pair("RecordedBackground", "Background") })
-  {
-    auto* light = vtkFloatArray::SafeDownCast(arrays->GetArray(from));
-    if (!light)
-    {
-      continue;
-    }
-    const auto pixels = static_cast<std::size_t>(light->GetNumberOfValues());
-    const std::vector<std::uint16_t> values =
-      schlieren::record(light->GetPointer(0), pixels, sensor, number++, threads);
-    vtkSmartPointer<vtkDataArray> array;
-    if (sensor.bitDepth > bitsOfBytes)
-    {
-      array = vtkSmartPointer<vtkUnsignedShortArray>::New();
-    }
-    else
-    {
-      array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    }
-    array->SetName(name);
-    array->SetNumberOfTuples(light->GetNumberOfValues());
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-    {
-      array->SetTuple1(static_cast<vtkIdType>(pixel), values[pixel]);
-    }
-    arrays->AddArray(array);
   }
 }
 

@@ -36,9 +36,6 @@ unsigned char byteOf(float light, ColorScale scale);
 /// Adds the colours of an image and makes them the scalars.
 void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale);
 
-/// Adds what a sensor records of Intensity, and of Background where there is one.
-void addRecorded(vtkImageData* output, const schlieren::Sensor& sensor, int threads);
-
 /// Adds the spacing of finite fringes, data units.
 void addFringeSpacing(vtkImageData* output, double spacing);
 

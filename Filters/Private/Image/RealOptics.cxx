@@ -249,20 +249,6 @@ double viewAngleFrom(
   return angleOf(most);
 }
 
-schlieren::Sensor sensorFrom(const SchlierenSettings& settings)
-{
-  requirePositive("FullWell", settings.FullWell, "electrons", "the sensor, or to 0 for none");
-  requirePositive("Exposure", settings.Exposure, "full wells", "light 1");
-  requirePositive("Gamma", settings.Gamma, "", "the sensor's curve, 1 for a linear one");
-  if (!(settings.ReadNoise >= 0) || !std::isfinite(settings.ReadNoise))
-  {
-    refuse("ReadNoise", settings.ReadNoise, "electrons",
-      "but it is a standard deviation. Set it to 0 or more.");
-  }
-  return { settings.FullWell, settings.Exposure, settings.ReadNoise, settings.Gamma,
-    settings.BitDepth };
-}
-
 double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
 {
   return settings.FringeSpacing < 0

@@ -51,9 +51,6 @@ schlieren::Lens lensFrom(const SchlierenSettings& settings);
 double viewAngleFrom(
   const SchlierenSettings& settings, const schlieren::View& view, const schlieren::Grid& grid);
 
-/// Returns the sensor for FullWell > 0.
-schlieren::Sensor sensorFrom(const SchlierenSettings& settings);
-
 /// Returns the spacing of finite fringes, data units: given, by the beams, or a tenth of the image.
 double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame);
 

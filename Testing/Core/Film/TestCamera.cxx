@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The camera in front of the flow: its lens's aperture, what it is focused on, and its sensor.
+// The camera in front of the flow: its lens's aperture, and what it is focused on.
 #include "Fields.h"
 #include "Rays/Light.h"
 #include "Rays/RayStarts.h"
@@ -358,52 +358,6 @@ TEST(CameraMistakes, AreReported)
   expectError(5, {}, "FNumber"); // steeper than 45 degrees
   expectError(0.01, -1, "FocusDistance");
   expectError(0.01, 0, "FocusDistance");
-}
-
-TEST(SensorOfACamera, HasTheNoiseOfItsElectrons)
-{
-  constexpr std::size_t pixels = 256 * 256;
-  const std::vector<float> light(pixels, 0.5f);
-  Sensor sensor;
-  sensor.fullWell = 10000;
-  sensor.bitDepth = 16;
-  const auto take = [&](std::uint32_t image, int threads)
-  { return record(light.data(), pixels, sensor, image, threads); };
-  const std::vector<std::uint16_t> values = take(0, 1);
-  EXPECT_EQ(values, take(0, 8));
-  const std::vector<std::uint16_t> others = take(1, 1);
-  double mean = 0, variance = 0, product = 0;
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    const double off = values[i] / 65535. - 0.4;
-    mean += values[i] / 65535. / pixels;
-    variance += off * off / pixels;
-    product += off * (others[i] / 65535. - 0.4) / pixels;
-  }
-  const double shot = 0.4 * sensor.fullWell, read = sensor.readNoise * sensor.readNoise;
-  EXPECT_NEAR(mean, 0.4, 1e-4);
-  EXPECT_NEAR(variance * sensor.fullWell * sensor.fullWell / (shot + read), 1, 0.03);
-  EXPECT_LT(std::abs(product / variance), 0.015); // four times what chance leaves
-  sensor.seed = 2;
-  EXPECT_NE(take(0, 1), values);
-}
-
-TEST(SensorOfACamera, HasACurveAndSteps)
-{
-  const std::vector<float> light{ -1, 0, 0.25f, 0.5f, 1, 7 };
-  Sensor sensor;
-  sensor.fullWell = 1e18; // without noise that could be seen
-  sensor.readNoise = 0;
-  sensor.exposure = 1;
-  const auto take = [&] { return record(light.data(), light.size(), sensor, 0, 1); };
-  using Values = std::vector<std::uint16_t>;
-  EXPECT_EQ(take(), (Values{ 0, 0, 64, 128, 255, 255 }));
-  sensor.gamma = 2;
-  EXPECT_EQ(take(), (Values{ 0, 0, 128, 180, 255, 255 }));
-  sensor.gamma = 1;
-  sensor.bitDepth = 1;
-  sensor.exposure = 0.8;
-  EXPECT_EQ(take(), (Values{ 0, 0, 0, 0, 1, 1 }));
 }
 
 } // namespace

@@ -261,30 +261,6 @@ TEST_F(Scene, CamerasThatCannotBeAreRefused)
     this->filter->SetSensorWidth(0);
   }
   EXPECT_EQ(this->error(), "none");
-  const auto errorOfSensor = [&]() -> std::string
-  {
-    try
-    {
-      sensorFrom(this->filter->GetSettings());
-    }
-    catch (const std::runtime_error& problem)
-    {
-      return problem.what();
-    }
-    return "none";
-  };
-  this->filter->SetFullWell(1000);
-  EXPECT_EQ(errorOfSensor(), "none");
-  this->filter->SetGamma(0);
-  EXPECT_EQ(errorOfSensor().find("Gamma is 0, "), 0u);
-  this->filter->SetGamma(1);
-  this->filter->SetExposure(notANumber);
-  EXPECT_EQ(errorOfSensor().find("Exposure is "), 0u);
-  this->filter->SetExposure(1);
-  this->filter->SetReadNoise(-1);
-  EXPECT_EQ(errorOfSensor().find("ReadNoise is -1 electrons"), 0u);
-  this->filter->SetFullWell(-1);
-  EXPECT_EQ(errorOfSensor().find("FullWell is -1 electrons"), 0u);
 }
 
 TEST_F(Scene, LightDivergesFromASourceAtADistance)
