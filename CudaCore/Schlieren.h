@@ -174,7 +174,7 @@ struct Scene
   std::uint32_t seed = 1;  ///< of the rays' places in pixels and on the source
 
   /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the settings below. It chooses
-  /// interpolation, stepSize, homogeneityTolerance, samplesPerPixel, mediumTolerance (no coarser than 0.01) and precision,
+  /// interpolation, stepSize, samplesPerPixel, mediumTolerance (no coarser than 0.01) and precision,
   /// and says in Image::accuracy what is reached. Its unit is that which the image is read in: of an interferogram fringes;
   /// of Cutoff::Background pixels of displacement; else the fraction of full scale, of a shadowgraph of undisturbed light,
   /// not counting what light displaced by 0.05 pixels explains.
@@ -191,9 +191,6 @@ struct Scene
   /// For Integrator::Adaptive: the local error allowed in a step, relative to what the medium's steepest
   /// gradient would bend over the same length. 1e-12 ... 1.
   double adaptiveTolerance = 1e-5;
-  /// Rays cross a cube of cells in one step where the refractivity varies in it by no more than this, as a
-  /// fraction of its range in the whole medium; 0: never. 0 ... 1.
-  double homogeneityTolerance = 0;
   /// Error of the deflection, of a strong one (full scale, about), that the voxels of a Field's source may make, and of what rays gather
   /// of its fields, of the full colour; 0: they are as fine as the data. 0 ... 1.
   double mediumTolerance = 0.01;

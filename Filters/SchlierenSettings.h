@@ -45,10 +45,9 @@ struct ViewSettings
 /// some of them instead.
 struct AccuracySettings
 {
-  // members: PathModel, StepSize, HomogeneityTolerance, SamplesPerPixel, Precision, MediumTolerance, TargetError
+  // members: PathModel, StepSize, SamplesPerPixel, Precision, MediumTolerance, TargetError
   int PathModel = 1;
   double StepSize = 2;
-  double HomogeneityTolerance = 0.001;
   int SamplesPerPixel = 1;
   int Precision = 0;
   double MediumTolerance = 0.003;
@@ -59,10 +58,9 @@ struct AccuracySettings
   static void visit(const Use& use)
   {
     using S = AccuracySettings;
-    // visits: PathModel, StepSize, HomogeneityTolerance, SamplesPerPixel, Precision, MediumTolerance, TargetError
+    // visits: PathModel, StepSize, SamplesPerPixel, Precision, MediumTolerance, TargetError
     use("PathModel", &S::PathModel);
     use("StepSize", &S::StepSize);
-    use("HomogeneityTolerance", &S::HomogeneityTolerance);
     use("SamplesPerPixel", &S::SamplesPerPixel);
     use("Precision", &S::Precision);
     use("MediumTolerance", &S::MediumTolerance);

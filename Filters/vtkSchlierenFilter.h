@@ -34,8 +34,7 @@
  * of the others), `FringeSpacing` (of finite fringes, data units), `AmbientRefractivity` and `ExitRefractivity`
  * (the values used), `RaysTraced`, `RaysLost` (trapped in the medium, turned back by it, or totally
  * reflected at the exit), `StepsTaken` (of all rays), `TraceSeconds` (0 without tracing), and the
- * accuracy: `SkippingBound` (maximum error of direction cosines by skipping, omitted where it is
- * not useful) and `MomentumDrift` (maximum relative error of |p| = n at the exit of refracted rays; else 0). For a
+ * accuracy: `MomentumDrift` (maximum relative error of |p| = n at the exit of refracted rays; else 0). For a
  * legend: `LegendTitle` (the cutoff's name), `LegendLabel` (texts: what the light stands for, and
  * its unit: rad, m or none), `LegendRange` (the first and last value, in that unit), `LegendSize`
  * (numbers of values; both 0 without a scale, the second above 1 for deflections along u and v),
@@ -406,11 +405,6 @@ public:
   /// Length of an integration step, voxels; with solids no longer than 1. Default: 2.
   vtkSetMacro(StepSize, double);
   vtkGetMacro(StepSize, double);
-
-  /// Rays cross a cube of voxels in one step where the refractivity varies in it by no more than
-  /// this fraction of its range in the whole flow; 0: nothing is skipped. Default: 0.001.
-  vtkSetMacro(HomogeneityTolerance, double);
-  vtkGetMacro(HomogeneityTolerance, double);
 
   /// Rays per pixel; the first is at the pixel's centre. Default: 1.
   vtkSetMacro(SamplesPerPixel, int);

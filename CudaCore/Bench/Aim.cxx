@@ -114,7 +114,6 @@ void Bench::Stages::beginAim(const Field& field, const Scene& scene, Device devi
   aim.emplace(Aim{ field, scene, device });
   Scene& accurate = aim->scene;
   accurate.interpolation = Interpolation::Cubic;
-  accurate.homogeneityTolerance = 0;
   accurate.samplesPerPixel = raysPerPixel.back();
   if (field.source)
   {

@@ -41,15 +41,6 @@ Monitor monitorOfVoxels(UnfinishedImage& request, const Monitor& monitor)
   return ofTree;
 }
 
-/// The most that nu may vary in a cube that counts as homogeneous.
-template <class Real>
-double homogeneityLimit(const Medium<Real>& medium, const Scene& scene)
-{
-  // What differs by rounding only is homogeneous.
-  constexpr double rounding = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-  return std::max(scene.homogeneityTolerance * medium.rangeOfNu, rounding * medium.largestNu);
-}
-
 } // namespace
 
 template <class Real>
@@ -80,7 +71,7 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
 
   MediumOnDevices<Real>& onDevices = inUse.onDevices();
   const Medium<Real>& medium = onDevices.medium;
-  RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
+  const RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
   ViewKey key{ frame, scene.view.width, scene.view.height, settings.kernel,
     LightKey::of(scene, frame, filmDistance(scene, frame, light.faces), light.faces),
     onDevices.changes };
@@ -91,7 +82,7 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
     RaySettings coarse = settings;
     coarse.stepVoxels = longestStep;
     coarse.adaptiveTolerance = std::max(settings.adaptiveTolerance, usualTolerance);
-    return makeTask<Real>(medium, nullptr, {}, light, coarse);
+    return makeTask<Real>(medium, {}, light, coarse);
   };
   const auto look = [&] { return lookAtLight(tracer, coarseTask(), scene.view); };
   if (scene.choosesScreen && !scene.screenDistance &&
@@ -106,25 +97,12 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
     marginFor(isOfCamera(scene.cutoff) ? std::vector<MovedRay>{} : rays.movedIn(key, look), scene,
       frame, light);
 
-  // An adaptive step is as long as the medium lets it be without a map.
-  const HomogeneityMap<Real>* map = nullptr;
-  double bound = 0;
-  if (!field.source && settings.kernel.integrator != Integrator::Adaptive &&
-    scene.homogeneityTolerance > 0)
-  {
-    const double limit = homogeneityLimit(medium, scene);
-    map = onDevices.mapFor(limit, scene.interpolation, scene.threads);
-    bound = light.faces.ratio * skippingBound(medium, light, limit, scene.interpolation);
-    settings.homogeneityTolerance = scene.homogeneityTolerance;
-  }
-
   const double exitRefractivity = exitRefractivityOf(scene, medium.ambient);
   // Of straight rays all is of first order, and the bend makes nothing longer.
   const bool bends = settings.kernel.path != PathModel::Straight;
   const double ofVoxels = medium.tree ? medium.tree->statistics().deflectionError : 0;
   return ViewSetup<Real>{ onDevices, tracer, key, light, settings,
-    makeTask<Real>(medium, map, medium.gradientsOf(field), light, settings), margin,
-    exitRefractivity, bound,
+    makeTask<Real>(medium, medium.gradientsOf(field), light, settings), margin, exitRefractivity,
     { light.faces.ratio * noiseFloor(medium, field, light), light.faces.ratio * ofVoxels },
     projectionOf(scene, frame, light, bends ? (1 + exitRefractivity) * field.lengthScale : 0),
     pixelPlacesOf(frame, scene.view, light) };
@@ -178,7 +156,6 @@ Image Bench::Stages::imageOf(const UnfinishedImage& request, const ViewSetup<Rea
   image.steepestPlace = placeOf(request.field.grid, { steepest[0], steepest[1], steepest[2] });
   image.pathModel = view.settings.kernel.path;
   image.integrator = view.settings.kernel.integrator;
-  image.skippingBound = view.skippingBound;
   if (medium.tree)
   {
     image.medium = medium.tree->statistics();

@@ -62,24 +62,6 @@ ProcessTracer<Real>& MediumOnDevices<Real>::processTracer()
 }
 
 template <class Real>
-const HomogeneityMap<Real>* MediumOnDevices<Real>::mapFor(
-  double tolerance, Interpolation interpolation, int threads)
-{
-  const Real limit = static_cast<Real>(tolerance);
-  if (!map_)
-  {
-    map_ = std::make_unique<HomogeneityMap<Real>>(
-      buildHomogeneityMap(medium, interpolation, limit, threads));
-  }
-  else if (mapTolerance_ != tolerance)
-  {
-    map_->setTolerance(limit, threads);
-  }
-  mapTolerance_ = tolerance;
-  return map_.get();
-}
-
-template <class Real>
 bool MediumOnDevices<Real>::refineFor(const Column& column, bool isShared, const Monitor& monitor)
 {
   if (refine(medium, column, monitor, isShared ? Unneeded::Stays : Unneeded::Goes))

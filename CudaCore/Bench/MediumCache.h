@@ -4,7 +4,6 @@
 // The media of benches: made once, used until another one is wanted, and by several benches where these may.
 #pragma once
 
-#include "Medium/HomogeneityMap.h"
 #include "Medium/Medium.h"
 #include "Rays/Cuda/CudaTracer.h"
 #include "Rays/Ranks/ProcessTracer.h"
@@ -70,10 +69,6 @@ public:
   ProcessTracer<Real>& processTracer();
   void leaveDevice() { cuda_.reset(); }
 
-  /// The map of cubes in which nu varies by no more than a tolerance.
-  const HomogeneityMap<Real>* mapFor(double tolerance, Interpolation interpolation, int threads);
-  double mapTolerance() const { return mapTolerance_; } ///< of the last map
-
   /// Makes the voxels of a source that a view needs and that are not there. False where they do not fit. `isShared`: other
   /// benches keep theirs.
   bool refineFor(const Column& column, bool isShared, const Monitor& monitor);
@@ -81,8 +76,6 @@ public:
 private:
   std::unique_ptr<CudaTracer<Real>> cuda_;
   std::unique_ptr<ProcessTracer<Real>> together_;
-  std::unique_ptr<HomogeneityMap<Real>> map_; ///< once something was to be skipped
-  double mapTolerance_ = 0;                   ///< of nu
 };
 
 /// The medium of a bench.

@@ -40,7 +40,7 @@ RayTask<Real> Pilot<Real>::taskFor(double step, const Medium<Real>& medium) cons
   RaySettings settings = setup_.settings;
   settings.stepVoxels = step;
   settings.adaptiveTolerance = adaptiveToleranceFor(step, settings.adaptiveTolerance);
-  return makeTask<Real>(medium, nullptr, {}, setup_.light, settings);
+  return makeTask<Real>(medium, {}, setup_.light, settings);
 }
 
 template <class Real>

@@ -107,8 +107,8 @@ struct RaysKey
   auto tie() const
   {
     return std::tuple_cat(view.tie(),
-      std::tie(settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale,
-        settings.homogeneityTolerance, seed, device, gradients));
+      std::tie(settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, seed, device,
+        gradients));
   }
 };
 

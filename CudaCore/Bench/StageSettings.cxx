@@ -34,21 +34,6 @@ RaySettings settingsOf(const Scene& scene, double lengthScale, double steepest)
   return settings;
 }
 
-double steepestOf(Interpolation interpolation)
-{
-  return visitScheme(
-    interpolation, [](auto scheme) { return static_cast<double>(decltype(scheme)::steepest); });
-}
-
-template <class Real>
-double skippingBound(
-  const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation)
-{
-  const double steepest = steepestOf(interpolation);
-  const double pathLength = light.depth / light.smallestCosine();
-  return 2 * steepest * tolerance * length(light.indexScale) * pathLength * (1 + medium.largestNu);
-}
-
 template <class Real>
 double noiseFloor(const Medium<Real>& medium, const Field& field, const Light& light)
 {
@@ -374,8 +359,6 @@ void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& l
   }
 }
 
-template double skippingBound(const Medium<float>&, const Light&, double, Interpolation);
-template double skippingBound(const Medium<double>&, const Light&, double, Interpolation);
 template double noiseFloor(const Medium<float>&, const Field&, const Light&);
 template double noiseFloor(const Medium<double>&, const Field&, const Light&);
 

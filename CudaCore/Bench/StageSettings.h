@@ -27,15 +27,6 @@ constexpr double largestChangeByVoxel = 0.05;
 /// no re-tracing.
 RaySettings settingsOf(const Scene& scene, double lengthScale, double steepest);
 
-/// The largest |d nu / d index| in a cube in which nu varies by 1: see NuRange.
-double steepestOf(Interpolation interpolation);
-
-/// Bounds the error of the deflection of rays that cross cubes in which nu varies by no more than `tolerance` in one step
-/// each: see NuRange, with the whole path through the grid as the path through cubes.
-template <class Real>
-double skippingBound(
-  const Medium<Real>& medium, const Light& light, double tolerance, Interpolation interpolation);
-
 /// A deflection that the rounding of the samples alone can make: each step's gradient is wrong by one
 /// rounding of N per voxel, and over a ray these errors add up like a random walk. With a margin of 16.
 template <class Real>

@@ -11,7 +11,7 @@ template <class Real>
 bool Tracer<Real>::trace(const RayTask<Real>& task, const Passes& passes, TracedPass& traced,
   const Monitor& monitor, bool isWantedOnHost) const
 {
-  const TaskVersions versions{ gradients_, medium_->mapTolerance() };
+  const TaskVersions versions{ gradients_ };
   if (device_ == Device::Cuda)
   {
     using Exits = typename CudaTracer<Real>::Exits;

@@ -41,10 +41,6 @@ void validateTolerances(const Scene& scene)
     scene.adaptiveTolerance,
     ". Set it between 1e-12 (smaller errors are lost in rounding) and 1 (all steps are as long as "
     "StepSize).");
-  require(scene.homogeneityTolerance >= 0 && scene.homogeneityTolerance <= 1,
-    "HomogeneityTolerance is ", scene.homogeneityTolerance,
-    ". Set it between 0 (nothing is skipped) and 1 (all of the flow is), as a fraction of the "
-    "refractivity's range.");
   require(scene.mediumTolerance >= 0 && scene.mediumTolerance <= 1, "MediumTolerance is ",
     scene.mediumTolerance,
     ". Set it between 0 (voxels are as fine as the data) and 1, as a fraction of the largest "

@@ -27,7 +27,6 @@ struct ViewSetup
   RayTask<Real> task;
   std::int64_t margin;     ///< pixels around the image from which light may be bent into it
   double exitRefractivity; ///< of what light leaves the data into
-  double skippingBound;    ///< see Image
   DeflectionErrors errors;
   Projection projection; ///< of the film
   PixelPlaces pixels;

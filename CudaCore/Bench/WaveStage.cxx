@@ -243,7 +243,7 @@ bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
   const Light ofRays = lightOf(scene, field.grid, frame, faces_);
   const Medium<Real>& medium = view_.medium.medium;
   const RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
-  const RayTask<Real> task = makeTask<Real>(medium, nullptr, {}, ofRays, settings);
+  const RayTask<Real> task = makeTask<Real>(medium, {}, ofRays, settings);
   const std::int64_t border = borderOf(image, screen) * screen.raysPerPixel;
   const RaysKey key{ { frame, scene.view.width, scene.view.height, settings.kernel,
                        LightKey::of(scene, frame, 0, faces_), view_.medium.changes },

@@ -77,9 +77,6 @@ struct Image
   std::int64_t raysBlocked = 0; ///< rays that a solid stopped
   std::int64_t raysLost = 0;    ///< rays trapped in the medium (step limit) or turned back by it
   double traceSeconds = 0;      ///< spent tracing for it; 0 when cached rays were re-shaded
-  /// Skipping homogeneous cubes changes no deflection cosine by more than this, but for what the ray meets
-  /// because it is elsewhere then, which is of second order.
-  double skippingBound = 0;
   /// Worst | |p| / n - 1 | of refracted rays where they leave the grid: 0 for exact ones, so that it shows
   /// the error of steps and interpolation.
   double momentumDrift = 0;

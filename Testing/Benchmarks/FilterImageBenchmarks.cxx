@@ -62,7 +62,6 @@ vtkSmartPointer<vtkSchlierenFilter> filterOf(vtkDataObject* input, benchmark::St
   filter->SetSamplesPerPixel(static_cast<int>(state.range(0)));
   filter->SetNumberOfThreads(static_cast<int>(state.range(1)));
   filter->SetStepSize(2);
-  filter->SetHomogeneityTolerance(1e-3);
   filter->SetViewDirection(-0.3, 0.1, -1);
   filter->Update();
   return filter;

@@ -4,7 +4,7 @@
 // How many steps and rays a second the marcher takes: by integrator, interpolation, precision, path model,
 // instructions, threads and direction of view, deflection and optical path difference both summed.
 // 512^2 rays that fit the grid into the image; all figures by the clock.
-#include "Medium/HomogeneityMap.h"
+#include "Medium/Medium.h"
 #include "Rays/Cpu/CpuTracer.h"
 #include "Rays/March/MakeTask.h"
 
@@ -100,15 +100,7 @@ void march(benchmark::State& state, const RaySettings& settings)
   View view;
   view.viewDirection = directionOf(state.range(6));
   const Light light = collimatedLight(blob().grid, frameOf(blob().grid, view));
-  const double tolerance = std::pow(10., -static_cast<double>(state.range(7)));
-  HomogeneityMap<Real> map;
-  if (state.range(7) > 0)
-  {
-    map = buildHomogeneityMap<Real>(
-      medium, settings.kernel.interpolation, static_cast<Real>(tolerance * medium.rangeOfNu), 0);
-  }
-  const RayTask<Real> task = makeTask<Real>(
-    medium, state.range(7) > 0 ? &map : nullptr, FieldGradientsView{}, light, settings);
+  const RayTask<Real> task = makeTask<Real>(medium, FieldGradientsView{}, light, settings);
   const Pass pass{ 0, 0, view.width, view.height, { 0, 0 } };
   TracedPass traced;
   traced.resize(pass, 0);
@@ -137,8 +129,7 @@ void rays(benchmark::State& state)
 
 void arguments(benchmark::internal::Benchmark* b)
 {
-  b->ArgNames(
-    { "interpolation", "integrator", "path", "double", "simd", "threads", "view", "skip" });
+  b->ArgNames({ "interpolation", "integrator", "path", "double", "simd", "threads", "view" });
   constexpr int refracted = static_cast<int>(PathModel::Refracted);
   constexpr int straight = static_cast<int>(PathModel::Straight);
   const int best = static_cast<int>(bestSimd());
@@ -147,25 +138,21 @@ void arguments(benchmark::internal::Benchmark* b)
   {
     for (const int simd : { 0, 1, 2, 3 })
     {
-      b->Args({ interpolation, 0, refracted, 0, simd, 2, Oblique, 0 });
+      b->Args({ interpolation, 0, refracted, 0, simd, 2, Oblique });
     }
     for (const int view : { AlongZ, AlongX, Diagonal })
     {
-      b->Args({ interpolation, 0, refracted, 0, best, 2, view, 0 });
+      b->Args({ interpolation, 0, refracted, 0, best, 2, view });
     }
-    b->Args({ interpolation, 0, refracted, 0, best, 1, Oblique, 0 });
-    b->Args({ interpolation, 0, straight, 0, best, 2, Oblique, 0 });
+    b->Args({ interpolation, 0, refracted, 0, best, 1, Oblique });
+    b->Args({ interpolation, 0, straight, 0, best, 2, Oblique });
   }
-  b->Args({ 0, 1, refracted, 0, best, 2, Oblique, 0 }); // Adaptive
+  b->Args({ 0, 1, refracted, 0, best, 2, Oblique }); // Adaptive
   for (const int interpolation : { 0, 1 })
   {
-    b->Args({ interpolation, 0, refracted, 1, best, 2, Oblique, 0 });
+    b->Args({ interpolation, 0, refracted, 1, best, 2, Oblique });
   }
-  b->Args({ 1, 1, refracted, 1, best, 2, Oblique, 0 }); // as the Reference preset
-  for (const int exponent : { 4, 3, 2 })                // homogeneity tolerances 1e-4 ... 1e-2
-  {
-    b->Args({ 0, 0, refracted, 0, best, 2, Oblique, exponent });
-  }
+  b->Args({ 1, 1, refracted, 1, best, 2, Oblique }); // as the Reference preset
 }
 BENCHMARK(rays)->Apply(arguments)->UseRealTime()->Unit(benchmark::kMillisecond);
 

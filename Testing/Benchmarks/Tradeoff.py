@@ -28,8 +28,7 @@ from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 from vtkmodules.vtkViewsContext2D import vtkContextView
 
 PIXELS = 192
-TRUTH = {"StepSize": 0.5, "SamplesPerPixel": 64, "HomogeneityTolerance": 0,
-         "MediumTolerance": 3e-4}
+TRUTH = {"StepSize": 0.5, "SamplesPerPixel": 64, "MediumTolerance": 3e-4}
 
 
 # Target errors, from coarse to fine; the middle one cannot be seen.
@@ -38,7 +37,7 @@ TECHNIQUES = {"Knife Edge": (0.02, 0.004, 0.001), "Shadowgraph": (0.02, 0.004, 0
 UNITS = {"Knife Edge": "full scale", "Shadowgraph": "undisturbed light", "Interferogram": "fringes",
          "Background Oriented": "pixels"}
 FLOWS = ("jet", "jet aslant", "blunt fin", "ball, AMR of ratio 2")
-COMMON = {"HomogeneityTolerance": 0, "MediumTolerance": 0.003}
+COMMON = {"MediumTolerance": 0.003}
 SETTINGS = {"Interactive": {"Quality": "Interactive"}, "Fine": {"Quality": "Fine"},
             "Publication": {"Quality": "Publication"},
             **{f"{kind}, step {step}, {rays} rays": dict(COMMON, StepSize=step, SamplesPerPixel=rays)

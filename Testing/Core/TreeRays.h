@@ -83,8 +83,7 @@ inline void expectPacksToDoWhatOneDoes(const Field& field)
       const double allowed = integrator == Integrator::Leapfrog ? 2e-9 : 3e-5;
       RaySettings rays;
       rays.kernel = { PathModel::Refracted, integrator, interpolation };
-      const RayTask<float> task =
-        makeTask<float>(medium, nullptr, FieldGradientsView{}, light, rays);
+      const RayTask<float> task = makeTask<float>(medium, FieldGradientsView{}, light, rays);
       const Pass pass{ 0, 0, 37, 29, { 0.25, -0.125 } };
       std::vector<TracedPass> traced(all.size());
       double largest = 0;

@@ -90,11 +90,10 @@ inline void addCellArray(vtkDataSet* data, const char* name, const ScalarField& 
   data->GetCellData()->AddArray(array);
 }
 
-/// Steps of a voxel that skip nothing, and so many rays per pixel, whatever the presets are.
+/// Steps of a voxel, and so many rays per pixel, whatever the presets are.
 inline void traceEveryVoxel(vtkSchlierenFilter* filter, int samplesPerPixel)
 {
   filter->SetStepSize(1);
-  filter->SetHomogeneityTolerance(0);
   filter->SetSamplesPerPixel(samplesPerPixel);
 }
 

@@ -141,21 +141,16 @@ void measure(const std::string& what, Bench& bench, const Field& field, Scene sc
   std::fflush(stdout);
 }
 
-/// Quadratic and Cubic splines, all and with what is homogeneous skipped; and with the k that is found by the image.
+/// Quadratic and Cubic splines, and with the k that is found by the image.
 void measureMedium(const std::string& medium, const Field& field, const Vector& viewDirection)
 {
   Bench bench;
   for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Cubic })
   {
-    for (const double tolerance : { 0., 0.001 })
-    {
-      Scene scene = sceneOf(viewDirection);
-      scene.interpolation = interpolation;
-      scene.homogeneityTolerance = tolerance;
-      measure(medium + (interpolation == Interpolation::Cubic ? ", cubic" : ", quadratic") +
-          (tolerance > 0 ? ", skipping" : ""),
-        bench, field, scene);
-    }
+    Scene scene = sceneOf(viewDirection);
+    scene.interpolation = interpolation;
+    measure(medium + (interpolation == Interpolation::Cubic ? ", cubic" : ", quadratic"), bench,
+      field, scene);
   }
   Scene scene = sceneOf(viewDirection);
   scene.kScale.reset();

@@ -233,7 +233,6 @@ user.save_state("background.pvsm")
 
 # Quality.
 SHOWN = {"StepSize": ("DoubleRangeWidget", "value"), "SamplesPerPixel": ("LineEdit0", "text2"),
-         "HomogeneityTolerance": ("DoubleRangeWidget", "value"),
          "PathModel": ("ComboBox", "currentText"), "Precision": ("ComboBox", "currentText")}
 PRESETS = {}
 for preset in ("Interactive", "Fine", "Publication", "Reference"):

@@ -87,8 +87,7 @@ for data in (image.GetPointData(), image.GetFieldData()):
         if array.GetInformation().Has(vtkDataArray.UNITS_LABEL()):
             units[array.GetName()] = array.GetInformation().Get(vtkDataArray.UNITS_LABEL())
 assert units == {"Intensity": "1", "Deflection": "rad", "OpticalPathDifference": "m",
-                 "Displacement": "data units", "BlockedFraction": "1", "TraceSeconds": "s",
-                 "SkippingBound": "rad"}, units
+                 "Displacement": "data units", "BlockedFraction": "1", "TraceSeconds": "s"}, units
 
 # ParaView's Calculator takes deflections as vectors.
 bent = image_array(plain, "Deflection")

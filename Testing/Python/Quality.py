@@ -69,7 +69,7 @@ bench = Schlieren(source, StepSize=0.5)
 check(bench, "Custom", preset="Interactive", StepSize=0.5)
 bench.Quality = "Reference"
 check(bench, "Reference")
-for name, value in (("PathModel", "Straight"), ("StepSize", 0.3), ("HomogeneityTolerance", 0.3),
+for name, value in (("PathModel", "Straight"), ("StepSize", 0.3),
                     ("SamplesPerPixel", 7), ("Precision", "Single"),
                     ("MediumTolerance", 0.3), ("TargetError", 0.3)):
     before = bench.GetProperty(name).GetData()

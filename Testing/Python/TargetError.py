@@ -34,7 +34,7 @@ def check(source, target, **settings):
     finer = {"StepSize": 0.5 * fact(image, "StepSize"), "SamplesPerPixel": 4 * fact(image, "SamplesPerPixel")}
     k = fact(image, "KScale")
     bench.TargetError = 0
-    bench.HomogeneityTolerance, bench.MediumTolerance = 0, 5e-4
+    bench.MediumTolerance = 5e-4
     for name, value in finer.items():
         setattr(bench, name, value)
     if k > 0:

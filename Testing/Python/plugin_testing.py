@@ -19,8 +19,8 @@ AMPLITUDE = 2.7e-4
 RADIUS = 0.3
 CONSTANT = 2.26e-4
 
-# Whatever the presets are: one ray per pixel, at its centre, in steps of a voxel that skip nothing.
-EVERY_VOXEL = {"SamplesPerPixel": 1, "StepSize": 1, "HomogeneityTolerance": 0}
+# Whatever the presets are: one ray per pixel, at its centre, in steps of a voxel.
+EVERY_VOXEL = {"SamplesPerPixel": 1, "StepSize": 1}
 
 
 def gaussian_column(points=128):

@@ -101,8 +101,6 @@ SCHLIEREN_HD Sample<Real> tensorProduct(const MediumView<Real>& m, const Real* c
 //              of the cell, in [0, 1]
 //   first      where the first sample lies, from there
 //   reach      grid points beyond a cell's corners whose samples have a weight in the cell
-//   steepest   largest |derivative| by an index coordinate where the samples differ by no more than 1: the
-//              largest weight that a difference of neighbours has in it
 //   weights    of the value (w) and of the derivative (d); Real is a number or a pack of numbers
 
 /// Quadratic B-spline (Unser, Aldroubi & Eden 1993): the derivative is continuous, so that no cell
@@ -113,7 +111,6 @@ struct QuadraticInterpolation
   static constexpr bool nearest = true;
   static constexpr int first = -1;
   static constexpr int reach = 1;
-  static constexpr double steepest = 1;
 
   template <class Real>
   SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])
@@ -136,7 +133,6 @@ struct CubicInterpolation
   static constexpr bool nearest = false;
   static constexpr int first = -1;
   static constexpr int reach = 1;
-  static constexpr double steepest = 0.75;
 
   template <class Real>
   SCHLIEREN_HD static void weights(const Real& f, Real (&w)[points], Real (&d)[points])

@@ -41,7 +41,7 @@ struct MediumArrays
 };
 
 /// Traces rays on the CUDA device that cudaAvailable has chosen. Holds in its memory what rays need, from pass to pass: the medium,
-/// the homogeneity map, the gradients of fields. Throws DeviceError, OutOfDeviceMemory where the medium does not fit.
+/// the gradients of fields. Throws DeviceError, OutOfDeviceMemory where the medium does not fit.
 template <class Real>
 class CudaTracer
 {

@@ -97,20 +97,6 @@ struct CudaTracer<Real>::DeviceMemory
   };
   std::unique_ptr<Tree> tree;
 
-  struct Map
-  {
-    Map(const HomogeneityView& view, double toleranceOfView)
-      : tolerance(toleranceOfView)
-      , levels(view.levels,
-          static_cast<std::size_t>(view.bricks[0] * view.bricks[1] * view.bricks[2]),
-          "Copying the homogeneity map")
-    {
-    }
-    double tolerance;
-    CudaBuffer<std::uint8_t> levels;
-  };
-  std::unique_ptr<Map> map;
-
   struct Gradients
   {
     Gradients(const FieldGradientsView& view, std::uint64_t versionOfValues)
@@ -180,15 +166,6 @@ struct CudaTracer<Real>::DeviceMemory
   {
     RayTask<Real> onDevice = task;
     onDevice.medium = view;
-    if (task.map.levels != nullptr)
-    {
-      if (!map || map->tolerance != versions.homogeneityTolerance)
-      {
-        map.reset();
-        map = std::make_unique<Map>(task.map, versions.homogeneityTolerance);
-      }
-      onDevice.map.levels = map->levels.data();
-    }
     if (tree && task.gradients.count > 0)
     {
       onDevice.gradients.values = tree->gradients->data() + tree->firstGradient;

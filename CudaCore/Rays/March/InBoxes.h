@@ -6,10 +6,14 @@
 
 #include "Math/Pack.h"
 #include "Math/Vec3.h"
-#include "Medium/HomogeneityMap.h"
+
+#include <limits>
 
 namespace schlieren
 {
+
+template <class Real>
+constexpr Real infinite = std::numeric_limits<Real>::infinity();
 
 /// NaN becomes 0.
 template <class Real, class Number>

@@ -146,15 +146,11 @@ std::int32_t stepLimitOf(
 } // namespace
 
 template <class Real>
-RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
-  const FieldGradientsView& gradients, const Light& light, const RaySettings& settings)
+RayTask<Real> makeTask(const Medium<Real>& medium, const FieldGradientsView& gradients,
+  const Light& light, const RaySettings& settings)
 {
   RayTask<Real> task{};
   task.medium = medium.view();
-  if (map != nullptr)
-  {
-    task.map = map->view();
-  }
   if (gradients.count > 0)
   {
     task.gradients = gradients;
@@ -197,9 +193,9 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* m
   return task;
 }
 
-template RayTask<float> makeTask(const Medium<float>&, const HomogeneityMap<float>*,
-  const FieldGradientsView&, const Light&, const RaySettings&);
-template RayTask<double> makeTask(const Medium<double>&, const HomogeneityMap<double>*,
-  const FieldGradientsView&, const Light&, const RaySettings&);
+template RayTask<float> makeTask(
+  const Medium<float>&, const FieldGradientsView&, const Light&, const RaySettings&);
+template RayTask<double> makeTask(
+  const Medium<double>&, const FieldGradientsView&, const Light&, const RaySettings&);
 
 } // namespace schlieren

@@ -29,20 +29,18 @@ struct RaySettings
   KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };
   double stepVoxels = 1;
   double adaptiveTolerance = usualTolerance;
-  double homogeneityTolerance = 0; ///< see Scene; 0: nothing is skipped
-  double lengthScale = 1;          ///< metres per data unit
+  double lengthScale = 1; ///< metres per data unit
 };
 
-/// `map`: null where nothing is to be skipped. Both stay the caller's.
+/// Both stay the caller's.
 template <class Real>
-RayTask<Real> makeTask(const Medium<Real>& medium, const HomogeneityMap<Real>* map,
-  const FieldGradientsView& gradients, const Light& light, const RaySettings& settings);
+RayTask<Real> makeTask(const Medium<Real>& medium, const FieldGradientsView& gradients,
+  const Light& light, const RaySettings& settings);
 
 /// What of a task is sent elsewhere again only when this changes; the medium apart.
 struct TaskVersions
 {
-  std::uint64_t gradients;     ///< of FieldGradients
-  double homogeneityTolerance; ///< that the map was made for
+  std::uint64_t gradients; ///< of FieldGradients
 };
 
 } // namespace schlieren

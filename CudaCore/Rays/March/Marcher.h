@@ -25,38 +25,11 @@ struct March : RaysInMedium<Kernel, Real, May>
   using Base = RaysInMedium<Kernel, Real, May>;
   using Base::areUnderWay, Base::batch, Base::cruise, Base::domainHigh, Base::domainLow,
     Base::finish, Base::forRays, Base::in, Base::inGas, Base::isAdaptive, Base::isConstant,
-    Base::isGathering, Base::isTree, Base::lanes, Base::light, Base::nextLook, Base::nextStep,
-    Base::ray, Base::someConstant, Base::someNearEdge, Base::someNearEnd, Base::steps,
-    Base::stepsInLeaves, Base::stepsToFirst, Base::stepsToLast, Base::takeLeaves, Base::task,
-    Base::withinLeaf;
+    Base::isGathering, Base::isTree, Base::lanes, Base::light, Base::nextStep, Base::ray,
+    Base::someConstant, Base::someNearEdge, Base::someNearEnd, Base::steps, Base::stepsInLeaves,
+    Base::stepsToFirst, Base::stepsToLast, Base::takeLeaves, Base::task, Base::withinLeaf;
   using Base::Base;
   using typename Base::Batch, typename Base::Number, typename Base::Path, typename Base::Integrator;
-
-  /// Up to the far side of the homogeneous cubes that the rays are in, where that is further. Returns
-  /// whether there is any such cube.
-  SCHLIEREN_HD bool lengthen(Real& step, const Vec3<Real>& x, const Vec3<Real>& along) const
-  {
-    Number low[3][lanes]{}, edge[lanes]{};
-    forRays(clampTo(x, task.medium.leafHigh), step,
-      [&](int i, const Vec3<Number>& at, Number)
-      {
-        const HomogeneousCube<Number> cube = homogeneousCube(task.map, at);
-        low[0][i] = cube.low.x;
-        low[1][i] = cube.low.y;
-        low[2][i] = cube.low.z;
-        edge[i] = cube.edge;
-      });
-    const Real edges = fromArray<Real>(edge);
-    const auto isIn = edges > 0;
-    if (!any(isIn))
-    {
-      return false;
-    }
-    const Vec3<Real> lows = packsOf<Real>(low);
-    const Real far = wayOut(x, along, lows, lows + Vec3<Real>{ edges, edges, edges });
-    step = isIn ? maximum(step, far) : step;
-    return true;
-  }
 
   /// Shortens the usual step, which in leaves of one layer, or of flat voxels, may lead far beyond the domain.
   SCHLIEREN_HD Real stepWithinDomain() const
@@ -257,8 +230,7 @@ struct March : RaysInMedium<Kernel, Real, May>
   /// Whether rays meet nothing but the medium's samples.
   SCHLIEREN_HD bool isPlain() const
   {
-    return !someConstant && !someNearEdge && task.map.levels == nullptr &&
-      task.medium.solid == nullptr;
+    return !someConstant && !someNearEdge && task.medium.solid == nullptr;
   }
 
   /// The next step of the rays that are under way.
@@ -279,16 +251,11 @@ struct March : RaysInMedium<Kernel, Real, May>
   /// Looks at all that a ray may meet.
   SCHLIEREN_HD NextStep chooseStep()
   {
-    constexpr int stepsBetweenLooks = 3;
     const Real usual = isTree() ? settle() : cruise;
     const Vec3<Real> x = Path::position(ray, light);
     const Vec3<Real> along = Path::along(ray, light);
     NextStep next{ isAdaptive ? minimum(usual, nextStep) : usual, x, usual < usual, false };
     Real& step = next.step;
-    if (May::anImage && !isAdaptive && task.map.levels != nullptr && steps >= nextLook)
-    {
-      nextLook = steps + (lengthen(step, x, along) ? 1 : stepsBetweenLooks);
-    }
     next.leaving = insetOf(x + step * along, domainLow, domainHigh) < 0;
     next.someLeave = any(next.leaving);
     if (next.someLeave)

@@ -4,7 +4,7 @@
 // What rays are traced by, and what becomes of them.
 #pragma once
 
-#include "Medium/HomogeneityMap.h"
+#include "Medium/Medium.h"
 #include "Medium/Samples/FieldGradients.h"
 #include "Rays/Light.h"
 #include "Rays/March/Integrators.h"
@@ -29,7 +29,6 @@ struct RayTask
 {
   KernelChoice kernel;
   MediumView<Number> medium;
-  HomogeneityView map; ///< levels null: no cube is skipped
   FieldGradientsView gradients;
   Light light;
   Vec3<Number> indexScale; ///< of the light

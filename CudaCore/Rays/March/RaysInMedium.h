@@ -59,7 +59,6 @@ struct RaysInMedium
   Real cruise;    ///< the usual step; 0 for rays that are not under way
   Real nextStep;  ///< Adaptive: no longer than this
   std::int32_t steps = 0;
-  std::int32_t nextLook = 0; ///< at the homogeneity map
   bool areUnderWay = false;
 
   // Rays are distinguished by masks, or in arrays, but never by an index into a pack: that would keep the

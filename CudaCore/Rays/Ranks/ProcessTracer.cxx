@@ -109,7 +109,7 @@ struct ProcessTracer<Real>::State
     std::uint64_t version = 0;
   };
   std::array<ArrayOfTask, arraysOfTask> arrays;
-  TaskVersions versions{ 0, -1 };
+  TaskVersions versions{ 0 };
   bool hasFieldsOfTree = false;
 
   static std::uint64_t newVersion()
@@ -145,8 +145,8 @@ struct ProcessTracer<Real>::State
       set(3, medium.tree->roots());
       set(4, medium.tree->children());
       set(5, medium.tree->gasDistances());
-      set(7, medium.tree->gradientValues());
-      set(8, medium.tree->gradientBricks());
+      set(6, medium.tree->gradientValues());
+      set(7, medium.tree->gradientBricks());
     }
     hasFieldsOfTree = medium.tree != nullptr;
   }
@@ -154,19 +154,12 @@ struct ProcessTracer<Real>::State
   /// Finds the arrays of a task that are not the medium's: each bench that uses the medium has its own gradients.
   void update(const RayTask<Real>& task, const TaskVersions& now)
   {
-    if (task.map.levels != nullptr && versions.homogeneityTolerance != now.homogeneityTolerance)
-    {
-      const std::int64_t* bricks = task.map.bricks;
-      arrays[6].version = 0;
-      set(6, task.map.levels, static_cast<std::size_t>(bricks[0] * bricks[1] * bricks[2]));
-      versions.homogeneityTolerance = now.homogeneityTolerance;
-    }
     const FieldGradientsView& fields = task.gradients;
     if (!hasFieldsOfTree && fields.count > 0 &&
-      (arrays[7].first != fields.values || versions.gradients != now.gradients))
+      (arrays[6].first != fields.values || versions.gradients != now.gradients))
     {
-      arrays[7].version = 0;
-      set(7, fields.values,
+      arrays[6].version = 0;
+      set(6, fields.values,
         static_cast<std::size_t>(fields.count * fields.planeStride * (fields.lastCell[2] + 2)));
       versions.gradients = now.gradients;
     }

@@ -21,7 +21,7 @@ namespace schlieren
 {
 
 /// The arrays that a task points to.
-constexpr std::size_t arraysOfTask = 9;
+constexpr std::size_t arraysOfTask = 8;
 constexpr std::size_t samplesOfTask = 0;
 
 /// Calls visit(number of the array, pointer to where the task needs it).
@@ -34,9 +34,8 @@ void forArrays(RayTask<Real>& task, const Visit& visit)
   visit(3, task.medium.finder.roots);
   visit(4, task.medium.finder.children);
   visit(5, task.medium.gasDistances);
-  visit(6, task.map.levels);
-  visit(7, task.gradients.values);
-  visit(8, task.gradients.bricks);
+  visit(6, task.gradients.values);
+  visit(7, task.gradients.bricks);
 }
 
 /// The beginning of a message with a piece of an array, which follows. Pieces come in their order; so neither side has a

@@ -361,7 +361,6 @@ bool vtkSchlierenFilter::Show(
     this->KeepFound(image);
   }
   const bool isKept = choosesK(*this) && this->GetLockedK() > 0;
-  dropIdleBounds(image);
   // Waves are made of a finished image.
   const bool isStillOfRays =
     lightModelOf(*this) == schlieren::LightModel::Waves && (!isWhole || !image.finished);

@@ -128,15 +128,6 @@ double largestLength(const schlieren::PixelArray<float>& pairs)
   return std::sqrt(largestSquare);
 }
 
-void dropIdleBounds(schlieren::Image& image)
-{
-  constexpr double unknown = std::numeric_limits<double>::infinity();
-  if (image.skippingBound > 0 && image.skippingBound >= largestLength(image.deflection))
-  {
-    image.skippingBound = unknown;
-  }
-}
-
 void setOutput(vtkImageData* output, schlieren::Image& image)
 {
   output->SetExtent(0, image.width - 1, 0, image.height - 1, 0, 0);
@@ -182,10 +173,6 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
   addFieldValue<vtkTypeInt64Array>(output, "RaysLost", image.raysLost);
   addFieldValue<vtkTypeInt64Array>(output, "StepsTaken", image.stepsTaken);
   addWithUnit(output, "TraceSeconds", image.traceSeconds, "s");
-  if (std::isfinite(image.skippingBound))
-  {
-    addWithUnit(output, "SkippingBound", image.skippingBound, "rad");
-  }
   addFieldValue<vtkDoubleArray>(output, "MomentumDrift", image.momentumDrift);
   addWaves(output, image);
   if (image.accuracy.target > 0)

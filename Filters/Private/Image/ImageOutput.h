@@ -14,12 +14,8 @@ namespace filters
 /// Returns the length of the longest of an array of pairs; 0 if there are none.
 double largestLength(const schlieren::PixelArray<float>& pairs);
 
-/// Sets the bound of the error of skipping to infinity if it may exceed the largest deflection,
-/// because it is then not useful.
-void dropIdleBounds(schlieren::Image& image);
-
 /// Makes `output` the image with the arrays and field data that vtkSchlierenFilter promises, except
-/// Color, Grid and infinite bounds. Moves all of the image's arrays but `color`.
+/// Color and Grid. Moves all of the image's arrays but `color`.
 void setOutput(vtkImageData* output, schlieren::Image& image);
 
 /// The mapping of light to the bytes of Color.

@@ -213,7 +213,6 @@ schlieren::Scene sceneFrom(
   scene.samplesPerPixel = settings.SamplesPerPixel;
   scene.pathModel = static_cast<schlieren::PathModel>(settings.PathModel);
   scene.stepSize = settings.StepSize;
-  scene.homogeneityTolerance = settings.HomogeneityTolerance;
   scene.precision = static_cast<schlieren::Precision>(settings.Precision);
   scene.mediumTolerance = settings.MediumTolerance;
   scene.targetError = settings.TargetError < 0

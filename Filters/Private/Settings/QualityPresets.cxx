@@ -39,11 +39,10 @@ constexpr double twofold = numberOf(schlieren::Precision::Double);
   }
 
 // clang-format off
-const std::array<QualitySetting, 7> qualitySettings{
+const std::array<QualitySetting, 6> qualitySettings{
   //                            Interactive  Fine       Publication  Reference  Automatic
   SETTING(PathModel,            refracted,   refracted, refracted,   refracted, refracted),
   SETTING(StepSize,             2,           1,         1,           1,         2),
-  SETTING(HomogeneityTolerance, 1e-3,        0,         0,           0,         0),
   SETTING(SamplesPerPixel,      1,           4,         16,          64,        1),
   SETTING(Precision,            single,      single,    single,      twofold,   single),
   SETTING(MediumTolerance,      0.003,       0.003,     0.001,       0.001,     0.003),

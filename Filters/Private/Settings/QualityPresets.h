@@ -19,7 +19,7 @@ struct QualitySetting
 };
 
 /// The only definition of the presets; the XML's defaults equal the first one.
-extern const std::array<QualitySetting, 7> qualitySettings;
+extern const std::array<QualitySetting, 6> qualitySettings;
 
 /// What is measured of a preset; see quality.md.
 struct QualityError

@@ -4,7 +4,7 @@
 // that they are made from.
 #include "Device/Parallel.h"
 #include "Fields.h"
-#include "Medium/HomogeneityMap.h"
+#include "Medium/Medium.h"
 #include "PeakMemory.h"
 
 #include <algorithm>
@@ -47,12 +47,10 @@ double peakOf(const Field& field, Interpolation interpolation, int threads)
 {
   const PeakMemory peak;
   const Medium<float> medium = buildMedium<float>(field, interpolation, threads);
-  const HomogeneityMap<float> map = buildHomogeneityMap(medium, interpolation, 1e-6f, threads);
-  EXPECT_FALSE(map.levels.empty());
   return static_cast<double>(peak.bytes());
 }
 
-TEST(Memory, OfTheMediumAndItsMapIsThatOfTheSamplesAndAThird)
+TEST(Memory, OfTheMediumIsThatOfTheSamplesAndAThird)
 {
   for (const std::int64_t n : { 64, 101 })
   {
@@ -80,7 +78,7 @@ TEST(Memory, OfTheMediumAndItsMapIsThatOfTheSamplesAndAThird)
   }
 }
 
-/// All of it: medium, map, rays, film and the image that is handed out.
+/// All of it: medium, rays, film and the image that is handed out.
 TEST(Memory, OfAImageIsThatOfTheSamplesAndAThird)
 {
   const SampledField<float> field(
@@ -91,7 +89,6 @@ TEST(Memory, OfAImageIsThatOfTheSamplesAndAThird)
   scene.threads = 2;
   scene.samplesPerPixel = 1;
   scene.stepSize = 16;
-  scene.homogeneityTolerance = 1e-3;
   const PeakMemory peak;
   Bench bench;
   bench.render(field.field, scene);

@@ -66,7 +66,6 @@ TEST(Processes, ChangesNoBitOfAnImage)
   const BlobWithHole flow;
   Scene scene = oblique();
   expectSameOf(flow.tinted(), scene);
-  scene.homogeneityTolerance = 1e-3;
   scene.precision = Precision::Double;
   expectSameOf(flow.tinted(), scene);
 }

@@ -66,7 +66,6 @@ Image truthOf(const Field& field, Scene scene, const Image& image)
   scene.stepSize = std::max(finestStep, 0.25 * image.stepSize);
   scene.mediumTolerance = 2e-4;
   scene.adaptiveTolerance = 1e-7;
-  scene.homogeneityTolerance = 0;
   scene.pathModel = PathModel::Refracted;
   scene.integrator = Integrator::Adaptive;
   scene.samplesPerPixel =

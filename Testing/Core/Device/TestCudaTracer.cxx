@@ -3,7 +3,7 @@
 // The same per-ray code runs on both; only the compilers' rounding differs.
 #include "AnalyticSources.h"
 #include "Fields.h"
-#include "Medium/HomogeneityMap.h"
+#include "Medium/Medium.h"
 #include "Optics/DeflectionHistogram.h"
 #include "Rays/Cpu/CpuTracer.h"
 #include "Rays/Cuda/CudaTracer.h"
@@ -36,7 +36,7 @@ double blob(double x, double y, double z)
 template <class Real>
 struct Bundle
 {
-  Bundle(const KernelChoice& kernel, double homogeneityTolerance = 0, bool hasBall = false)
+  Bundle(const KernelChoice& kernel, bool hasBall = false)
     : field(cube(30, 1), blob)
   {
     field.field.ambient = 0;
@@ -63,25 +63,19 @@ struct Bundle
     light = collimatedLight(field.field.grid, frameOf(field.field.grid, view));
     medium =
       std::make_unique<Medium<Real>>(buildMedium<Real>(field.field, kernel.interpolation, 1));
-    if (homogeneityTolerance > 0)
-    {
-      map = std::make_unique<HomogeneityMap<Real>>(buildHomogeneityMap(
-        *medium, kernel.interpolation, static_cast<Real>(homogeneityTolerance), 1));
-    }
   }
 
   RayTask<Real> task(int fields = 0) const
   {
     const FieldGradients view{ fields, gradients.data(), 1 };
-    return makeTask<Real>(
-      *medium, map.get(), FieldGradientsView::of(field.field.grid, view), light, settings);
+    return makeTask<Real>(*medium, FieldGradientsView::of(field.field.grid, view), light, settings);
   }
 
   TracedPass onHost(const RayTask<Real>& task) const
   {
     TracedPass traced;
     traced.resize(pass, task.gradients.count);
-    traceOnCpu(task, pass, traced, 1, {}, Simd::None); // packs look for cubes together
+    traceOnCpu(task, pass, traced, 1, {}, Simd::None);
     return traced;
   }
 
@@ -89,7 +83,7 @@ struct Bundle
   {
     TracedPass traced;
     CudaTracer<Real> tracer(*medium);
-    tracer.trace(task, pass, { 1, 1 }, CudaTracer<Real>::Exits::OnHost, traced, {});
+    tracer.trace(task, pass, { 1 }, CudaTracer<Real>::Exits::OnHost, traced, {});
     return traced;
   }
 
@@ -99,7 +93,6 @@ struct Bundle
   RaySettings settings;
   Light light;
   std::unique_ptr<Medium<Real>> medium;
-  std::unique_ptr<HomogeneityMap<Real>> map;
 };
 
 /// How far rays differ, by the largest value of all.
@@ -151,17 +144,17 @@ std::string name(const KernelChoice& kernel)
 bool mayBranch(const KernelChoice& kernel) { return kernel.integrator == Integrator::Adaptive; }
 
 template <class Real>
-void expectAgreement(const KernelChoice& kernel, double allowed, double tolerance)
+void expectAgreement(const KernelChoice& kernel, double allowed)
 {
-  SCOPED_TRACE(name(kernel) + ", tolerance " + std::to_string(tolerance));
-  const Bundle<Real> bundle(kernel, tolerance);
+  SCOPED_TRACE(name(kernel));
+  const Bundle<Real> bundle(kernel);
   const RayTask<Real> task = bundle.task();
   const TracedPass host = bundle.onHost(task);
   const TracedPass device = bundle.onDevice(task);
   ASSERT_EQ(host.exits.size(), device.exits.size());
   const Differences deflection(host, device, allowed, deflectionOf);
   const Differences opticalPath(host, device, allowed, opticalPathOf);
-  if (mayBranch(kernel) || tolerance > 0)
+  if (mayBranch(kernel))
   {
     EXPECT_LT(deflection.fraction, 0.02);
     EXPECT_LT(deflection.worst, 0.05);
@@ -203,8 +196,8 @@ TEST_F(HostAndDeviceRays, AgreeForEveryKernel)
   forKernels(
     [](const KernelChoice& kernel)
     {
-      expectAgreement<float>(kernel, 1e-5, 0);
-      expectAgreement<double>(kernel, 1e-12, 0);
+      expectAgreement<float>(kernel, 1e-5);
+      expectAgreement<double>(kernel, 1e-12);
     });
 }
 
@@ -234,29 +227,10 @@ TEST_F(HostAndDeviceRays, AreCountedAlike)
   }
 }
 
-TEST_F(HostAndDeviceRays, AgreeWhereTheySkip)
-{
-  constexpr double tolerance = 1e-6;
-  for (const Interpolation interpolation : allInterpolations)
-  {
-    const KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, interpolation };
-    expectAgreement<float>(kernel, 1e-5, tolerance);
-    expectAgreement<double>(kernel, 1e-12, tolerance);
-    const auto stepsOf = [&](double skipping)
-    {
-      const Bundle<float> bundle(kernel, skipping);
-      const TracedPass traced = bundle.onDevice(bundle.task());
-      return std::accumulate(traced.exits.begin(), traced.exits.end(), std::int64_t{ 0 },
-        [](std::int64_t sum, const RayExit& exit) { return sum + exit.steps; });
-    };
-    EXPECT_LT(stepsOf(tolerance), 0.9 * static_cast<double>(stepsOf(0)));
-  }
-}
-
 TEST_F(HostAndDeviceRays, EndInTheSameBodies)
 {
   const Bundle<double> bundle(
-    { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic }, 0, true);
+    { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic }, true);
   const TracedPass host = bundle.onHost(bundle.task());
   const TracedPass device = bundle.onDevice(bundle.task());
   const auto blocked = [](const TracedPass& traced)
@@ -349,11 +323,11 @@ void expectAgreementInATree(Interpolation interpolation, double allowed)
       {
         field.gradients.count = fields;
         const RayTask<Real> task =
-          makeTask<Real>(medium, nullptr, medium.gradientsOf(field), light, settings);
+          makeTask<Real>(medium, medium.gradientsOf(field), light, settings);
         TracedPass host, device;
         host.resize(pass, fields);
         traceOnCpu(task, pass, host, 1, {}, Simd::None);
-        tracer.trace(task, pass, { 1, 1 }, CudaTracer<Real>::Exits::OnHost, device, {});
+        tracer.trace(task, pass, { 1 }, CudaTracer<Real>::Exits::OnHost, device, {});
         ASSERT_EQ(host.exits.size(), device.exits.size());
         const Differences deflection(host, device, allowed, deflectionOf);
         EXPECT_LT(deflection.fraction, 0.02); // steps begin at leaves, where rounding may decide
@@ -398,7 +372,7 @@ TEST_F(HostAndDeviceRays, AreTheSameWhetherTheyComeBackOrNot)
   using Exits = CudaTracer<float>::Exits;
   std::vector<double> progress;
   TracedPass back, there;
-  EXPECT_TRUE(tracer.trace(task, large, { 1, 1 }, Exits::OnHost, back,
+  EXPECT_TRUE(tracer.trace(task, large, { 1 }, Exits::OnHost, back,
     { [&](double fraction) { progress.push_back(fraction); }, {} }));
   EXPECT_GT(progress.size(), 1u);
   EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
@@ -406,8 +380,8 @@ TEST_F(HostAndDeviceRays, AreTheSameWhetherTheyComeBackOrNot)
   EXPECT_FALSE(back.onDevice);
 
   EXPECT_FALSE(
-    tracer.trace(task, large, { 1, 1 }, Exits::OnDevice, there, { {}, [] { return true; } }));
-  EXPECT_TRUE(tracer.trace(task, large, { 1, 1 }, Exits::OnDevice, there, {}));
+    tracer.trace(task, large, { 1 }, Exits::OnDevice, there, { {}, [] { return true; } }));
+  EXPECT_TRUE(tracer.trace(task, large, { 1 }, Exits::OnDevice, there, {}));
   ASSERT_TRUE(there.onDevice);
   EXPECT_TRUE(there.exits.empty());
   EXPECT_EQ(there.crossed, back.crossed);
@@ -429,14 +403,14 @@ TEST_F(HostAndDeviceRays, AreTheSameInOnePassOrMany)
   CudaTracer<float> tracer(*bundle.medium);
   constexpr auto onHost = CudaTracer<float>::Exits::OnHost;
   TracedPass onDevice, onCpu;
-  EXPECT_TRUE(tracer.trace(task, passes, { 1, 1 }, onHost, onDevice, {}));
+  EXPECT_TRUE(tracer.trace(task, passes, { 1 }, onHost, onDevice, {}));
   onCpu.resize(passes, 2);
   EXPECT_TRUE(traceOnCpu(task, passes, onCpu, 2, {}));
   TracedPass oneByOne[2];
   for (const Pass& one : passes)
   {
     TracedPass alone[2];
-    tracer.trace(task, one, { 1, 1 }, onHost, alone[0], {});
+    tracer.trace(task, one, { 1 }, onHost, alone[0], {});
     alone[1].resize(one, 2);
     traceOnCpu(task, one, alone[1], 1, {});
     for (std::size_t n = 0; n < 2; ++n)
@@ -460,20 +434,19 @@ TEST_F(HostAndDeviceRays, AreTheSameInOnePassOrMany)
   }
 }
 
-TEST_F(HostAndDeviceRays, FindNewMapsAndGradientsOnTheDevice)
+TEST_F(HostAndDeviceRays, FindNewGradientsOnTheDevice)
 {
   const KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };
-  Bundle<float> bundle(kernel, 1e-7);
+  Bundle<float> bundle(kernel);
   CudaTracer<float> tracer(*bundle.medium);
   using Exits = CudaTracer<float>::Exits;
   TracedPass first, second;
-  EXPECT_TRUE(tracer.trace(bundle.task(2), pass, { 1, 1e-7 }, Exits::OnHost, first, {}));
-  bundle.map->setTolerance(1e-5f, 1);
+  EXPECT_TRUE(tracer.trace(bundle.task(2), pass, { 1 }, Exits::OnHost, first, {}));
   for (float& value : bundle.gradients)
   {
     value *= 2;
   }
-  EXPECT_TRUE(tracer.trace(bundle.task(2), pass, { 2, 1e-5 }, Exits::OnHost, second, {}));
+  EXPECT_TRUE(tracer.trace(bundle.task(2), pass, { 2 }, Exits::OnHost, second, {}));
   const TracedPass fresh = bundle.onDevice(bundle.task(2));
   expectSameBits(second.exits, fresh.exits);
   EXPECT_EQ(second.gathered, fresh.gathered);

@@ -57,7 +57,6 @@ TEST_F(ProcessesOnCuda, ChangesNoBitOfAnImage)
 {
   expectSameOf(flow_.field); // rays stay on the device
   expectSameOf(flow_.tinted());
-  scene_.homogeneityTolerance = 1e-3;
   scene_.precision = Precision::Double;
   expectSameOf(flow_.tinted());
 }

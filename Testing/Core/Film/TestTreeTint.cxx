@@ -83,8 +83,8 @@ struct Gathering
   void trace(const RaySettings& rays, Simd simd = bestSimd())
   {
     traced.resize(pass, field.gradients.count);
-    traceOnCpu(makeTask<Real>(medium, nullptr, medium.gradientsOf(field), light, rays), pass,
-      traced, 2, {}, simd);
+    traceOnCpu(
+      makeTask<Real>(medium, medium.gradientsOf(field), light, rays), pass, traced, 2, {}, simd);
   }
 
   /// The largest difference of what a field lets rays gather from truth(a place of the ray, its direction).

@@ -121,7 +121,7 @@ TYPED_TEST(Addresses, ReachBeyondTwoThousandMillionSamples)
           std::to_string(static_cast<int>(simd)));
         RaySettings settings;
         settings.kernel = { PathModel::Refracted, integrator, interpolation };
-        RayTask<Real> task = makeTask<Real>(medium, nullptr, {}, light, settings);
+        RayTask<Real> task = makeTask<Real>(medium, {}, light, settings);
         task.medium = volume.view();
         TracedPass traced;
         traced.resize(pass, 0);

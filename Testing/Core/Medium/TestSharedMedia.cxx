@@ -212,25 +212,6 @@ TEST(SharedMedia, GoesWithItsLastUser)
   EXPECT_EQ(media->count(), 0);
 }
 
-TEST(SharedMedia, ToleranceOfSkippingIsThatOfEach)
-{
-  const SampledField<float> data = blobField(48);
-  Together together;
-  Scene exact = sceneTowards(front), skipping = exact;
-  skipping.homogeneityTolerance = 0.01;
-  Scene coarse = exact;
-  coarse.homogeneityTolerance = 0.1;
-  for (int turn = 0; turn < 2; ++turn)
-  {
-    exact.seed = skipping.seed = coarse.seed = static_cast<std::uint32_t>(turn + 1);
-    expectSameImage(
-      together.first.render(data.field, skipping), Bench().render(data.field, skipping));
-    expectSameImage(together.second.render(data.field, coarse), Bench().render(data.field, coarse));
-    expectSameImage(together.third.render(data.field, exact), Bench().render(data.field, exact));
-  }
-  EXPECT_EQ(together.builds(), 1);
-}
-
 TEST(SharedMedia, AnImageInPiecesIsTheSameWhateverOthersDoMeanwhile)
 {
   const Scene scene = sceneTowards(front);

@@ -56,7 +56,6 @@ protected:
     Scene scene;
     scene.device = GetParam();
     scene.pathModel = PathModel::Refracted;
-    scene.homogeneityTolerance = 0;
     scene.view = view;
     return scene;
   }

@@ -3,7 +3,7 @@
 //
 // Rays side by side do what a ray does alone.
 #include "Fields.h"
-#include "Medium/HomogeneityMap.h"
+#include "Medium/Medium.h"
 #include "Rays/Cpu/CpuTracer.h"
 #include "Rays/March/MakeTask.h"
 
@@ -52,23 +52,16 @@ struct Traced
 };
 
 template <class Real>
-Traced traceWith(Simd simd, const Field& field, const RaySettings& settings, double tolerance,
-  const LightSource& source)
+Traced traceWith(
+  Simd simd, const Field& field, const RaySettings& settings, const LightSource& source)
 {
   const Medium<Real> medium = buildMedium<Real>(field, settings.kernel.interpolation, 1);
-  HomogeneityMap<Real> map;
-  if (tolerance > 0)
-  {
-    map = buildHomogeneityMap<Real>(
-      medium, settings.kernel.interpolation, static_cast<Real>(tolerance), 1);
-  }
   View view;
   view.viewDirection = { -0.5, 0.3, -0.7 };
   view.width = 37; // no multiple of a block, nor of a tile
   view.height = 29;
   const Light light = lightFrom(source, 0, field.grid, view, frameOf(field.grid, view));
-  const RayTask<Real> task =
-    makeTask<Real>(medium, tolerance > 0 ? &map : nullptr, FieldGradientsView{}, light, settings);
+  const RayTask<Real> task = makeTask<Real>(medium, FieldGradientsView{}, light, settings);
   Traced traced;
   Pass pass{ -2, -3, 41, 35, { 0.25, -0.125 } };
   if (source.shape != SourceShape::Point)
@@ -86,16 +79,15 @@ Traced traceWith(Simd simd, const Field& field, const RaySettings& settings, dou
 }
 
 template <class Real>
-void expectSame(
-  const RaySettings& settings, double tolerance, double kinks, const LightSource& source = {})
+void expectSame(const RaySettings& settings, double kinks, const LightSource& source = {})
 {
   const SampledField<double> field = blob();
-  const Traced alone = traceWith<Real>(Simd::None, field.field, settings, tolerance, source);
+  const Traced alone = traceWith<Real>(Simd::None, field.field, settings, source);
   ASSERT_GT(alone.largest, 0.01);
   for (const Simd simd : levels())
   {
     SCOPED_TRACE("simd " + std::to_string(static_cast<int>(simd)));
-    const Traced packed = traceWith<Real>(simd, field.field, settings, tolerance, source);
+    const Traced packed = traceWith<Real>(simd, field.field, settings, source);
     const double allowed =
       std::max(2e3 * static_cast<double>(std::numeric_limits<Real>::epsilon()), kinks) *
       alone.largest;
@@ -113,7 +105,7 @@ void expectSame(
       different += a.steps != b.steps ? 1 : 0;
     }
     // Where a step ends next to the grid's side, rounding decides about one more.
-    if (tolerance == 0 && settings.kernel.integrator != Integrator::Adaptive)
+    if (settings.kernel.integrator != Integrator::Adaptive)
     {
       EXPECT_LE(different, static_cast<int>(alone.pass.exits.size()) / 50);
     }
@@ -136,8 +128,8 @@ TEST(Simd, RaysSideBySideDoWhatOneDoes)
         settings.kernel = { path, integrator, interpolation };
         // Adaptive steps differ wherever rounding decides whether one is good enough.
         const double kinks = integrator == Integrator::Adaptive ? 1e-3 : 0;
-        expectSame<float>(settings, 0, kinks);
-        expectSame<double>(settings, 0, kinks);
+        expectSame<float>(settings, kinks);
+        expectSame<double>(settings, kinks);
       }
     }
   }
@@ -156,16 +148,10 @@ TEST(Simd, InclinedRaysSideBySideDoWhatOneDoes)
       SCOPED_TRACE(static_cast<int>(integrator));
       RaySettings settings;
       settings.kernel = { path, integrator, Interpolation::Quadratic };
-      expectSame<float>(settings, 0, integrator == Integrator::Adaptive ? 1e-3 : 0, slit);
-      expectSame<double>(settings, 0, integrator == Integrator::Adaptive ? 1e-3 : 0, slit);
+      expectSame<float>(settings, integrator == Integrator::Adaptive ? 1e-3 : 0, slit);
+      expectSame<double>(settings, integrator == Integrator::Adaptive ? 1e-3 : 0, slit);
     }
   }
-}
-
-TEST(Simd, SkippingRaysStayWithinTheTolerance)
-{
-  RaySettings settings;
-  expectSame<float>(settings, 1e-4, 1e-2);
 }
 
 #ifdef __x86_64__
