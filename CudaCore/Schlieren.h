@@ -165,8 +165,6 @@ struct Scene
   /// PhaseContrast and Interferogram without white light: the light of each pixel is then that of a wave, for which there is one
   /// ray in each pixel. All else of the image remains that of rays.
   LightModel lightModel = LightModel::Rays;
-  double bandwidth =
-    0; ///< full width of the spectrum around wavelength of waves, metres; less than wavelength
   double smoothingRadius =
     0;                     ///< of the image, pixels: twice a Gaussian's standard deviation; 0: none
   int histogramSize = 0;   ///< bins along each axis of Image::histogram; 0: none

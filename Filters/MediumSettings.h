@@ -106,7 +106,6 @@ struct MediumSettings
   std::vector<std::string> Fields;
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
-  int MaskedSide = -1;
   int Symmetry = -1;
   int SymmetryAxis = 0;
   double SymmetryOrigin[3] = { 0, 0, 0 };
@@ -164,7 +163,6 @@ struct MediumSettings
     use("Fields", &S::Fields);
     use("FieldRanges", &S::FieldRanges);
     use("RefractivityScale", &S::RefractivityScale);
-    use("MaskedSide", &S::MaskedSide);
     use("Symmetry", &S::Symmetry);
     use("SymmetryAxis", &S::SymmetryAxis);
     use("SymmetryOrigin", &S::SymmetryOrigin);

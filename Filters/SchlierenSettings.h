@@ -133,7 +133,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   int SourceShape = 0;
   double SourceLength = 10;
   int LightModel = 0;
-  double Bandwidth = 0;
   double PhasePlateDiameter = 0;
   double PhasePlateDelay = 0.25;
   double PhasePlateTransmission = 1;
@@ -186,7 +185,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
     use("SourceShape", &S::SourceShape);
     use("SourceLength", &S::SourceLength);
     use("LightModel", &S::LightModel);
-    use("Bandwidth", &S::Bandwidth);
     use("PhasePlateDiameter", &S::PhasePlateDiameter);
     use("PhasePlateDelay", &S::PhasePlateDelay);
     use("PhasePlateTransmission", &S::PhasePlateTransmission);

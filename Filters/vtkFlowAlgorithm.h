@@ -203,18 +203,6 @@ public:
   vtkSetMacro(RefractivityScale, double);
   vtkGetMacro(RefractivityScale, double);
 
-  /// Values of MaskedSide.
-  enum MaskedSides
-  {
-    MASKED_AUTO = -1,
-    MASKED_ABOVE = 0,
-    MASKED_BELOW = 1
-  };
-
-  /// Auto: the side that the name of Mask means, Above where it is not known. Default: Auto.
-  vtkSetClampMacro(MaskedSide, int, MASKED_AUTO, MASKED_BELOW);
-  vtkGetMacro(MaskedSide, int);
-
   /// Values of Symmetry.
   enum Symmetries
   {

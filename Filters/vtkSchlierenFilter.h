@@ -354,11 +354,6 @@ public:
   vtkSetClampMacro(LightModel, int, LIGHT_RAYS, LIGHT_AUTO);
   vtkGetMacro(LightModel, int);
 
-  /// Of waves: full width of the light's spectrum around Wavelength, nanometres; 0: one wavelength.
-  /// Default: 0.
-  vtkSetClampMacro(Bandwidth, double, 0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Bandwidth, double);
-
   /// Of Phase Contrast: diameter of the plate in the middle of the cutoff plane, millimetres, with
   /// Focal Length; 0: only undisturbed light passes it. Default: 0.
   vtkSetClampMacro(PhasePlateDiameter, double, 0, VTK_DOUBLE_MAX);

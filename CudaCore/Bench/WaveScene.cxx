@@ -62,8 +62,7 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
   if (techniqueOf(scene.cutoff).hasFringes && scene.fringes.whiteLight)
   {
     return std::string("LightModel is Waves, but white light has too many wavelengths. Set "
-                       "WhiteLight to off and Bandwidth "
-                       "to what there is,") +
+                       "WhiteLight to off,") +
       orRays(scene);
   }
   const bool isDiverging = frame.pupil > 0 || scene.source.distance;
@@ -83,11 +82,6 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
         std::isfinite(1 / scene.wavelength)))
   {
     return "Wavelength is " + textOf(scene.wavelength) + " metres. Set it to a positive number.";
-  }
-  if (!(scene.bandwidth >= 0 && scene.bandwidth < scene.wavelength))
-  {
-    return "Bandwidth is " + textOf(scene.bandwidth / scene.wavelength) +
-      " times Wavelength. Set it to 0 or more, but to less than Wavelength.";
   }
   const PhasePlate& plate = scene.phasePlate;
   if (scene.cutoff == Cutoff::PhaseContrast &&

@@ -29,13 +29,6 @@ constexpr double raysPerFresnelWidth = 8;
 constexpr int leastRaysPerPixel = 2;
 constexpr int mostRaysPerPixel = 4;
 
-/// How many wavelengths a band is made of: with 8 a band of a fiftieth is right to 2e-4, with 16 one of a fifth to 3e-3.
-int wavelengthsFor(const Scene& scene)
-{
-  constexpr double narrow = 0.03;
-  return scene.bandwidth == 0 ? 1 : scene.bandwidth < narrow * scene.wavelength ? 8 : 16;
-}
-
 /// Rays by which an image's light is traced for waves: those of its centre, on a grid of its own.
 Scene sceneOfRays(const Scene& scene, int raysPerPixel)
 {
@@ -312,31 +305,6 @@ std::vector<float> WaveStage<Real>::makeLight(
 }
 
 template <class Real>
-bool WaveStage<Real>::addWavelengths(
-  const LightAtExit& light, Screen screen, const Monitor& monitor, Image& image) const
-{
-  const Scene& scene = request_.scene;
-  const int count = wavelengthsFor(scene);
-  std::vector<double> sum(image.intensity.size());
-  // The middle one comes last: the report is of it.
-  for (int i = 0; i < count; ++i)
-  {
-    const int number = (i + count / 2 + 1) % count;
-    screen.wavelength = scene.wavelength + scene.bandwidth * ((number + 0.5) / count - 0.5);
-    const std::vector<float> values = makeLight(light, screen, monitor, image);
-    if (values.empty())
-    {
-      return false;
-    }
-    std::transform(values.begin(), values.end(), sum.begin(), sum.begin(),
-      [](float value, double all) { return all + static_cast<double>(value); });
-  }
-  std::transform(sum.begin(), sum.end(), image.intensity.begin(),
-    [count](double all) { return static_cast<float>(all / count); });
-  return true;
-}
-
-template <class Real>
 bool WaveStage<Real>::run(Image& image)
 {
   if (!areWanted(image))
@@ -355,10 +323,12 @@ bool WaveStage<Real>::run(Image& image)
     }
     rays_.finish();
     continueBehindBodies(light);
-    if (!addWavelengths(light, screen, monitor, image))
+    const std::vector<float> values = makeLight(light, screen, monitor, image);
+    if (values.empty())
     {
       return false;
     }
+    std::copy(values.begin(), values.end(), image.intensity.begin());
     image.lightModel = LightModel::Waves;
   }
   catch (const DeviceError&)

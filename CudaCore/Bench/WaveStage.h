@@ -53,12 +53,9 @@ private:
   const TracedPass* tracePass(
     std::int64_t number, const Pass& pass, const RayTask<Real>& task, Image& image);
 
-  /// The light of one wavelength. Empty if aborted.
+  /// Empty if aborted.
   std::vector<float> makeLight(
     const LightAtExit& light, const Screen& screen, const Monitor& monitor, Image& image) const;
-  /// Makes the image of all wavelengths. False if aborted.
-  bool addWavelengths(
-    const LightAtExit& light, Screen screen, const Monitor& monitor, Image& image) const;
 
   const ViewSetup<Real>& view_;
   const Frame& frame_;

@@ -33,7 +33,6 @@ const std::vector<PresetSetting> defaults = {
   { "SourceDistance", 0, nullptr },
   { "SourceShape", Filter::POINT, nullptr },
   { "LightModel", Filter::LIGHT_RAYS, nullptr },
-  { "Bandwidth", 0, nullptr },
   { "PhasePlateDiameter", 0, nullptr },
   { "PhasePlateDelay", 0.25, nullptr },
   { "PhasePlateTransmission", 1, nullptr },

@@ -4,6 +4,7 @@
 
 import base64
 import os
+import re
 import struct
 import zlib
 
@@ -12,7 +13,7 @@ from paraview import simple, smstate
 from plugin_testing import Schlieren, comes_back, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDataArray
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkOutputWindow
 
 
 def png(rows):
@@ -38,7 +39,7 @@ SETTINGS = {"Wavelength": 500.0, "Cutoff": "Color Filter", "KnifeEdgeAngle": 30.
             "SourceWidth": 0.5, "SourceLength": 5.0, "ColorFilterImage": FILTER,
             "FringeSpacing": 0.125, "FringeAngle": 45.0,
             "WhiteLight": 1, "ScreenDistance": 3.0, "FocusOffset": 0.5, "SourceDistance": 30.0, "SourceShape": "Slit", "LightModel": "Waves",
-            "Bandwidth": 5.0, "PhasePlateDiameter": 0.5, "PhasePlateDelay": -0.25,
+            "PhasePlateDiameter": 0.5, "PhasePlateDelay": -0.25,
             "PhasePlateTransmission": 0.5, "BackgroundPattern": "Picture",
             "BackgroundDistance": 4.0, "BackgroundPeriod": 0.25,
             "BackgroundImage": as_text(png([[WHITE, RED]])), "SmoothingRadius": 1.5}
@@ -117,3 +118,20 @@ simple.SaveState("bench.pvsm")
 script = smstate.get_state()
 del plain, made
 comes_back("bench.pvsm", script, check)
+
+# So do state files with properties that there are no more, without a word.
+GONE = ("InvertCutoff", "CutoffPosition", "HomogeneityTolerance", "FullWell", "BitDepth", "Bandwidth", "MaskedSide")
+with open("bench.pvsm", encoding="utf-8") as file:
+    older, count = re.subn(r'<Proxy group="filters" type="Schlieren" id="(\d+)"[^>]*>', lambda proxy: proxy[0] + "".join(
+        f'<Property name="{name}" id="{proxy[1]}.{name}" number_of_elements="1"><Element index="0" value="1"/></Property>'
+        for name in GONE), file.read())
+assert count == 2
+with open("older.pvsm", "w", encoding="utf-8") as file:
+    file.write(older)
+said = []
+for event in ("ErrorEvent", "WarningEvent"):
+    vtkOutputWindow.GetInstance().AddObserver(event, lambda *_: said.append(1))
+simple.ResetSession()
+simple.LoadState(os.path.abspath("older.pvsm"))
+check()
+assert not said

@@ -344,10 +344,6 @@ MediumChoice choiceOf(const MediumSettings& all, const std::vector<FlowArray>& k
     const MaskDefault found = flowMask(known);
     mask = { found.array, -1, found.association == FlowArray::Cells };
   }
-  if (settings.MaskedSide < 0)
-  {
-    settings.MaskedSide = marksGas(mask.name) ? 1 : 0;
-  }
   // Clears the selections that the model does not read, so that they do not affect comparisons.
   const std::vector<std::size_t> read = arraysOfModel(settings);
   for (std::size_t index = 0; index < settings.Arrays.size(); ++index)

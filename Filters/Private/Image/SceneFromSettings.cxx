@@ -185,7 +185,6 @@ schlieren::Scene sceneFrom(
   {
     scene.memoryBudget = std::max(scene.memoryBudget, memoryForWaves());
   }
-  scene.bandwidth = metresPerNanometre * settings.Bandwidth;
   if (scene.cutoff == schlieren::Cutoff::PhaseContrast)
   {
     scene.phasePlate = phasePlateFrom(settings);

@@ -154,7 +154,7 @@ void applyMask(const MediumSettings& settings, bool isChosen,
     isFound = true;
     requireScalars(found[0], { selection }, dataSets);
     const vtkSmartPointer<vtkDataSet> masked =
-      hideMasked(leaf, { found[0].arrays[0], found[0].ofCells, settings.MaskedSide == 0 });
+      hideMasked(leaf, { found[0].arrays[0], found[0].ofCells, !marksGas(selection.name) });
     if (flow.image == leaf.data)
     {
       flow.image = vtkImageData::SafeDownCast(masked);

@@ -177,50 +177,7 @@ const SampledField<double>& weakColumn()
   return field;
 }
 
-/// The mean light of pixels behind a phase on a plane, by many wavelengths and points.
-Numbers lightOfBand(const Image& image, double distance, double bandwidth)
-{
-  constexpr int wavelengths = 48, perPixel = 32;
-  const double spacing = image.frame.pixelSize / perPixel;
-  const Numbers x = places(8192, spacing);
-  Numbers sum(static_cast<std::size_t>(image.width));
-  for (int number = 0; number < wavelengths; ++number)
-  {
-    const double wavelength = green + bandwidth * ((number + 0.5) / wavelengths - 0.5);
-    std::vector<Complex> field;
-    for (const double place : x)
-    {
-      const double path = strongPath * std::exp(-place * place / (radius * radius));
-      field.push_back(std::polar(1., 2 * pi * path / wavelength));
-    }
-    const Numbers light = propagated(field, spacing, distance, 1, 1, wavelength);
-    const std::size_t first = (x.size() - sum.size() * perPixel) / 2;
-    for (std::size_t i = 0; i < sum.size() * perPixel; ++i)
-    {
-      sum[i / perPixel] += light[first + i] / (wavelengths * perPixel);
-    }
-  }
-  return sum;
-}
-
 } // namespace
-
-TEST(WaveStage, BandOfWavelengthsIsTheMeanOfTheirImages)
-{
-  Field field = strongColumn().field;
-  field.ambient = 0;
-  Scene scene = laserShadowgraph();
-  scene.bandwidth = 1e-7;
-  const Image image = Bench().render(field, scene);
-  Numbers seen;
-  for (int i = 0; i < image.width; ++i)
-  {
-    seen.push_back(static_cast<double>(image.intensity[pixelOf(image, i, 48)]));
-  }
-  EXPECT_LT(
-    rms(seen, lightOfBand(image, 0.204, scene.bandwidth)), 0.015); // of a column that is not thin
-  EXPECT_GT(rms(seen, lightOfBand(image, 0.204, 0)), 0.05);
-}
 
 TEST(WaveStage, KnifeEdgeOfAWideSlitIsAsThatOfRays)
 {
@@ -378,36 +335,6 @@ TEST(WaveStage, InterferogramAwayFromFocusIsAsItsClosedForm)
   }
 }
 
-TEST(WaveStage, BandOfWavelengthsTakesFringesTheirContrast)
-{
-  // Beside the column. The tilt is one of paths, so that each wavelength has fringes of its own.
-  Scene scene = laserShadowgraph();
-  scene.cutoff = Cutoff::Interferogram;
-  scene.fringes.finite = true;
-  scene.fringes.spacing = 6e-4;
-  scene.fringes.angle = 90;
-  scene.bandwidth = 5e-8;
-  const Image image = Bench().render(columnInVacuum(), scene);
-  Numbers seen, exact;
-  for (int row = 0; row < image.height; ++row)
-  {
-    seen.push_back(static_cast<double>(image.intensity[pixelOf(image, 1, row)]));
-    const double paths = centreOf(image, 1, row).v / scene.fringes.spacing;
-    const auto light = [&](double wavelength)
-    {
-      const double turns = paths * green / wavelength;
-      const double inPixel = image.frame.pixelSize / scene.fringes.spacing * green / wavelength;
-      return 0.5 * (1 + std::cos(2 * pi * turns) * std::sin(pi * inPixel) / (pi * inPixel));
-    };
-    exact.push_back(
-      integral(light, green - 0.5 * scene.bandwidth, green + 0.5 * scene.bandwidth, 100) /
-      scene.bandwidth);
-  }
-  EXPECT_LT(rms(seen, exact), 2e-3);
-  EXPECT_LT(*std::max_element(seen.begin(), seen.begin() + 12), 0.9);
-  EXPECT_GT(*std::max_element(seen.begin() + 42, seen.begin() + 54), 0.95);
-}
-
 TEST(WaveStage, AllButTheLightIsOfRays)
 {
   Scene scene = laserShadowgraph();
@@ -496,7 +423,6 @@ TEST(WaveStage, WhatCannotBeMadeIsAnError)
         },
         "ExitInto" },
       Case{ [](Scene& scene) { scene.pathModel = PathModel::Straight; }, "PathModel" },
-      Case{ [](Scene& scene) { scene.bandwidth = green; }, "Bandwidth" },
       Case{ [](Scene& scene) { scene.wavelength = 0; }, "Wavelength" },
       Case{ [](Scene& scene) { scene.screenDistance = 1e4; }, "may be used" } })
   {

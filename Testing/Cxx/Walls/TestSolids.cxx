@@ -322,12 +322,11 @@ vtkSmartPointer<vtkSchlierenFilter> maskedBench(
     }
   };
   add(valuesOfCells, "N", values);
-  add(maskOfCells, "mask", mask);
+  const char* name = isOfGas ? "iblank" : "mask";
+  add(maskOfCells, name, mask);
   auto filter = bench(data, 40);
   filter->SetInputArrayToProcess(
-    vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "mask");
-  filter->SetMaskedSide(
-    isOfGas ? vtkRefractiveIndex::MASKED_BELOW : vtkRefractiveIndex::MASKED_ABOVE);
+    vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
   return filter;
 }
 
