@@ -77,9 +77,6 @@ struct MediumSettings
   static constexpr const char* arrayProperties[] = { "Density", "IndexArray", "Temperature",
     "Pressure", "Humidity", "Mask" };
 
-  /// Air in visible light, m^3/kg.
-  static constexpr double defaultConstant = 2.26e-4;
-
   /// Between gas and bodies in a mask.
   static constexpr double maskThreshold = 0.5;
 
@@ -90,8 +87,8 @@ struct MediumSettings
   bool DoublePrecision = false;
   // members: rest
   int IndexModel = -1;
-  std::string Gas = "Custom";
-  double GladstoneDaleConstant = 2.26e-4;
+  std::string Gas = "air";
+  double GladstoneDaleConstant = 0;
   double DensityScale = 0;
   std::vector<std::string> MixtureArrays;
   std::vector<std::string> MixtureGases;
@@ -111,6 +108,8 @@ struct MediumSettings
   double SymmetryOrigin[3] = { 0, 0, 0 };
   // end
 
+  /// Returns whether the gas is one of the user's own: not what is there before a choice.
+  bool hasOneGas() const { return this->Gas != "air" || this->GladstoneDaleConstant != 0; }
   /// Returns whether the model needs a pressure that no array has.
   bool hasUniformPressure() const
   {

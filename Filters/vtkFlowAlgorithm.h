@@ -59,9 +59,6 @@ public:
     MASK = 5      ///< not chosen, "" or "None": gas in all visible cells
   };
 
-  /// Air in visible light, m^3/kg.
-  static constexpr double DefaultGladstoneDaleConstant = MediumSettings::defaultConstant;
-
   // setters: rest
   /// Values of IndexModel.
   enum IndexModels
@@ -82,12 +79,12 @@ public:
   vtkGetMacro(IndexModel, int);
 
   /// The gas whose Gladstone-Dale constant at Wavelength is used, by name or, in scripts, by
-  /// formula (He). Default: Custom.
+  /// formula (He). Default: air.
   vtkSetStdStringFromCharMacro(Gas);
   vtkGetCharFromStdStringMacro(Gas);
 
-  /// K in N = K times density, in m^3/kg (Gladstone and Dale 1863). 2.26e-4 is air in visible
-  /// light; nitrogen has 2.38e-4. Default: 2.26e-4.
+  /// K in N = K times density, in m^3/kg (Gladstone and Dale 1863), of a gas that is not in the
+  /// list of Gas; 0: that of Gas. Default: 0.
   vtkSetMacro(GladstoneDaleConstant, double);
   vtkGetMacro(GladstoneDaleConstant, double);
 

@@ -26,7 +26,7 @@ schlieren.Quality = "Fine"
 # What does not depend on the flow that happens to be there first.
 schlieren.KMode = "Value"
 schlieren.KScale = 400
-schlieren.AmbientRefractivity = 1.2 * schlieren.GladstoneDaleConstant
+schlieren.AmbientRefractivity = 1.2 * 2.26e-4  # of air of 1.2 kg/m^3
 schlieren.FocalPoint = [0.06, 0, 0]
 schlieren.ParallelScale = 0.03
 

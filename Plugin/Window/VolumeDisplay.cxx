@@ -10,6 +10,7 @@
 #include "pqRenderView.h"
 #include "pqServer.h"
 #include "vtkDataObject.h"
+#include "vtkGasTable.h"
 #include "vtkNew.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
@@ -39,7 +40,6 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
   if (array)
   {
     const double* ambient = array->GetComponentFiniteRange(0);
-    const char* gas = vtkSMPropertyHelper(model, "Gas").GetAsString();
     const auto given =
       static_cast<MediumSettings::IndexModels>(vtkSMPropertyHelper(model, "IndexModel").GetAsInt());
     const double scale = vtkSMPropertyHelper(model, "DensityScale").GetAsDouble();
@@ -47,15 +47,14 @@ double ambientValue(vtkSMProxy* model, const FlowDefaults& defaults)
     switch (given < 0 ? defaults.indexModel : given)
     {
       case MediumSettings::GLADSTONE_DALE:
-        if (!gas || !*gas || std::strcmp(gas, "Custom") == 0)
-        {
-          return ambient[0] /
-            (vtkSMPropertyHelper(model, "GladstoneDaleConstant").GetAsDouble() *
-              (scale != 0       ? scale
-                  : byUnit != 0 ? byUnit
-                                : 1));
-        }
-        break;
+      {
+        const double given = vtkSMPropertyHelper(model, "GladstoneDaleConstant").GetAsDouble();
+        const double constant = given != 0
+          ? given
+          : vtkGasTable::GetConstant(vtkSMPropertyHelper(model, "Gas").GetAsString(),
+              vtkSMPropertyHelper(model, "Wavelength").GetAsDouble());
+        return ambient[0] / (constant * (scale != 0 ? scale : byUnit != 0 ? byUnit : 1));
+      }
       case MediumSettings::REFRACTIVE_INDEX:
         return 1 + ambient[0];
       case MediumSettings::REFRACTIVITY:

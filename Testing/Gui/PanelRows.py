@@ -17,10 +17,10 @@ OF_TECHNIQUE = {
 }
 CAMERA = ["FNumber", "SensorWidth"]
 OF_DATA = {
-    "density": ["Density", "Gas", "GladstoneDaleConstant"],
+    "density": ["Density", "Gas"],
     "pt": ["Temperature", "Pressure", "ArraysUsed"],
-    "flat": ["Density", "Gas", "GladstoneDaleConstant", "Symmetry", "Depth"],
-    "mesh": ["Density", "Gas", "GladstoneDaleConstant", "Outside"],
+    "flat": ["Density", "Gas", "Symmetry", "Depth"],
+    "mesh": ["Density", "Gas", "Outside"],
 }
 HAS_PLANE = ["Knife Edge"]
 MOST = 14  # rows with the legend's, without the plane, of any technique and data
@@ -31,7 +31,7 @@ def rows(data, technique):
     wavelength = ["Wavelength"] if technique == "Interferogram" else []
     medium = OF_DATA[data] + wavelength
     if wavelength:  # among others of the medium, as the XML has them
-        medium.sort(key="Density Gas GladstoneDaleConstant Temperature Pressure Wavelength Symmetry ArraysUsed Depth Outside".split().index)
+        medium.sort(key="Density Gas Temperature Pressure Wavelength Symmetry ArraysUsed Depth Outside".split().index)
     return (["Cutoff"] + OF_TECHNIQUE[technique] + ["Quality"] + plane + medium + ["LengthScale"]
             + (CAMERA if technique == "Background Oriented" else []) + ["SchlierenLegend"])
 

@@ -4,10 +4,10 @@
 
 import numpy as np
 from paraview import simple
-from plugin_testing import EVERY_VOXEL, Schlieren, image_array, output
+from plugin_testing import CONSTANT, EVERY_VOXEL, Schlieren, image_array, output
 from series_testing import write_series
 
-CONSTANT, WIDTH, SPEED, DEPTH = 2.26e-4, 0.1, 1, 2
+WIDTH, SPEED, DEPTH = 0.1, 1, 2
 STEP, FIRST, LAST = 1 / 16, 4, 12  # between time steps, and the two steps between which the shutter is open
 K = 200
 

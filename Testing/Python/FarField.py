@@ -5,12 +5,12 @@ gas bends around it against a sum over straight rays, and what becomes of light 
 
 import numpy as np
 from paraview import simple
+from plugin_testing import CONSTANT as K
 from plugin_testing import Schlieren, output
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkStructuredGrid
 
-K = 2.26e-4
 FAR = 50
 PIXELS = 100
 

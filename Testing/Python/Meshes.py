@@ -7,13 +7,13 @@ import math
 
 import numpy as np
 from paraview import simple
-from plugin_testing import Schlieren, output, image_array
+from plugin_testing import CONSTANT, Schlieren, output, image_array
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_POLYHEDRON, vtkDataSetAttributes, vtkMultiBlockDataSet,
                                            vtkStructuredGrid, vtkUnstructuredGrid)
 
-K, DENSITY, HEIGHT, WIDTH = 2.26e-4, 1.2, 0.3, 0.35
+K, DENSITY, HEIGHT, WIDTH = CONSTANT, 1.2, 0.3, 0.35
 PIXELS = 150
 
 

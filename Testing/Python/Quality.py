@@ -14,7 +14,7 @@ PRESETS = ("Interactive", "Fine", "Publication", "Reference", "Automatic")
 SETTINGS = []
 while vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)):
     SETTINGS.append(vtkSchlierenFilter.GetQualitySetting(len(SETTINGS)))
-assert len(SETTINGS) == 7
+assert len(SETTINGS) == 6
 
 source = gaussian_column(16)
 

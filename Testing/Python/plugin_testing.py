@@ -13,11 +13,11 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=globals())
-import_module("schlieren.vtkSchlierenFilters")  # for GetMediumBuilds, before the first filter is wrapped
+classes = import_module("schlieren.vtkSchlierenFilters")  # for GetMediumBuilds, before the first filter is wrapped
 
 AMPLITUDE = 2.7e-4
 RADIUS = 0.3
-CONSTANT = 2.26e-4
+CONSTANT = classes.vtkGasTable.GetConstant("air", 632.8)  # the default
 
 # Whatever the presets are: one ray per pixel, at its centre, in steps of a voxel.
 EVERY_VOXEL = {"SamplesPerPixel": 1, "StepSize": 1}

@@ -124,9 +124,8 @@ struct RayWorker::Arrays
     traced = {};
     if (const Passes own = passes.ofBands(bands); own.rays() > 0)
     {
-      here.tracer->trace(request.task, own,
-        { request.versions[7], static_cast<double>(request.versions[6]) },
-        CudaTracer<Real>::Exits::OnHost, traced, {});
+      here.tracer->trace(
+        request.task, own, { request.versions[6] }, CudaTracer<Real>::Exits::OnHost, traced, {});
     }
     return answerOf(request);
   }

@@ -223,12 +223,6 @@ FlowDefaults chooseArrays(
   return defaults;
 }
 
-/// Returns whether the gas is one of the user's own, which excludes mixtures.
-bool hasOneGas(const MediumSettings& given)
-{
-  return !isCustom(given.Gas) || given.GladstoneDaleConstant != MediumSettings::defaultConstant;
-}
-
 FlowArray::Association associationIn(const MediumSettings& settings)
 {
   return settings.Arrays[arraysOfModel(settings)[0]].cellsFirst ? FlowArray::Cells
@@ -242,7 +236,7 @@ std::string noteOnArrays(
   std::string note = noteOnOverset(known);
   // What the user has chosen needs no note. The window chooses as flowSpecies() does.
   const IndexGases gases = kindOf(settings.IndexModel).gases;
-  if (gases == IndexGases::None || gases == IndexGases::Water || hasOneGas(given) ||
+  if (gases == IndexGases::None || gases == IndexGases::Water || given.hasOneGas() ||
     (!given.MixtureArrays.empty() &&
       given.MixtureArrays != flowSpecies(known, associationIn(settings)).fractions))
   {
@@ -257,7 +251,7 @@ void chooseMixture(
   const MediumSettings& given, const std::vector<FlowArray>& known, MediumSettings& settings)
 {
   const bool isAuto = given.IndexModel == S::AUTO;
-  const bool isOneGas = hasOneGas(given);
+  const bool isOneGas = given.hasOneGas();
   const bool mayBeMixture = settings.IndexModel == S::GLADSTONE_DALE_MIXTURE ||
     (isAuto && settings.IndexModel == S::GLADSTONE_DALE && !isOneGas);
   if (isAuto && isOneGas && settings.IndexModel == S::GLADSTONE_DALE_MIXTURE &&

@@ -60,7 +60,8 @@ std::vector<std::string> namesUsed(const MediumSettings& settings)
   switch (kindOf(settings.IndexModel).gases)
   {
     case IndexGases::One:
-      return { settings.Gas };
+      return settings.GladstoneDaleConstant == 0 ? std::vector{ settings.Gas }
+                                                 : std::vector<std::string>{};
     case IndexGases::Mixture:
     {
       std::vector<std::string> names = settings.MixtureGases;
@@ -111,8 +112,6 @@ int readNumbers(const std::string& text, schlieren::Component& component)
 
 } // namespace
 
-bool isCustom(const std::string& name) { return name.empty() || name == "Custom"; }
-
 std::string gasOf(const std::string& word)
 {
   const std::string name = lowered(word);
@@ -131,21 +130,25 @@ std::string gasOf(const std::string& word)
   return "";
 }
 
-const schlieren::Gas* gasFrom(const std::string& property, const std::string& name)
+double constantFrom(const MediumSettings& settings)
 {
-  const schlieren::Gas* gas = schlieren::findGas(name);
-  if (name == waterName)
+  if (settings.GladstoneDaleConstant != 0)
   {
-    throw std::runtime_error(property +
-      " is water, of which a density hardly gives the index. Set IndexModel to Water, or to Auto, "
-      "which takes its temperature.");
+    return settings.GladstoneDaleConstant;
   }
-  if (!gas && !isCustom(name))
+  if (settings.Gas == waterName)
   {
-    throw std::runtime_error(notInTable(property, name) + " Choose one of: " + allGases() +
-      ", or Custom for GladstoneDaleConstant.");
+    throw std::runtime_error(
+      "Gas is water, of which a density hardly gives the index. Set IndexModel to Water, or to "
+      "Auto, which takes its temperature.");
   }
-  return gas;
+  const schlieren::Gas* gas = schlieren::findGas(settings.Gas);
+  if (!gas)
+  {
+    throw std::runtime_error(notInTable("Gas", settings.Gas) + " Choose one of: " + allGases() +
+      ", or set GladstoneDaleConstant.");
+  }
+  return gas->constantAt(wavelengthOfGases(settings));
 }
 
 schlieren::Component componentFrom(

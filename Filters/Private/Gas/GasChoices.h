@@ -16,16 +16,13 @@ namespace filters
 /// The name of a liquid that is chosen like a gas.
 constexpr const char* waterName = "water";
 
-/// Returns whether the name is "Custom" or empty: no gas of the table.
-bool isCustom(const std::string& name);
-
 /// Returns the name or formula in the table of a gas that is written so, in capitals, or in small letters; empty: none.
 /// A single letter is a formula in capitals only, and "Co" is not "CO".
 std::string gasOf(const std::string& word);
 
-/// Finds a gas by name or formula; null for a custom one. Throws std::runtime_error that lists the
-/// table's gases for an unknown name. `property` names the source of the choice in the message.
-const schlieren::Gas* gasFrom(const std::string& property, const std::string& name);
+/// Returns the Gladstone-Dale constant of a single gas, m^3/kg: the one given, or that of Gas. Throws std::runtime_error that
+/// lists the table's gases for an unknown name.
+double constantFrom(const MediumSettings& settings);
 
 /// Returns a gas of a mixture, given by a name or formula of the table, or by its Gladstone-Dale
 /// constant in m^3/kg and, for volume fractions, its molar mass in kg/mol, such as "2.3e-4 0.044".

@@ -263,9 +263,7 @@ public:
 
 Linear gladstoneDaleOf(const MediumSettings& settings)
 {
-  const schlieren::Gas* gas = gasFrom("Gas", settings.Gas);
-  const double constant =
-    gas ? gas->constantAt(wavelengthOfGases(settings)) : settings.GladstoneDaleConstant;
+  const double constant = constantFrom(settings);
   requireFinite("GladstoneDaleConstant", constant);
   requireFinite("DensityScale", settings.DensityScale);
   return Linear{ constant * settings.DensityScale, 0 };

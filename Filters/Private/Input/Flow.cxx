@@ -303,12 +303,11 @@ Implausible implausibleIn(const Flow& flow)
     ? std::vector<double>{ perCubicMetreOf(settings), settings.DensityScale }
     : std::vector<double>{ isIndex ? 1 : settings.DensityScale };
   used.zero = zeroOf(settings);
-  const bool isOfTable = !isCustom(settings.Gas);
-  used.isGas = settings.IndexModel == MediumSettings::GLADSTONE_DALE_MIXTURE || isOfTable ||
-    settings.GladstoneDaleConstant == MediumSettings::defaultConstant;
-  if (isOfTable && settings.IndexModel == MediumSettings::GLADSTONE_DALE)
+  used.isGas = settings.IndexModel == MediumSettings::GLADSTONE_DALE_MIXTURE ||
+    settings.GladstoneDaleConstant == 0;
+  if (settings.IndexModel == MediumSettings::GLADSTONE_DALE)
   {
-    used.constant = gasFrom("Gas", settings.Gas)->constantAt(wavelengthOfGases(settings));
+    used.constant = constantFrom(settings);
   }
   const std::vector<std::size_t> indices = arraysOfModel(settings);
   const bool isUniform = settings.hasUniformPressure(), isIsentropic = settings.isIsentropic();

@@ -87,7 +87,6 @@ TEST(GasByName, HasThePublishedConstant)
          Row{ "air", 356.2, 2.330, 1e-3 } })
   {
     auto filter = filterOf(Index::GLADSTONE_DALE);
-    filter->SetGladstoneDaleConstant(1);
     filter->SetGas(row.gas);
     filter->SetWavelength(row.wavelength);
     EXPECT_NEAR(constantOf(filter) / (row.constant * 1e-4), 1, row.tolerance)
@@ -96,13 +95,16 @@ TEST(GasByName, HasThePublishedConstant)
   }
 }
 
-TEST(GasByName, CustomIsTheConstantGiven)
+TEST(GasByName, IsAirOrOfTheConstantGiven)
 {
   auto filter = filterOf(Index::GLADSTONE_DALE);
-  EXPECT_STREQ(filter->GetGas(), "Custom");
-  EXPECT_NEAR(constantOf(filter), 2.26e-4, 1e-18);
+  EXPECT_STREQ(filter->GetGas(), "air");
+  EXPECT_NEAR(constantOf(filter), vtkGasTable::GetConstant("air", 632.8), 1e-18);
+  EXPECT_NEAR(constantOf(filter) / 2.26e-4, 1, 2e-3);
   filter->SetGladstoneDaleConstant(3e-4);
   filter->SetWavelength(400);
+  EXPECT_NEAR(constantOf(filter), 3e-4, 1e-18);
+  filter->SetGas("Custom"); // as older state files have it
   EXPECT_NEAR(constantOf(filter), 3e-4, 1e-18);
 }
 
@@ -207,7 +209,8 @@ TEST(GasByName, MistakesAreReportedOnce)
 {
   const auto set = [](const char* gas) { return [gas](Index* f) { f->SetGas(gas); }; };
   expectOneMessage(filterOf(Index::GLADSTONE_DALE).Get(), set("phlogiston"),
-    { "Gas holds 'phlogiston'", "helium (He)", "sulfur hexafluoride (SF6)", "Custom" },
+    { "Gas holds 'phlogiston'", "helium (He)", "sulfur hexafluoride (SF6)",
+      "GladstoneDaleConstant" },
     set("helium"));
   const auto background = [](const char* gas)
   { return [gas](Index* f) { f->SetBackgroundGas(gas); }; };

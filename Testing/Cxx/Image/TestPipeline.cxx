@@ -256,6 +256,7 @@ TEST(Pipeline, AnotherWavelengthConvertsOnlyWhatDependsOnIt)
   EXPECT_EQ(workOfUpdate(filter).builds, 1);
   filter->SetWavelength(600);
   EXPECT_TRUE(workOfUpdate(filter) == none);
+  filter->SetGladstoneDaleConstant(0);
   filter->SetGas("helium");
   EXPECT_EQ(workOfUpdate(filter).builds, 1);
   const double red = largest(valuesOf(filter, "OpticalPathDifference"));

@@ -303,7 +303,10 @@ TEST_F(Scene, WhiteLightDispersesAsTheGasDoes)
     const schlieren::Gas* gas = schlieren::findGas(name);
     return gas->constantAt(450e-9) / gas->constantAt(589.3e-9);
   };
-  EXPECT_EQ(atBlue(), 1); // a custom gas
+  EXPECT_DOUBLE_EQ(atBlue(), ofGas("air"));
+  this->medium->SetGladstoneDaleConstant(2.3e-4);
+  EXPECT_EQ(atBlue(), 1);
+  this->medium->SetGladstoneDaleConstant(0);
   this->medium->SetGas("argon");
   EXPECT_DOUBLE_EQ(atBlue(), ofGas("argon"));
   EXPECT_GT(atBlue(), 1.005);
