@@ -21,7 +21,7 @@ struct ViewSettings
   double ViewUp[3] = { 0, 1, 0 };
   double ParallelScale = 0;
   double ViewAngle = 0;
-  int ImageSize[2] = { 512, 512 };
+  int ImageSize[2] = { 0, 0 };
   // end
 
   template <class Use>

@@ -11,6 +11,8 @@
 #include "Input/Flow.h"
 #include "Input/InputDescription.h"
 
+#include "vtkBoundingBox.h"
+#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -19,6 +21,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -123,7 +126,48 @@ void tellPlaces(vtkInformationVector* outputs)
   }
 }
 
+constexpr int usualSide = 512;
+
 } // namespace
+
+std::array<int, 2> vtkSchlierenFilter::SizeFor(vtkInformationVector* input) const
+{
+  const int* side = this->ImageSize;
+  vtkBoundingBox bounds;
+  if ((side[0] == 0 || side[1] == 0) && !hasOtherRanks())
+  {
+    for (vtkDataObject* leaf : leavesOf(vtkDataObject::GetData(input)))
+    {
+      auto* data = vtkDataSet::SafeDownCast(leaf);
+      if (data && data->GetNumberOfPoints() > 0)
+      {
+        bounds.AddBounds(data->GetBounds());
+      }
+    }
+  }
+  if (bounds.IsValid())
+  {
+    schlieren::Grid grid;
+    grid.dimensions = { 2, 2, 2 };
+    bounds.GetMinPoint(grid.origin.data());
+    bounds.GetLengths(grid.spacing.data());
+    const auto* flat = std::find(grid.spacing.begin(), grid.spacing.end(), 0.);
+    return imageSizeFrom(facing(*this, static_cast<int>(flat - grid.spacing.begin())), grid);
+  }
+  constexpr int usual = 512;
+  return { side[0] != 0 ? side[0] : usual, side[1] != 0 ? side[1] : usual };
+}
+
+SchlierenSettings vtkSchlierenFilter::SettingsFor(int flatAxis) const
+{
+  SchlierenSettings settings = facing(*this, flatAxis);
+  int(&size)[2] = settings.ImageSize;
+  if (size[0] == 0 || size[1] == 0)
+  {
+    std::copy(this->Inside->Size.begin(), this->Inside->Size.end(), size);
+  }
+  return settings;
+}
 
 vtkSchlierenFilter::vtkSchlierenFilter()
   : Inside(new Internals)
@@ -203,11 +247,12 @@ bool vtkSchlierenFilter::ReportMedium(double done)
 }
 
 int vtkSchlierenFilter::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputVector)
 {
   vtkInformation* outInfo = outputVector->GetInformationObject(0);
-  const int extent[6] = { 0, previewPixels(this->ImageSize[0], this->PreviewReduction) - 1, 0,
-    previewPixels(this->ImageSize[1], this->PreviewReduction) - 1, 0, 0 };
+  std::array<int, 2>& size = this->Inside->Size;
+  size = { 1, 1 }; // of a view that cannot be
+  guarded([&] { size = this->SizeFor(inputs[0]); }, noMemory, [](const std::string&) {});
   double origin[3] = { 0, 0, 0 };
   double spacing[3] = { 1, 1, 1 };
   // Where the image lies depends on the input's points: RequestData corrects what is stated here
@@ -218,12 +263,14 @@ int vtkSchlierenFilter::RequestInformation(
     if (last.IsThere())
     {
       const schlieren::Frame frame =
-        frameFrom(facing(*this, last.FlatAxis), Internals::fieldOf(last).grid);
+        frameFrom(this->SettingsFor(last.FlatAxis), Internals::fieldOf(last).grid);
       std::copy(frame.origin.begin(), frame.origin.end(), origin);
       std::fill_n(spacing, 3, frame.pixelSize);
     }
   };
   guarded(tellPlaceInLast, noMemory, [](const std::string&) {});
+  const int extent[6] = { 0, previewPixels(size[0], this->PreviewReduction) - 1, 0,
+    previewPixels(size[1], this->PreviewReduction) - 1, 0, 0 };
   outInfo->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);

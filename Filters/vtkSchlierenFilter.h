@@ -65,6 +65,7 @@
 #include "vtkSmartPointer.h"           // for GradedFilter
 
 #include <algorithm>  // for std::max
+#include <array>      // for std::array
 #include <atomic>     // for std::atomic
 #include <functional> // for std::function
 #include <memory>     // for std::unique_ptr, std::shared_ptr
@@ -183,7 +184,9 @@ public:
   vtkSetMacro(ViewAngle, double);
   vtkGetMacro(ViewAngle, double);
 
-  /// Width and height of the image in pixels. Default: 512 512.
+  /// Width and height of the image in pixels. 0: so many that the image has the proportions of the
+  /// data as they are seen, up to 8 to 1; as many in all as 512 by 512, or by the other side where
+  /// that is given. Default: 0 0.
   vtkSetVector2Macro(ImageSize, int);
   vtkGetVector2Macro(ImageSize, int);
 
@@ -700,6 +703,11 @@ private:
   /// Makes the image on rank 0, or leaves the outputs empty where that is aborted. Throws what is reported by Fail().
   void MakeImage(double maxCells, vtkInformationVector* outputs);
   /// Puts the image that was made last on the outputs.
+  /// Returns the size of the image, which is promised before it is made: where a side is not given, by the proportions of the
+  /// input as far as it is there, on a single rank; else 512.
+  std::array<int, 2> SizeFor(vtkInformationVector* input) const;
+  /// Returns the settings with that size, facing flat data.
+  SchlierenSettings SettingsFor(int flatAxis) const;
   void ShowLast(vtkInformationVector* outputs);
   /// Returns what is read of the data, chosen once in an update.
   const filters::Choice& Chosen(vtkDataObject* input);

@@ -265,7 +265,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
   inside.FindsAmbient = !field.ambient;
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene =
-    sceneFrom(facing(*this, inside.Refractivity->FlatAxis), field.grid, inside.RgbImages);
+    sceneFrom(this->SettingsFor(inside.Refractivity->FlatAxis), field.grid, inside.RgbImages);
   addObjects(scene, this->GradedFilter, this->GetMaker());
   addBackground(scene, *this, inside.Scene);
   if (inside.Pupil.aperture > 0)
@@ -334,7 +334,9 @@ bool vtkSchlierenFilter::Show(
     return true;
   }
   const schlieren::Scene& scene = inside.Images.GetScene();
-  const bool isWhole = image.width == this->ImageSize[0] && image.height == this->ImageSize[1];
+  const SchlierenSettings settings = this->SettingsFor(inside.Refractivity->FlatAxis);
+  const bool isWhole =
+    image.width == settings.ImageSize[0] && image.height == settings.ImageSize[1];
   const GasBoundary::Decided decided = decidedIn(inside.Refractivity->Source.get());
   const std::string outside = decided.bodies > 0 ? outsideInWords(image, decided.isAlone) : "";
   if (isWhole) // of a preview the whole image will say it

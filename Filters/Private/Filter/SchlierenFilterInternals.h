@@ -20,6 +20,7 @@
 
 #include "Schlieren.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -103,7 +104,8 @@ struct vtkSchlierenFilter::Internals
   // Newest times of this filter and of everything upstream, except Refine(), of the last failure,
   // of the image at the outputs, and of the unfinished image (0: none).
   vtkMTimeType FailedAt = 0;
-  bool HasImage = false; // on rank 0, after the last update
+  bool HasImage = false;     // on rank 0, after the last update
+  std::array<int, 2> Size{}; // of the image, pixels
   vtkMTimeType ShownOf = 0;
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;

@@ -249,11 +249,11 @@ double viewAngleFrom(
   return angleOf(most);
 }
 
-double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
+double fringeSpacingFrom(
+  const SchlierenSettings& settings, const schlieren::Frame& frame, int height)
 {
-  return settings.FringeSpacing < 0
-    ? frame.pixelSize * settings.ImageSize[1] / -settings.FringeSpacing
-    : settings.FringeSpacing;
+  return settings.FringeSpacing < 0 ? frame.pixelSize * height / -settings.FringeSpacing
+                                    : settings.FringeSpacing;
 }
 
 } // namespace filters

@@ -51,7 +51,8 @@ schlieren::Lens lensFrom(const SchlierenSettings& settings);
 double viewAngleFrom(
   const SchlierenSettings& settings, const schlieren::View& view, const schlieren::Grid& grid);
 
-/// Returns the spacing of finite fringes, data units: given, by the beams, or a tenth of the image.
-double fringeSpacingFrom(const SchlierenSettings& settings, const schlieren::Frame& frame);
+/// Returns the spacing of finite fringes, data units: given, or by their number in the image's `height`, pixels.
+double fringeSpacingFrom(
+  const SchlierenSettings& settings, const schlieren::Frame& frame, int height);
 
 } // namespace filters

@@ -14,6 +14,8 @@
 #include "vtkPiecewiseFunction.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <stdexcept>
@@ -35,13 +37,14 @@ std::size_t memoryForWaves()
   return static_cast<std::size_t>(std::min(part * availableMemory(), most));
 }
 
-schlieren::Fringes fringesFrom(const SchlierenSettings& settings, const schlieren::Frame& frame)
+schlieren::Fringes fringesFrom(
+  const SchlierenSettings& settings, const schlieren::Frame& frame, int height)
 {
   schlieren::Fringes fringes;
   fringes.finite = settings.FringeSpacing != 0;
   if (fringes.finite)
   {
-    fringes.spacing = fringeSpacingFrom(settings, frame);
+    fringes.spacing = fringeSpacingFrom(settings, frame, height);
     fringes.angle = settings.FringeAngle;
   }
   fringes.whiteLight = settings.WhiteLight;
@@ -76,6 +79,29 @@ schlieren::BackgroundPattern backgroundFrom(
   return pattern;
 }
 
+/// Returns the width by the height of the data's box as it is seen; of what is longer than that, 8 or 1/8.
+double proportionsOf(const schlieren::Grid& grid, const schlieren::Frame& frame)
+{
+  constexpr double longest = 8;
+  const auto extentAlong = [&](const schlieren::Vector& direction)
+  {
+    double extent = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      double along = 0;
+      for (std::size_t row = 0; row < 3; ++row)
+      {
+        along += direction[row] * grid.direction[3 * row + axis];
+      }
+      extent +=
+        std::abs(along) * grid.spacing[axis] * static_cast<double>(grid.dimensions[axis] - 1);
+    }
+    return extent;
+  };
+  const double width = extentAlong(frame.u), height = extentAlong(frame.v);
+  return width > 0 || height > 0 ? std::clamp(width / height, 1 / longest, longest) : 1;
+}
+
 /// Returns the view of the full image.
 schlieren::View viewFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
 {
@@ -89,8 +115,23 @@ schlieren::View viewFrom(const SchlierenSettings& settings, const schlieren::Gri
   }
   view.parallelScale = settings.ParallelScale;
   view.viewAngle = settings.ViewAngle;
-  view.width = settings.ImageSize[0];
-  view.height = settings.ImageSize[1];
+  const auto& [width, height] = settings.ImageSize;
+  if (width == 0 || height == 0)
+  {
+    const double ratio = proportionsOf(grid, schlieren::frameOf(grid, view));
+    const auto side = [](double pixels) { return static_cast<int>(std::lround(pixels)); };
+    view.height = height != 0 ? height
+      : width != 0            ? side(width / ratio)
+                              : side(view.height / std::sqrt(ratio));
+    view.width = width != 0 ? width
+      : height != 0         ? side(height * ratio)
+                            : side(view.width * std::sqrt(ratio));
+  }
+  else
+  {
+    view.width = width;
+    view.height = height;
+  }
   view.viewAngle = viewAngleFrom(settings, view, grid);
   return view;
 }
@@ -148,6 +189,12 @@ std::string noteOnView(const SchlierenSettings& settings, int flatAxis)
     : "";
 }
 
+std::array<int, 2> imageSizeFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
+{
+  const schlieren::View view = viewFrom(settings, grid);
+  return { view.width, view.height };
+}
+
 schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid)
 {
   const schlieren::View view = viewFrom(settings, grid);
@@ -191,7 +238,7 @@ schlieren::Scene sceneFrom(
   }
   if (hasFringes)
   {
-    scene.fringes = fringesFrom(settings, frame);
+    scene.fringes = fringesFrom(settings, frame, scene.view.height);
   }
   if (schlieren::isOfCamera(scene.cutoff))
   {

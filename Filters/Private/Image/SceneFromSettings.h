@@ -4,6 +4,7 @@
 
 #include "Schlieren.h"
 
+#include <array>
 #include <memory>
 
 class vtkPiecewiseFunction;
@@ -49,6 +50,9 @@ void addBackground(
 SchlierenSettings facing(SchlierenSettings settings, int flatAxis);
 /// Returns a note on that for the user; mostly empty.
 std::string noteOnView(const SchlierenSettings& settings, int flatAxis);
+
+/// Returns the width and the height of the image, pixels.
+std::array<int, 2> imageSizeFrom(const SchlierenSettings& settings, const schlieren::Grid& grid);
 
 /// Returns the frame of the image.
 schlieren::Frame frameFrom(const SchlierenSettings& settings, const schlieren::Grid& grid);

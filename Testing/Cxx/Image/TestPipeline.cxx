@@ -5,6 +5,7 @@
 
 #include "vtkGasTable.h"
 #include "vtkHyperTreeGrid.h"
+#include "vtkImageFlip.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkPassThrough.h"
@@ -365,6 +366,48 @@ TEST(Pipeline, FringesThatRoundingMovesAreSaid)
   filter->Update();
   ASSERT_EQ(complaints->Warnings.size(), 2u);
   EXPECT_NE(complaints->Warnings[1].find("even double"), std::string::npos);
+}
+
+// As many pixels as 512 by 512 have.
+TEST(Pipeline, ImagesHaveTheProportionsOfTheData)
+{
+  auto image = columnImage(24);
+  const double* spacing = image->GetSpacing();
+  image->SetSpacing(2 * spacing[0], spacing[1], spacing[2]);
+  auto filter = bench(image, 32);
+  filter->SetImageSize(0, 0);
+  vtkNew<vtkImageFlip> flip; // requests what was promised
+  flip->SetInputConnection(filter->GetOutputPort());
+  const auto expectSize = [&filter](int width, int height)
+  {
+    const int* size = filter->GetOutput()->GetDimensions();
+    EXPECT_EQ(size[0], width);
+    EXPECT_EQ(size[1], height);
+    const double* pixel = filter->GetOutput()->GetSpacing();
+    EXPECT_DOUBLE_EQ(pixel[0], pixel[1]);
+    filter->UpdateInformation();
+    const int* promised =
+      filter->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
+    EXPECT_EQ(promised[1], width - 1);
+    EXPECT_EQ(promised[3], height - 1);
+    EXPECT_TRUE(workOfUpdate(filter) == none);
+  };
+  flip->Update();
+  expectSize(724, 362);
+  flip->Update();
+  EXPECT_EQ(flip->GetOutput()->GetDimensions()[0], 724);
+  filter->SetImageSize(0, 100);
+  filter->Update();
+  expectSize(200, 100);
+  filter->SetImageSize(100, 0);
+  filter->Update();
+  expectSize(100, 50);
+  filter->SetViewDirection(1, 0, 0);
+  filter->Update();
+  expectSize(100, 100);
+  filter->SetImageSize(64, 48);
+  filter->Update();
+  expectSize(64, 48);
 }
 
 TEST(Pipeline, ScreenWithoutLightIsSaid)

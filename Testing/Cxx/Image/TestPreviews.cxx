@@ -169,7 +169,7 @@ TEST(Preview, HidesNoMistake)
     [](vtkSchlierenFilter* filter)
     {
       filter->SetPreviewReduction(4);
-      filter->SetImageSize(0, 40);
+      filter->SetImageSize(-1, 40);
     },
     { "ImageSize" }, [](vtkSchlierenFilter* filter) { filter->SetImageSize(40, 40); });
 }

@@ -93,11 +93,11 @@ TEST(Status, ShowsTheSpeedOfTheLastTracingWhereNothingIsTraced)
   filter->Update();
   EXPECT_EQ(filter->GetStatus(), status);
 
-  filter->SetImageSize(-1, 0);
+  filter->SetImageSize(-1, 40);
   auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
   filter->Update();
   EXPECT_EQ(complaints->Errors.size(), 1u);
   EXPECT_STREQ(filter->GetStatus(),
-    "No image: The image size -1 x 0 is not possible. Set both sides of ImageSize to 1 ... 32768 "
+    "No image: The image size -1 x 40 is not possible. Set both sides of ImageSize to 1 ... 32768 "
     "pixels.");
 }
