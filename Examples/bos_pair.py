@@ -39,7 +39,7 @@ def take_pair(flow, **settings):
         return values.reshape((height, width) + values.shape[1:])
 
     pair = [recorded(array(name)) for name in ("Background", "Intensity")]
-    moved = array("BackgroundDisplacement")[..., :2] / image.GetSpacing()[0]
+    moved = array("BackgroundDisplacement")[..., :2] / image.GetFieldData().GetArray("PatternPixel").GetValue(0)
     Delete(bench)
     return pair[0], pair[1], moved
 

@@ -46,6 +46,7 @@ struct Image
   /// 2 per pixel, data units, likewise: the place of the pattern that is seen, less the one seen without the
   /// flow. What is seen has moved in the opposite direction.
   PixelArray<float> backgroundDisplacement;
+  double patternPixel = 0; ///< data units, likewise: the side of a pixel where the pattern is
   /// 2 per pixel: direction cosines along u and v, in what light leaves the data into. This and the next two are those of
   /// the ray through the pixel's centre, from the middle of the light source; where that ends in a solid, the mean of
   /// the pixel's rays that do not.

@@ -155,6 +155,7 @@ void ProgressiveImage::developUndisturbed(Image& image)
   {
     image.background = undisturbed_->develop();
     image.backgroundDisplacement = backgroundDisplacement(image, exposure_.projection);
+    image.patternPixel = 1 / exposure_.projection.perDataUnit;
   }
 }
 

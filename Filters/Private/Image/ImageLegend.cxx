@@ -96,7 +96,7 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   if (!image.backgroundDisplacement.empty())
   {
     notes.push_back("pattern displaced by up to " +
-      textOf("%.3g pixels", largestLength(image.backgroundDisplacement) / image.frame.pixelSize));
+      textOf("%.3g pixels", largestLength(image.backgroundDisplacement) / image.patternPixel));
   }
   if (image.accuracy.target > 0)
   {

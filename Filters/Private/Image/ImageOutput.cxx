@@ -149,6 +149,7 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
   if (!image.backgroundDisplacement.empty())
   {
     arrays->AddArray(newVectors("BackgroundDisplacement", image.backgroundDisplacement, dataUnits));
+    addWithUnit(output, "PatternPixel", image.patternPixel, dataUnits);
   }
   if (!image.accuracy.estimate.empty())
   {

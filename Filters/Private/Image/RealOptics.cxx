@@ -37,6 +37,31 @@ void requirePositive(
   }
 }
 
+/// Requires a length of a camera, which has its own unit.
+void requireMillimetres(const char* property, double value, const std::string& owner)
+{
+  requirePositive(property, value, "mm", owner);
+  constexpr double least = 0.5;
+  if (value < least)
+  {
+    refuse(property, value, "mm",
+      "but no camera is so small. Set it to " + textOf(1e3 * value, 4) + " if this is in metres.");
+  }
+}
+
+/// Requires the focal length of a mirror, which is in metres.
+void requireMirror(double focalLength, const std::string& owner)
+{
+  requirePositive("FocalLength", focalLength, "m", owner);
+  constexpr double most = 100;
+  if (focalLength > most)
+  {
+    refuse("FocalLength", focalLength, "m",
+      "but no mirror has so long a one. Set it to " + textOf(1e-3 * focalLength, 4) +
+        " if this is in millimetres.");
+  }
+}
+
 void requireSize(const char* property, double value)
 {
   if (!(value >= 0) || !std::isfinite(value))
@@ -79,7 +104,7 @@ void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
   scene.cutoffOffset = optics.CutoffOffset;
   if (optics.KMode == SchlierenSettings::K_BENCH)
   {
-    requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
+    requireMirror(optics.FocalLength, "the second mirror");
     const bool isOfFilter = kOfWidth(optics) > 1;
     requirePositive("SourceWidth", optics.SourceWidth, "mm",
       isOfFilter ? "the colour filter" : "the source's image");
@@ -103,7 +128,7 @@ schlieren::PhasePlate phasePlateFrom(const SchlierenSettings& optics)
   schlieren::PhasePlate plate;
   if (optics.PhasePlateDiameter > 0)
   {
-    requirePositive("FocalLength", optics.FocalLength, "m", "the second mirror");
+    requireMirror(optics.FocalLength, "the second mirror");
     plate.diameter = metresPerMillimetre * optics.PhasePlateDiameter / optics.FocalLength;
   }
   plate.delay = optics.PhasePlateDelay;
@@ -169,7 +194,7 @@ schlieren::LightSource lightSourceFrom(const SchlierenSettings& optics)
   source.shape = static_cast<schlieren::SourceShape>(optics.SourceShape);
   if (source.shape != schlieren::SourceShape::Point)
   {
-    requirePositive("FocalLength", optics.FocalLength, "m", "the mirrors");
+    requireMirror(optics.FocalLength, "the mirrors");
     requireSize("SourceWidth", optics.SourceWidth);
     source.width = metresPerMillimetre * optics.SourceWidth / optics.FocalLength;
   }
@@ -188,7 +213,7 @@ schlieren::Lens lensFrom(const SchlierenSettings& settings)
   if (number != 0)
   {
     requirePositive("FNumber", number, "", "the lens, or to 0 for a pinhole");
-    requirePositive("LensFocalLength", settings.LensFocalLength, "mm", "the lens");
+    requireMillimetres("LensFocalLength", settings.LensFocalLength, "the lens");
     lens.aperture =
       metresPerMillimetre * settings.LensFocalLength / (number * settings.LengthScale);
     lens.apertureRatio = 1 / number;
@@ -207,8 +232,8 @@ double viewAngleFrom(
   {
     return view.viewAngle;
   }
-  requirePositive("SensorWidth", settings.SensorWidth, "mm", "the sensor, or to 0");
-  requirePositive("LensFocalLength", settings.LensFocalLength, "mm", "the lens");
+  requireMillimetres("SensorWidth", settings.SensorWidth, "the sensor, or to 0");
+  requireMillimetres("LensFocalLength", settings.LensFocalLength, "the lens");
   const double perMillimetre = metresPerMillimetre / settings.LengthScale; // data units
   const double height = perMillimetre * settings.SensorWidth * view.height / view.width;
   const double focalLength = perMillimetre * settings.LensFocalLength;

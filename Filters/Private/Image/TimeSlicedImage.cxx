@@ -136,6 +136,25 @@ std::string darknessInWords(const schlieren::Image& image, const schlieren::Scen
                 : "";
 }
 
+/// Warns if a camera focuses on nothing in the image, as where FocusDistance is in another unit.
+std::string focusInWords(const schlieren::Image& image, const schlieren::Scene& scene)
+{
+  const schlieren::Frame& frame = image.frame;
+  if (!(scene.lens.aperture > 0) || !(frame.pupil > 0) || !scene.lens.focusDistance)
+  {
+    return "";
+  }
+  constexpr double tooFar = 20;
+  const double behind = schlieren::isOfCamera(scene.cutoff)
+    ? scene.background.distance.value_or(frame.exit - frame.entry)
+    : 0;
+  const double farthest = frame.pupil + frame.focus - frame.entry + behind;
+  return *scene.lens.focusDistance > tooFar * farthest ? "The camera focuses " +
+      textOf(*scene.lens.focusDistance) + " data units away, but all that it sees is nearer than " +
+      textOf(farthest, 3) + ", and blurred. FocusDistance is in data units, not in millimetres."
+                                                       : "";
+}
+
 /// Notes an automatic ExitInto if the ambient is not a gas.
 std::string exitInWords(const schlieren::Image& image, const schlieren::Scene& scene)
 {
@@ -176,7 +195,8 @@ std::vector<std::pair<std::string, std::string>> TimeSlicedImage::GetWarnings(
           " Is the refractivity (array, unit, index model) right?"
         : "" },
     { "drift", driftInWords(image) }, { "rounding", roundingInWords(image, this->Scene) },
-    { "darkness", darknessInWords(image, this->Scene) }
+    { "darkness", darknessInWords(image, this->Scene) },
+    { "focus", focusInWords(image, this->Scene) }
   };
   std::vector<Warning> news;
   const std::string exit = exitInWords(image, this->Scene);

@@ -43,7 +43,7 @@ private:
   schlieren::Scene Scene;
   std::int64_t RaysBefore = 0;            // at the start of this image
   double RaysPerSecond = 0;               // at the last tracing
-  std::array<std::int64_t, 6> WarnedOf{}; // raySets of each kind of warning
+  std::array<std::int64_t, 7> WarnedOf{}; // raySets of each kind of warning
   bool HasNotedExit = false;
 };
 

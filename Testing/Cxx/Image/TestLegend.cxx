@@ -233,9 +233,27 @@ TEST(Legend, ShowsLightOfAShadowgraphAndNothingOfAPattern)
     const double* moved = arrayOf(filter, "BackgroundDisplacement")->GetTuple3(pixel);
     largest = std::max(largest, std::hypot(moved[0], moved[1]));
   }
-  const double pixel = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetSpacing()[0];
+  const auto pixel = [&filter]
+  { return vtkImageData::SafeDownCast(filter->GetOutputDataObject(0))->GetSpacing()[0]; };
   char words[64];
-  std::snprintf(words, sizeof words, "pattern displaced by up to %.3g pixels", largest / pixel);
+  std::snprintf(words, sizeof words, "pattern displaced by up to %.3g pixels", largest / pixel());
+  EXPECT_EQ(legendText(filter, "LegendNotes"), words);
+  EXPECT_NEAR(fieldValue(filter, "PatternPixel") / pixel(), 1, 1e-12);
+
+  // With a perspective a pixel is larger on the pattern, by the distances from the camera.
+  filter->SetViewAngle(40);
+  filter->SetBackgroundDistance(7);
+  filter->Update();
+  largest = 0;
+  for (vtkIdType number = 0; number < pixels * pixels; ++number)
+  {
+    const double* moved = arrayOf(filter, "BackgroundDisplacement")->GetTuple3(number);
+    largest = std::max(largest, std::hypot(moved[0], moved[1]));
+  }
+  const double away = 0.5 * pixels * pixel() / std::tan(20 * pi / 180), halfDepth = 1;
+  const double behind = pixel() * (away + halfDepth + 7) / away;
+  EXPECT_NEAR(fieldValue(filter, "PatternPixel") / behind, 1, 1e-9);
+  std::snprintf(words, sizeof words, "pattern displaced by up to %.3g pixels", largest / behind);
   EXPECT_EQ(legendText(filter, "LegendNotes"), words);
 }
 

@@ -368,6 +368,21 @@ TEST(Pipeline, FringesThatRoundingMovesAreSaid)
   EXPECT_NE(complaints->Warnings[1].find("even double"), std::string::npos);
 }
 
+TEST(Pipeline, ACameraThatFocusesOnNothingIsSaid)
+{
+  auto filter = bench(columnImage(32), 20);
+  filter->SetViewAngle(30);
+  filter->SetFNumber(4);
+  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
+  filter->SetFocusDistance(20);
+  filter->Update();
+  EXPECT_TRUE(complaints->Warnings.empty());
+  filter->SetFocusDistance(2000); // millimetres
+  filter->Update();
+  ASSERT_EQ(complaints->Warnings.size(), 1u);
+  EXPECT_NE(complaints->Warnings[0].find("focuses 2000 data units away"), std::string::npos);
+}
+
 // As many pixels as 512 by 512 have.
 TEST(Pipeline, ImagesHaveTheProportionsOfTheData)
 {

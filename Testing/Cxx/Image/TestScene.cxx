@@ -169,6 +169,9 @@ TEST_F(Scene, OpticsThatCannotBeAreRefused)
     EXPECT_NE(this->error().find("SourceWidth is "), std::string::npos) << wrong;
     this->filter->SetSourceWidth(1);
   }
+  this->filter->SetFocalLength(1500);
+  EXPECT_NE(this->error().find("FocalLength is 1500 m, but no mirror"), std::string::npos);
+  this->filter->SetFocalLength(1);
   // Where they do not count, they may be anything.
   this->filter->SetFocalLength(0);
   this->filter->SetCutoff(Filter::INTERFEROGRAM);
@@ -260,6 +263,15 @@ TEST_F(Scene, CamerasThatCannotBeAreRefused)
     EXPECT_NE(this->error().find("SensorWidth is "), std::string::npos) << wrong;
     this->filter->SetSensorWidth(0);
   }
+  // Lengths in another unit.
+  this->filter->SetLensFocalLength(0.05);
+  EXPECT_NE(
+    this->error().find("LensFocalLength is 0.05 mm, but no camera is so small. Set it to 50 "),
+    std::string::npos);
+  this->filter->SetLensFocalLength(50);
+  this->filter->SetSensorWidth(0.036);
+  EXPECT_NE(this->error().find("Set it to 36 "), std::string::npos);
+  this->filter->SetSensorWidth(0);
   EXPECT_EQ(this->error(), "none");
 }
 
