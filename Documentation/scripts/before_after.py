@@ -28,7 +28,6 @@ PAIRS = (
     ("KnifeEdgeAngle", 0, 90, KNIFE),
     ("KScale", 60, 600, KNIFE),
     ("CutoffOffset", 0, 0.3, KNIFE),
-    ("InvertCutoff", 0, 1, KNIFE),
     ("SmoothingRadius", 0, 6, {**KNIFE, "KnifeEdgeAngle": 0, "KScale": 1000}),
     ("Cutoff", "Circular", "Circular Complement", {}),
     ("ScreenDistance", 0.02, 0.3, SHADOW),
