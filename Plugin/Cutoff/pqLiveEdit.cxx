@@ -2,13 +2,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqLiveEdit.h"
 
+#include "ImagesInViews.h"
 #include "pqApplicationCore.h"
 #include "pqSMAdaptor.h"
+#include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
+#include "pqView.h"
 
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMTrace.h"
+
+namespace
+{
+
+/// Draws the views that draw the filter's flow, because the volume beside them takes longer; of a filter in the pipeline all views.
+void render(vtkSMProxy* filter)
+{
+  pqApplicationCore* core = pqApplicationCore::instance();
+  bool isDrawn = false;
+  for (pqView* view : core->getServerManagerModel()->findItems<pqView*>())
+  {
+    if (imagesInViews::benchesIn(view).contains(filter))
+    {
+      view->render();
+      isDrawn = true;
+    }
+  }
+  if (!isDrawn)
+  {
+    core->render();
+  }
+}
+
+} // namespace
 
 pqLiveEdit::pqLiveEdit(vtkSMProxy* filter, const QString& label)
   : Filter(filter)
@@ -53,7 +80,7 @@ void pqLiveEdit::show(const QMap<QString, QVariant>& values)
     SCOPED_UNDO_EXCLUDE();
     this->push(this->Now);
   }
-  pqApplicationCore::instance()->render();
+  render(this->Filter);
 }
 
 void pqLiveEdit::finish()
@@ -72,7 +99,7 @@ void pqLiveEdit::finish()
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Filter);
     this->push(this->Now);
   }
-  pqApplicationCore::instance()->render();
+  render(this->Filter);
 }
 
 void pqLiveEdit::cancel()
@@ -81,6 +108,6 @@ void pqLiveEdit::cancel()
   {
     SCOPED_UNDO_EXCLUDE();
     this->push(this->Before);
-    pqApplicationCore::instance()->render();
+    render(this->Filter);
   }
 }

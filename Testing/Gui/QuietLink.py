@@ -6,7 +6,7 @@ script, by a reset or by the mouse, draws both, and the images of all views beco
 from views_testing import OPEN_JET, ViewsSession
 
 HELPERS = """
-import inside_window
+import inside_window, time
 scene, view = by_name("RenderView1", "Schlieren View")
 (display,) = displays()
 bench = display.SchlierenBench
@@ -35,6 +35,18 @@ def turn_edge():
     Render(view)
 in_scene, in_view = drawn_by(turn_edge)
 assert in_scene == 0 and in_view > 0, (in_scene, in_view)
+
+def press_keys():
+    plane = widget("propertiesPanel", "SchlierenCutoff", "Plane")
+    plane.setFocus()
+    since = time.process_time()
+    for _ in range(5):
+        QTest.keyClick(plane, Qt.Key.Key_Right)
+        settle_views()
+    print(f"A key takes {(time.process_time() - since) / 5:.2f} s of the processor", flush=True)
+SetActiveView(view)
+in_scene, in_view = drawn_by(press_keys)
+assert in_scene == 0 and in_view > 0 and bench.CutoffOffset > 0, (in_scene, in_view)
 
 def move(camera):
     def moved():
