@@ -7,6 +7,7 @@
 #include "pqPropertyWidgetDecorator.h"
 #include "pqProxyWidget.h"
 #include "pqSearchBox.h"
+#include "pqUndoStack.h"
 
 #include "vtkCommand.h"
 #include "vtkEventQtSlotConnect.h"
@@ -66,8 +67,23 @@ void pqBenchWidget::showBench()
     this->Panel->setView(this->view());
     QObject::connect(
       this->Panel, &pqProxyWidget::changeAvailable, this, &pqPropertyWidget::changeAvailable);
-    QObject::connect(
-      this->Panel, &pqProxyWidget::changeFinished, this, &pqPropertyWidget::changeFinished);
+    for (const auto* row : this->Panel->findChildren<pqPropertyWidget*>())
+    {
+      QObject::connect(row, &pqPropertyWidget::changeAvailable, this,
+        [this, row]()
+        {
+          if (row->property())
+          {
+            this->Changed = row->property()->GetXMLLabel();
+          }
+        });
+    }
+    QObject::connect(this->Panel, &pqProxyWidget::changeFinished, this,
+      [this]()
+      {
+        SCOPED_UNDO_SET(tr("Change %1").arg(this->Changed)); // around ParaView's "Property Changed"
+        Q_EMIT this->changeFinished();
+      });
     this->search(false);
   }
 }

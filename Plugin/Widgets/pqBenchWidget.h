@@ -37,5 +37,6 @@ private:
 
   vtkWeakPointer<vtkSMProxy> Bench;
   QPointer<pqProxyWidget> Panel;
+  QString Changed; ///< the label of the property that was changed last
   vtkNew<vtkEventQtSlotConnect> Connection;
 };
