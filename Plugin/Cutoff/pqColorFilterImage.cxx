@@ -121,7 +121,16 @@ void paint(
       brush.Radius * width, brush.Radius * height);
   }
   // Disables antialiasing, with which the eraser would leave a rim.
-  QPainter(&image).fillPath(dabs, brush.Erases ? QBrush(underneath) : QBrush(brush.Color));
+  QPainter painter(&image);
+  if (brush.Spares && !brush.Erases)
+  {
+    QPainterPath all, middle;
+    all.addRect(image.rect());
+    middle.addEllipse(
+      QPointF(width / 2, height / 2), undeflected / 2 * width, undeflected / 2 * height);
+    painter.setClipPath(all - middle);
+  }
+  painter.fillPath(dabs, brush.Erases ? QBrush(underneath) : QBrush(brush.Color));
 }
 
 QVector<QPointF> stroke(const QPointF& from, const QPointF& to, double radius)

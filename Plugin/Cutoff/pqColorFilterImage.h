@@ -40,7 +40,11 @@ struct Brush
   QColor Color = Qt::black;
   double Radius = 0.04; ///< fraction of the filter's side
   bool Erases = false;  ///< restores what was underneath
+  bool Spares = false;  ///< leaves the middle as it is, where light goes that is not deflected
 };
+
+/// Distance from the middle, of half the filter's side, within which light counts as not deflected.
+constexpr double undeflected = 0.02;
 
 /// Paints dabs on an image of the same size as the one underneath.
 void paint(

@@ -302,10 +302,10 @@ QVector<QPointF> pqImagePainter::placesAround(const QPointF& position) const
       const QPointF place(qBound(-1., u, 1.), qBound(-1., v, 1.));
       const QPair<int, int> cell(static_cast<int>(std::lround(place.x() * finestPlace / 2)),
         static_cast<int>(std::lround(place.y() * finestPlace / 2)));
-      if (!known.contains(cell))
+      if (isNearest || !known.contains(cell))
       {
         known.insert(cell);
-        places.append(place);
+        places.insert(isNearest ? 0 : places.size(), place);
       }
     }
   }

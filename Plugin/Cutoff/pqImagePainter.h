@@ -40,7 +40,7 @@ public Q_SLOTS:
 
 Q_SIGNALS:
   void strokeBegan();
-  /// Sends points of the filter, each coordinate from -1 to 1, v upwards.
+  /// Sends points of the filter, each coordinate from -1 to 1, v upwards; the first is where the mouse is.
   void brushed(const QVector<QPointF>& places);
   void strokeEnded();
   /// Painting has ended, by Escape or with the views.

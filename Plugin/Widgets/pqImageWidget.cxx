@@ -29,6 +29,8 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace
 {
@@ -250,7 +252,7 @@ void pqImageWidget::beginStroke()
     : pqColorFilterImage::decoded(underneath).convertToFormat(QImage::Format_RGB32);
   this->Canvas.setText(nameKey, tr("painted"));
   this->Canvas.setText(underneathKey, underneath);
-  this->IsPainting = true;
+  this->IsPainting = this->IsNewStroke = true;
   this->Fetcher->setWaiting(true);
   if (pqLiveEdit::isPossible(this->proxy()))
   {
@@ -262,6 +264,12 @@ void pqImageWidget::brush(const QVector<QPointF>& places)
 {
   if (this->IsPainting)
   {
+    // A stroke that begins beside the middle leaves the background, all of which is there, as it is.
+    if (std::exchange(this->IsNewStroke, false))
+    {
+      const QPointF& first = places.first();
+      this->Brush.Spares = std::hypot(first.x(), first.y()) > pqColorFilterImage::undeflected;
+    }
     pqColorFilterImage::paint(this->Canvas, this->Underneath, this->Brush, places);
     this->View->setImage(this->Canvas);
     if (!this->Pause.isActive())

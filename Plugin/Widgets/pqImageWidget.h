@@ -73,7 +73,8 @@ private:
   pqColorFilterImage::Brush Brush;
   QImage Canvas, Underneath;
   bool IsPainting = false;
-  QTimer Pause; ///< until a stroke is applied
+  bool IsNewStroke = false; ///< before its first dab
+  QTimer Pause;             ///< until a stroke is applied
   std::unique_ptr<pqLiveEdit> Edit;
   pqCutoffLightFetcher* Fetcher = nullptr;
   pqImagePainter* Painter = nullptr;

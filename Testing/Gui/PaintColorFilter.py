@@ -76,6 +76,21 @@ user.click(WIDGET + "/Clear")
 user.apply()
 look("cleared")
 
+# With the brush as it is in a new panel, across the middle, and by keys in the middle.
+user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 8)
+stroke((-0.5, 0), (0.5, 0))
+look("across")
+user.python("""
+plane = widget("propertiesPanel", "ColorFilterImage", "Preview")
+for key, steps in (("Left", 12), ("Right", 4), ("Down", 12), ("Up", 4)):  # to the corner, and from there
+    for _ in range(steps):
+        QTest.keyClick(plane, getattr(Qt.Key, "Key_" + key), Qt.KeyboardModifier.ShiftModifier)
+QTest.keyClick(plane, Qt.Key.Key_Space)
+""")
+look("middle")
+user.click(WIDGET + "/Clear")
+user.apply()
+
 # On the image: beside it there is nothing to paint, and the view does not turn.
 user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 6)
 user.click(WIDGET + "/PaintOnImage")
@@ -172,6 +187,13 @@ assert (decoded(seen("filled")[0]) == COLOR).all() and (seen("filled")[1] == COL
 assert np.array_equal(decoded(seen("loaded")[0]), decoded(text))
 assert np.array_equal(seen("loaded")[1], shown)
 
+# Light that is not deflected keeps its colour, unless the stroke begins there.
+distance = np.hypot(u, v)
+for name, is_painted in (("across", False), ("middle", True)):
+    painted = (decoded(seen(name)[0]) == COLOR).all(axis=2)
+    assert painted[distance < 0.02 - 2 / SIDE].all() == is_painted == painted[distance < 0.02 - 2 / SIDE].any(), name
+    assert painted[(distance > 0.03) & (np.abs(u) < 0.4) & (np.abs(v - shift[1]) < 0.05)].all(), name
+
 # On the image: the rays of the pixels in the brush's circle, times k.
 assert seen("cleared")[0] == seen("beside")[0] == seen("taken")[0] == ""
 text, shown = seen("image")
@@ -190,17 +212,18 @@ def distances(centres, points):
 # at the circle's rim may be in or out.
 surely, perhaps = places[away < -1], places[away < 1]
 on_filter = np.stack([u, v], axis=-1)
-check_painted(decoded(text), distances(surely, on_filter).min(axis=0) < 0.06 - 2 / SIDE,
+check_painted(decoded(text), (distances(surely, on_filter).min(axis=0) < 0.06 - 2 / SIDE) & (distance > 0.02 + 2 / SIDE),
               distances(perhaps, on_filter).min(axis=0) > 0.06 + 2 / SIDE)
 
 
-# Whatever else goes there has that colour too, and only that has changed. Light between the rays of
+# Whatever else goes there has that colour too, but for what is not deflected, and only that has changed. Light between the rays of
 # neighbouring pixels meets the filter between them.
 def around(mask):
     return np.all([np.roll(mask, (x, y), (-2, -1)) for x in (-1, 0, 1) for y in (-1, 0, 1)], axis=0)
 
 
-same = around(distances(surely, places) < 0.05).any(axis=0)
+undeflected = np.hypot(*places.transpose(2, 0, 1)) < 0.02 + 4 / SIDE
+same = around((distances(surely, places) < 0.05) & ~undeflected).any(axis=0)
 other = around(distances(perhaps, places).min(axis=0) > 0.08)
 assert same[PIXEL[1], PIXEL[0]] and (same & (away > 1)).sum() > 100 and other.sum() > 1000
 assert np.abs(shown[same] - COLOR).max() <= 2  # light gathers and spreads a little
