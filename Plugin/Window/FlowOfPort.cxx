@@ -8,12 +8,19 @@
 #include "pqPipelineSource.h"
 #include "pqServer.h"
 #include "pqServerResource.h"
-#include "vtkDataObject.h"
+#include "vtkAlgorithm.h"
+#include "vtkCellTypes.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkNew.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPolyData.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
 
 namespace
 {
@@ -27,6 +34,38 @@ void setStrings(vtkSMProxy* filter, const char* name, const std::vector<std::str
   {
     property.Set(i, values[i].c_str());
   }
+}
+
+/// Returns whether data have no surface and no volume, where this client has them.
+bool isOfPointsAndLines(vtkDataObject* data)
+{
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+    {
+      if (!isOfPointsAndLines(leaf->GetCurrentDataObject()))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+  if (!vtkPolyData::SafeDownCast(data) && !vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    return false;
+  }
+  vtkNew<vtkCellTypes> types;
+  vtkPointSet::SafeDownCast(data)->GetCellTypes(types);
+  for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+  {
+    const unsigned char type = types->GetCellType(i);
+    if (type != VTK_VERTEX && type != VTK_POLY_VERTEX && type != VTK_LINE && type != VTK_POLY_LINE)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 } // namespace
@@ -74,6 +113,14 @@ QString problemOfFlow(pqOutputPort* port)
   if (!info->HasDataSetType("vtkDataSet"))
   {
     return name + " is no data set in space. Select data that fill a volume.";
+  }
+  auto* algorithm = vtkAlgorithm::SafeDownCast(port->getSourceProxy()->GetClientSideObject());
+  if (algorithm && isOfPointsAndLines(algorithm->GetOutputDataObject(port->getPortNumber())))
+  {
+    return name +
+      " has nothing but points or lines, so there is no volume for light to cross. Make a volume "
+      "of "
+      "particles with Point Volume Interpolator, SPH Volume Interpolator or Gaussian Resampling.";
   }
   return QString();
 }

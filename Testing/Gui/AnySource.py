@@ -123,6 +123,23 @@ SetActiveSource(nothing)
 user.press("ThreeImages")
 user.check_message("'nothing' has no cells to send light through. Select data that fill a volume.")
 
+
+# Points and lines, alone and in blocks.
+user.python("""
+mesh = FindSource("mesh")
+points = MaskPoints(Input=mesh, GenerateVertices=1, SingleVertexPerCell=1, registrationName="points")
+both = GroupDatasets(Input=[points, PlotOverLine(Input=mesh)], registrationName="both")
+for source in points, both:
+    source.UpdatePipeline()
+assert both.GetDataInformation().GetNumberOfCells() > 0
+
+""")
+for name in ("points", "both"):
+    user.python(f"SetActiveSource(FindSource({name!r}))")
+    user.press("OneImage")
+    user.check_message(f"'{name}' has nothing but points or lines, so there is no volume for light to cross. Make a volume of "
+                       "particles with Point Volume Interpolator, SPH Volume Interpolator or Gaussian Resampling.")
+
 # Made from the menu and not applied yet.
 user.python('SetActiveSource(FindSource("mesh"))')
 user.choose_filter("Schlieren")
