@@ -141,6 +141,26 @@ std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const ch
   return { range[0], range[1] };
 }
 
+QString inWords(Completion::Kind kind)
+{
+  switch (kind)
+  {
+    case Completion::UniformPressure:
+      return QString("Air at %1 Pa").arg(pressureOfRoom);
+    case Completion::Isentropic:
+      return QString("Isentropic air, at rest %1 K and %2 Pa")
+        .arg(temperatureOfRoom)
+        .arg(pressureOfRoom);
+    case Completion::Water:
+      return "Water";
+    case Completion::Density:
+      return "Density";
+    case Completion::None:
+      break;
+  }
+  return QString();
+}
+
 FlowDefaults completed(const std::vector<FlowArray>& arrays, const Completion& completion)
 {
   switch (completion.kind)

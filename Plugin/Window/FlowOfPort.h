@@ -49,6 +49,9 @@ struct Completion
   std::string array{}; ///< of a Density
 };
 
+/// Returns what a button that completes a flow says.
+QString inWords(Completion::Kind kind);
+
 /// Chooses defaults of completed arrays.
 FlowDefaults completed(const std::vector<FlowArray>& arrays, const Completion& completion);
 

@@ -3,6 +3,8 @@
 #include "pqImageStatus.h"
 
 #include "ImagesInViews.h"
+#include "Remedies.h"
+#include "pqLiveEdit.h"
 
 #include "pqApplicationCore.h"
 #include "pqPipelineSource.h"
@@ -14,10 +16,13 @@
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkWeakPointer.h"
 
 #include <QCoreApplication>
+#include <QDialogButtonBox>
 #include <QEvent>
 #include <QLabel>
+#include <QPushButton>
 #include <QRegularExpression>
 
 #include <algorithm>
@@ -26,6 +31,7 @@ namespace
 {
 
 const QString labelName = "SchlierenStatus";
+const QString remediesName = "SchlierenRemedies";
 const QString settingName = "Schlieren/ShowStatus";
 constexpr int margin = 6; // pixels
 
@@ -47,6 +53,54 @@ void place(QLabel* label, QWidget* view)
 QLabel* labelOf(QWidget* view)
 {
   return view->findChild<QLabel*>(labelName, Qt::FindDirectChildrenOnly);
+}
+
+/// Shows the buttons that mend images below their label, and other ones only if these change, because one may be pressed.
+void showRemedies(QWidget* view, const QWidget* label, const QList<vtkSMProxy*>& filters)
+{
+  auto* box = view->findChild<QDialogButtonBox*>(remediesName, Qt::FindDirectChildrenOnly);
+  QVector<QPair<vtkSMProxy*, Remedy>> remedies;
+  QStringList texts;
+  for (vtkSMProxy* filter : filters)
+  {
+    for (const Remedy& remedy : remediesFor(filter))
+    {
+      remedies.append({ filter, remedy });
+      texts << QString::number(filter->GetGlobalID()) + remedy.text;
+    }
+  }
+  if (!box && remedies.empty())
+  {
+    return;
+  }
+  if (!box)
+  {
+    box = new QDialogButtonBox(view);
+    box->setObjectName(remediesName);
+  }
+  if (box->property("texts").toStringList() != texts)
+  {
+    box->setProperty("texts", texts);
+    box->clear();
+    for (const auto& [filter, remedy] : remedies)
+    {
+      QPushButton* button = box->addButton(remedy.text, QDialogButtonBox::ActionRole);
+      button->setObjectName(remedy.text);
+      const auto mend = [filter = vtkWeakPointer<vtkSMProxy>(filter), remedy = remedy]()
+      {
+        if (filter)
+        {
+          pqLiveEdit edit(filter, remedy.text);
+          edit.show(remedy.values);
+          edit.finish();
+        }
+      };
+      QObject::connect(button, &QPushButton::clicked, box, mend, Qt::QueuedConnection);
+    }
+    box->adjustSize();
+  }
+  box->move(margin, label->isHidden() ? margin : label->geometry().bottom() + margin);
+  box->setVisible(!remedies.empty());
 }
 
 /// Returns the status of an image without the speed and the device, which do not concern it.
@@ -122,23 +176,21 @@ void pqImageStatus::show(pqRenderView* view)
   {
     return; // the view is being deleted
   }
-  QStringList lines;
-  if (imagesInViews::isFlat(view))
+  QList<vtkSMProxy*> filters;
+  if (isShown() && imagesInViews::isFlat(view))
   {
     for (pqPipelineSource* filter : imagesInViews::imagesIn(view))
     {
-      lines << statusOf(filter->getProxy());
+      filters << filter->getProxy();
     }
   }
-  for (vtkSMProxy* bench : imagesInViews::benchesIn(view))
+  filters << (isShown() ? imagesInViews::benchesIn(view) : QList<vtkSMProxy*>());
+  QStringList lines;
+  for (vtkSMProxy* filter : filters)
   {
-    lines << statusOf(bench);
+    lines << statusOf(filter);
   }
   lines.removeAll(QString());
-  if (!isShown())
-  {
-    lines.clear();
-  }
   QLabel* label = labelOf(widget);
   if (!label && !lines.isEmpty())
   {
@@ -154,6 +206,7 @@ void pqImageStatus::show(pqRenderView* view)
   {
     label->setText(lines.join('\n'));
     place(label, widget);
+    showRemedies(widget, label, filters);
   }
 }
 

@@ -201,20 +201,19 @@ void pqSchlierenToolBar::add(SchlierenViews::Arrangement arrangement,
   // Queued, because buttons are deleted.
   const auto takes = [this, arrangement, cell](const Completion& chosen)
   { return [this, arrangement, cell, chosen]() { this->add(arrangement, cell, chosen); }; };
+  const auto offers = [&](const char* name, Completion::Kind kind)
+  {
+    QObject::connect(this->offer(name, inWords(kind)), &QPushButton::clicked, this, takes({ kind }),
+      Qt::QueuedConnection);
+  };
   if (result.offer.kind == Completion::UniformPressure)
   {
-    QObject::connect(this->offer("UniformPressure", QString("Air at %1 Pa").arg(pressureOfRoom)),
-      &QPushButton::clicked, this, takes(result.offer), Qt::QueuedConnection);
-    QObject::connect(this->offer("Water", "Water"), &QPushButton::clicked, this,
-      takes({ Completion::Water }), Qt::QueuedConnection);
+    offers("UniformPressure", Completion::UniformPressure);
+    offers("Water", Completion::Water);
   }
   else if (result.offer.kind == Completion::Isentropic)
   {
-    QObject::connect(this->offer("Isentropic",
-                       QString("Isentropic air, at rest %1 K and %2 Pa")
-                         .arg(temperatureOfRoom)
-                         .arg(pressureOfRoom)),
-      &QPushButton::clicked, this, takes(result.offer), Qt::QueuedConnection);
+    offers("Isentropic", Completion::Isentropic);
   }
   pqOutputPort* port = pqActiveObjects::instance().activePort();
   if (!result.isMade && port && problemOfServer(port->getServer()).isEmpty() &&
@@ -234,7 +233,7 @@ void pqSchlierenToolBar::add(SchlierenViews::Arrangement arrangement,
     }
     if (!menu->isEmpty())
     {
-      QPushButton* arrays = this->offer("Density", "Density");
+      QPushButton* arrays = this->offer("Density", inWords(Completion::Density));
       arrays->setMenu(menu);
       menu->setParent(arrays, menu->windowFlags());
     }
