@@ -31,6 +31,9 @@ print("OPDrms", numbers["OPDrms"][-1], residuals[-1].std())
 for name in ("OPDrms", "StrehlRatio", "TiltRight", "TiltUp", "Z4 Defocus"):
     assert np.isclose(of_all(f"{name}_average"), numbers[name].mean(), rtol=1e-9), name
     assert np.isclose(of_all(f"{name}_stddev"), numbers[name].std(), rtol=1e-6), name
+for name, right in (("OPDrms_average", 20.3e-9), ("StrehlRatio_average", 0.986), ("TiltRight_stddev", 0.107e-6),
+                    ("TiltUp_stddev", 0.066e-6)):  # as the page says
+    assert abs(of_all(name) / right - 1) < 0.01, (name, of_all(name))
 assert len(open("wavefront.csv").readlines()) == steps + 1
 assert os.path.getsize("wavefront.png") > 50000
 
