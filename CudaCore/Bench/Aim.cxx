@@ -133,6 +133,14 @@ Image Bench::Stages::renderFirst(const Monitor& monitor)
     first.targetError = 0;
     first.stepSize = longestStep;
     first.samplesPerPixel = 1;
+    // The rays of an image that differs by its cutoff only are there already, and coarse ones would take their place.
+    const AccurateSettings* before = targets.lastFor(ofImage.scene);
+    if (before != nullptr && rays.areOf(frameOf(ofImage.field.grid, first.view), first.view))
+    {
+      first.stepSize = before->step;
+      first.adaptiveTolerance = adaptiveToleranceFor(before->step, first.adaptiveTolerance);
+      first.samplesPerPixel = before->samples;
+    }
     request = std::make_unique<UnfinishedImage>(ofImage.field, first);
     request->device = ofImage.device;
     request->deviceNote = ofImage.deviceNote;
@@ -142,6 +150,10 @@ Image Bench::Stages::renderFirst(const Monitor& monitor)
   if (!image.aborted)
   {
     ofImage.isShown = image.finished;
+    if (image.finished && image.samplesPerPixel > 1)
+    {
+      ofImage.shown = image;
+    }
     if (ofImage.scene.choosesScreen && image.screenDistance > 0)
     {
       ofImage.scene.screenDistance = image.screenDistance; // stays that of the first rays
@@ -169,6 +181,18 @@ Image Bench::Stages::renderAim(const Monitor& monitor)
     };
     while (!watch.isAborted() && !findOrChangeDevice(ofImage, find))
     {
+      ofImage.shown.reset(); // of another medium
+    }
+  }
+  if (ofImage.request && ofImage.shown) // which may be the image that is wanted
+  {
+    const Scene& chosen = ofImage.request->scene;
+    Image& image = *ofImage.shown;
+    if (image.stepSize == chosen.stepSize && image.samplesPerPixel == chosen.samplesPerPixel)
+    {
+      image.accuracy = ofImage.request->accuracy;
+      image.finished = true;
+      return std::move(image);
     }
   }
   if (ofImage.request)

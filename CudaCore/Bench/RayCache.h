@@ -121,6 +121,12 @@ public:
   /// Returns whether it was.
   bool prepare(RaysKey key, std::int64_t margin);
   std::int64_t margin() const { return margin_; } ///< of the rays that are cached
+  /// Whether rays of this view are cached, whatever they were traced with.
+  bool areOf(const Frame& frame, const View& view) const
+  {
+    return key_ && !passes_.empty() && tieOf(key_->view.frame) == tieOf(frame) &&
+      key_->view.width == view.width && key_->view.height == view.height;
+  }
 
   /// How far a view's light is moved, which is found where it is that of another one.
   const std::vector<MovedRay>& movedIn(

@@ -34,6 +34,8 @@ struct Aim
   std::unique_ptr<UnfinishedImage> request{}; ///< with all settings, once they are found
   bool isPaused = false;
   bool isShown = false; ///< with one ray per pixel
+  std::optional<Image>
+    shown{}; ///< if with the settings of the view's last image, which may be right
 };
 
 inline Image abortedImage()
@@ -62,7 +64,7 @@ struct Bench::Stages
   }
 
   /// Begins an image with a target error, which renderAim() then makes. One that may be paused is first shown with one ray
-  /// per pixel.
+  /// per pixel, or with those of the view's last image.
   void beginAim(const Field& field, const Scene& scene, Device device);
   /// Finds its settings, and then works on it. Keeps what has been found after a pause.
   Image renderAim(const Monitor& monitor);

@@ -281,6 +281,36 @@ TEST(TargetErrors, KeepTheMedium)
   EXPECT_EQ(bench.work().mediumBuilds, builds);
 }
 
+/// Another knife edge takes the rays of the image before, also where something is shown before the settings are found.
+TEST(TargetErrors, KeepTheRays)
+{
+  const SampledField<float> field(cube(32, 1), shock);
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  scene.targetError = 1. / 256;
+  scene.kScale = 500;
+  Monitor mayPause;
+  mayPause.paused = [] { return false; };
+  Bench bench;
+  const auto render = [&]
+  {
+    Image image = bench.render(field.field, scene, mayPause);
+    while (bench.isUnfinished())
+    {
+      image = bench.resume(mayPause);
+    }
+    return image;
+  };
+  const Image first = render();
+  const std::int64_t sets = bench.work().raySets;
+  scene.knifeEdgeAngle = 1;
+  const Image second = render();
+  EXPECT_EQ(bench.work().raySets, sets);
+  EXPECT_TRUE(second.accuracy.isKept());
+  EXPECT_EQ(second.samplesPerPixel, first.samplesPerPixel);
+  EXPECT_NE(second.intensity, first.intensity);
+  EXPECT_EQ(second.intensity, Bench().render(field.field, scene).intensity);
+}
+
 TEST(TargetErrors, AbortedEndsThem)
 {
   const SampledField<float> field(cube(32, 1), shock);
