@@ -161,13 +161,13 @@ until(lambda: plane.property("side") == {side})
     def view_event(self, frame, event, place, button, buttons):
         self.event(VIEW.format(frame), event, f"({place[0]:g},{place[1]:g},{button},{buttons},0)")
 
-    def play(self, script, seconds=500, expected=None):
+    def play(self, script, seconds=500, expected=None, plugin=True):
         """Plays it after the Python script `script`, and fails where a step does or VTK complains, but for lines with
-        the text `expected`, which must be there."""
-        check_said(self, expected, *play_together([(self, script)], self.folder, seconds))
+        the text `expected`, which must be there. `plugin`: whether the window loads it."""
+        check_said(self, expected, *play_together([(self, script)], self.folder, seconds, plugin))
 
 
-def play_together(sessions, folder, seconds):
+def play_together(sessions, folder, seconds, plugin=True):
     """Plays sessions, each after a Python script, in one window, with Edit > Reset Session between them; returns what
     the window has said, of each."""
     begins = "Begin of session: "
@@ -188,7 +188,7 @@ def play_together(sessions, folder, seconds):
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
     environment = dict(os.environ, XDG_CONFIG_HOME=os.path.join(folder, "window"), SCHLIEREN_TEST_OUTPUT=sessions[0][0].folder,
-                       PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]))
+                       PV_PLUGIN_PATH=os.path.dirname(os.environ["SCHLIEREN_PLUGIN"]) if plugin else "")
     try:
         done = subprocess.run(
             [os.environ["SCHLIEREN_PARAVIEW"], "--dr", f"--script={paths[1]}",
