@@ -5,6 +5,7 @@
 #include "Common/Sentences.h"
 #include "Guarded.h"
 #include "Image/FieldData.h"
+#include "Image/PixelInWords.h"
 #include "Photograph/Compared.h"
 #include "Photograph/ComparisonViews.h"
 #include "Ranks/Ranks.h"
@@ -172,6 +173,18 @@ void vtkCompareWithPhotograph::PrintSelf(ostream& os, vtkIndent indent)
       os << "\n";
     });
   os << indent << "Report: " << this->Report << "\n";
+}
+
+void vtkCompareWithPhotograph::SetProbedPlace(double right, double up)
+{
+  this->ProbedPlace[0] = right;
+  this->ProbedPlace[1] = up;
+}
+
+const char* vtkCompareWithPhotograph::GetProbedPlace()
+{
+  this->Probed = pixelInWords(this->GetOutput(), this->ProbedPlace[0], this->ProbedPlace[1]);
+  return this->Probed.c_str();
 }
 
 int vtkCompareWithPhotograph::FillInputPortInformation(int port, vtkInformation* info)

@@ -61,6 +61,13 @@ public:
   /// Returns what has been found, in sentences. Empty before the first update and after a failed one.
   const char* GetReport() const { return this->Report.c_str(); }
 
+  ///@{
+  /// As those of vtkSchlierenFilter; the first line is how far the photograph's feature there lies from the simulated one, and the
+  /// light of both.
+  void SetProbedPlace(double right, double up);
+  const char* GetProbedPlace();
+  ///@}
+
   // setters: rest
   /// Values of Comparison.
   enum Comparisons
@@ -192,6 +199,8 @@ private:
   void operator=(const vtkCompareWithPhotograph&) = delete;
 
   std::string Report;
+  double ProbedPlace[2] = { -1, -1 };
+  std::string Probed;
   struct Last; // what has been found, and from what: another view of it needs no other fit
   std::unique_ptr<Last> Kept;
 };

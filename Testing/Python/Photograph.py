@@ -4,6 +4,7 @@
 view of it without another fit, ParaView's filters behind it, states, and a mistake in one message."""
 
 import os
+import re
 
 import numpy as np
 from defaults_testing import check_defaults, property_tables
@@ -79,6 +80,20 @@ for angle, holds_for in ((40, 40), (150, 330), (90, 0)):
     assert f"at {holds_for} degrees" in report() or angle == 90, report()
     assert abs(field("PhotographK") * cosine / k - 1) < 0.01, (angle, field("PhotographK") * cosine / k)
 bench.KnifeEdgeAngle = 0
+
+# The place under the mouse in words.
+here = comparison.GetClientSideObject()
+comparison.Placement = "By Hand"
+comparison.PhotographPosition = [-3 * output(bench).GetSpacing()[0], 0]
+report()
+here.SetProbedPlace(0.2, 0.5)
+assert re.search(r"photograph 0\.\d+, simulated 0\.\d+\nx, y: ", here.GetProbedPlace()), here.GetProbedPlace()
+here.SetProbedPlace(1 - 0.5 / SIZE, 0.5)
+assert here.GetProbedPlace().startswith("Beyond the photograph\n"), here.GetProbedPlace()
+here.SetProbedPlace(2, 0.5)
+assert here.GetProbedPlace() == ""
+comparison.Placement = "Fill Image"
+report()
 
 # Another view changes the array that is shown, and fits nothing again.
 swiped = image_array(comparison, "Comparison")

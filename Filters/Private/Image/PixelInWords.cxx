@@ -61,6 +61,22 @@ std::string axisName(vtkImageData* image, const char* direction, const char* oth
   return otherwise;
 }
 
+/// Returns a shift, metres, in words.
+std::string shiftInWords(double right, double up)
+{
+  const double length = std::hypot(right, up);
+  const auto part = [&](double shift, const char* forwards, const char* backwards)
+  {
+    constexpr double least = 0.3; // of the length, to be named
+    return std::abs(shift) < least * length
+      ? ""
+      : lengthInWords(std::abs(shift), 3) + (shift > 0 ? forwards : backwards);
+  };
+  const std::string across = part(right, " to the right", " to the left");
+  const std::string along = part(up, " up", " down");
+  return across + (across.empty() || along.empty() ? "" : ", ") + along;
+}
+
 } // namespace
 
 std::string pixelInWords(vtkImageData* image, double right, double up)
@@ -90,7 +106,22 @@ std::string pixelInWords(vtkImageData* image, double right, double up)
   text += "\nDeflection to the right, up: " +
     inWords({ valueOf("Deflection", 0), valueOf("Deflection", 1) }, "rad");
   text += "\nOptical path difference: " + inWords({ valueOf("OpticalPathDifference", 0) }, "m");
-  return text + "\nIntensity: " + textOf(valueOf("Intensity", 0), 3);
+  text += "\nIntensity: " + textOf(valueOf("Intensity", 0), 3);
+  if (!image->GetPointData()->GetArray("Photograph"))
+  {
+    return text;
+  }
+  const double photograph = valueOf("Photograph", 0);
+  if (!std::isfinite(photograph))
+  {
+    return "Beyond the photograph\n" + text;
+  }
+  const double shift[] = { scale * valueOf("FeatureShift", 0), scale * valueOf("FeatureShift", 1) };
+  const bool isFeature = std::isfinite(shift[0]) && std::hypot(shift[0], shift[1]) > 0;
+  return (isFeature ? "The photograph's feature lies " + shiftInWords(shift[0], shift[1]) + "; "
+                    : std::string()) +
+    "photograph " + textOf(photograph, 2) + ", simulated " + textOf(valueOf("Simulated", 0), 2) +
+    "\n" + text;
 }
 
 } // namespace filters

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <regex>
 
 namespace
 {
@@ -291,6 +292,22 @@ TEST(Photograph, FeaturesOfALongerJetAreFoundWhereTheyAre)
   EXPECT_LT(std::abs(errors.disc), 0.3); // of 1.8 pixels
   EXPECT_NEAR(fieldValue(comparison, "PhotographK") / jet().k, 1, 0.02);
   EXPECT_FALSE(has(report(comparison), "Warning"));
+  const Plane right = planeOf(comparison, "FeatureShift"),
+              up = planeOf(comparison, "FeatureShift", 1);
+  std::string words; // where it is to the right
+  for (std::size_t i = 0; i < right.size() && words.empty(); ++i)
+  {
+    if (right.values[i] > pixel && right.values[i] < 3 * pixel &&
+      std::abs(up.values[i]) < 0.1 * pixel)
+    {
+      comparison->SetProbedPlace((static_cast<double>(i % columns) + 0.5) / columns,
+        (static_cast<double>(i / columns) + 0.5) / rows);
+      words = comparison->GetProbedPlace();
+    }
+  }
+  EXPECT_TRUE(std::regex_search(words,
+    std::regex("^The photograph's feature lies [1-4][0-9]{2} .*m to the right; photograph 0")))
+    << words;
 
   // Placed by the flow, most of that is hidden, and a warning says so.
   comparison->SetFitPlace(vtkCompareWithPhotograph::FIT_FLOW);
