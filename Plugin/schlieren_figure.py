@@ -271,10 +271,13 @@ def displays_in(view):
             and shown.Visibility and shown.Representation == "Schlieren"]
 
 
+IMAGES = ("Schlieren", "CompareWithPhotograph")
+
+
 def filters_in(view):
-    """The Schlieren filters whose images a view shows."""
+    """The Schlieren filters, and comparisons with a photograph, whose images a view shows."""
     return [shown.Input for shown in getattr(view, "Representations", [])
-            if shown.GetXMLName() == "SchlierenImageRepresentation" and shown.Visibility]
+            if shown.Visibility and getattr(shown, "Input", None) is not None and shown.Input.GetXMLName() in IMAGES]
 
 
 def chosen(view, size):
@@ -283,7 +286,7 @@ def chosen(view, size):
     source = simple.GetActiveSource()
     for display in displays_in(view):
         return filter_like(display, view, size)
-    if source is not None and source.GetXMLName() == "Schlieren":
+    if source is not None and source.GetXMLName() in IMAGES:
         return source
     for shown in filters_in(view):
         return shown
@@ -293,6 +296,8 @@ def chosen(view, size):
 
 def light_of(bench):
     """Which light makes an image, in words."""
+    while bench.GetXMLName() != "Schlieren":  # a comparison with a photograph
+        bench = bench.Input
     are_waves = bench.Cutoff == "Phase Contrast" or bench.LightModel == "Waves"
     return f"{'waves' if are_waves else 'rays'} of {bench.Wavelength:g} nm"
 
@@ -316,20 +321,25 @@ def keeping(time):
 
 
 def sheet_of(image, title="", light=None):
-    """A page with one image, each of its pixels one pixel of the page, or some where there are few."""
+    """A page with one image, each of its pixels one pixel of the page, or some where there are few. Of a comparison with a
+    photograph both, side by side."""
     facts = facts_of(image)
-    pixels = pixels_of(image)
-    rows, columns = pixels.shape[:2]
+    both = {name: grey(rows_of(image, name)) for name in ("Photograph", "Simulated") if image.GetPointData().HasArray(name)}
+    images = both or {"": pixels_of(image)}
+    rows, columns = next(iter(images.values())).shape[:2]
     repeat = max(1, math.ceil(480 / columns))
     zoom = max(1, round(columns * repeat / 800))
     width, height = columns * repeat / zoom, rows * repeat / zoom
-    left, top = 70, 64
-    sheet = Sheet(math.ceil(left + width + 24), 1, zoom)
+    left, top = 70, 88 if both else 64
+    step = left + math.ceil(width + 24)
+    sheet = Sheet(step * len(images), 1, zoom)
     below = sheet.legend_height(facts)
     sheet = Sheet(sheet.width, math.ceil(top + height + 48 + below), zoom)
     sheet.text(left, 10, title or facts["LegendTitle"][0], 20, room=width)
-    sheet.image(left, top, pixels, Axes.of(image, facts), repeat)
-    sheet.legend(left, math.ceil(top + height + 46), facts, width, light)
+    for place, (name, pixels) in enumerate(images.items()):
+        sheet.text(left + step * place, 38, name, 13, sheet.DIM)
+        sheet.image(left + step * place, top, pixels, Axes.of(image, facts), repeat)
+    sheet.legend(left, math.ceil(top + height + 46), facts, step * (len(images) - 1) + width, light)
     return sheet
 
 
@@ -405,7 +415,7 @@ def save(filename, image=None, view=None, title="", size=None, dpi=None, crop=Fa
     """Saves a figure of a schlieren image, and beside it its numbers and what made it.
 
     filename: .png (pixel by pixel), .pdf or .svg.
-    image: a Schlieren filter. Default: that of what `view` draws as Schlieren, the one that is selected in the pipeline
+    image: a Schlieren filter, or its comparison with a photograph. Default: that of what `view` draws as Schlieren, the one that is selected in the pipeline
         browser, or one whose image `view` shows.
     view: a render view, default: the active one.
     title: default: the technique.
