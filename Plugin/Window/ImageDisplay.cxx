@@ -3,6 +3,7 @@
 #include "ImageDisplay.h"
 
 #include "vtkDataObject.h"
+#include "vtkPVArrayInformation.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMTrace.h"
@@ -52,27 +53,49 @@ void setMapScalars(vtkSMProxy* representation, int value)
 void ImageDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 {
   const bool isColored = white(filter) == 0;
+  const char* const colors = filter->GetProperty("Comparison") ? "Comparison" : "Color";
   setValue(representation, "UseSeparateColorMap", 1);
   setMapScalars(representation, isColored ? 0 : 1);
   if (auto* colored = vtkSMPVRepresentationProxy::SafeDownCast(representation))
   {
-    colored->SetScalarColoring(isColored ? "Color" : "Intensity", vtkDataObject::POINT);
+    colored->SetScalarColoring(isColored ? colors : "Intensity", vtkDataObject::POINT);
   }
   representation->UpdateVTKObjects();
-  vtkSMProxy* colors = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
-  if (!isColored && colors)
+  vtkSMProxy* map = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+  if (!isColored && map)
   {
-    vtkSMTransferFunctionProxy::ApplyPreset(colors, "Grayscale", false);
-    vtkSMTransferFunctionProxy::RescaleTransferFunction(colors, 0, white(filter));
+    vtkSMTransferFunctionProxy::ApplyPreset(map, "Grayscale", false);
+    vtkSMTransferFunctionProxy::RescaleTransferFunction(map, 0, white(filter));
     // Disables rescaling, whose range for converging light would darken all else.
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", colors);
-    vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode").Set(-1);
-    colors->UpdateVTKObjects();
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", map);
+    vtkSMPropertyHelper(map, "AutomaticRescaleRangeMode").Set(-1);
+    map->UpdateVTKObjects();
+  }
+}
+
+void ImageDisplay::applyToPhotograph(vtkSMProxy* representation, vtkPVArrayInformation* values)
+{
+  const bool areBytes = values->GetDataType() == VTK_UNSIGNED_CHAR;
+  setValue(representation, "UseSeparateColorMap", 1);
+  setMapScalars(representation, areBytes ? 0 : 1);
+  if (auto* colored = vtkSMPVRepresentationProxy::SafeDownCast(representation))
+  {
+    colored->SetScalarColoring(values->GetName(), vtkDataObject::POINT);
+  }
+  representation->UpdateVTKObjects();
+  vtkSMProxy* map = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+  if (!areBytes && map)
+  {
+    vtkSMTransferFunctionProxy::ApplyPreset(map, "Grayscale", true);
   }
 }
 
 double ImageDisplay::white(vtkSMProxy* filter)
 {
+  if (!filter->GetProperty("Cutoff")) // it is a comparison
+  {
+    return 0;
+  }
   const int cutoff = valueOf(filter, "Cutoff");
   const bool isColored = valueOf(filter, "ColorByField") != 0 ||
     Filter::CutoffHasColor(

@@ -10,8 +10,14 @@
 #include "pqRenderView.h"
 #include "pqServerManagerModel.h"
 
+#include "vtkClientServerStream.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPVRenderView.h"
+#include "vtkPVSession.h"
+#include "vtkRenderer.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMRenderViewProxy.h"
+#include "vtkSMSession.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewLayoutProxy.h"
 #include "vtkSchlierenFilter.h"
@@ -31,6 +37,12 @@ bool imagesInViews::isSchlieren(pqPipelineSource* source)
   const char* name = source && source->getProxy() ? source->getProxy()->GetXMLName() : nullptr;
   return name && std::strcmp(name, "Schlieren") == 0 &&
     source->getProxy()->GetProperty("PictureCount");
+}
+
+bool imagesInViews::isComparison(pqPipelineSource* source)
+{
+  const char* name = source && source->getProxy() ? source->getProxy()->GetXMLName() : nullptr;
+  return name && std::strcmp(name, "CompareWithPhotograph") == 0;
 }
 
 pqPipelineSource* imagesInViews::filterOf(pqPipelineSource* source)
@@ -129,13 +141,61 @@ QList<pqPipelineSource*> imagesInViews::imagesIn(pqView* view)
     pqOutputPort* port = representation && representation->isVisible()
       ? representation->getOutputPortFromInput()
       : nullptr;
-    if (port && port->getPortNumber() == 0 && isSchlieren(port->getSource()) &&
+    if (port && port->getPortNumber() == 0 &&
+      (isSchlieren(port->getSource()) || isComparison(port->getSource())) &&
       !shown.contains(port->getSource()))
     {
       shown << port->getSource();
     }
   }
   return shown;
+}
+
+std::array<double, 2> imagesInViews::placeInImage(
+  pqPipelineSource* filter, pqRenderView* view, double right, double up)
+{
+  vtkRenderer* renderer = view->getRenderViewProxy()->GetRenderer();
+  const int* size = renderer->GetSize();
+  std::array<std::array<double, 4>, 2> ends{}; // of the line of sight
+  for (int end = 0; end < 2; ++end)
+  {
+    renderer->SetDisplayPoint(right * size[0], up * size[1], end);
+    renderer->DisplayToWorld();
+    renderer->GetWorldPoint(ends[end].data());
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ends[end][axis] /= ends[end][3];
+    }
+  }
+  const double depth = ends[0][2] - ends[1][2];
+  if (depth == 0)
+  {
+    return { -1, -1 };
+  }
+  const double along = ends[0][2] / depth;
+  vtkPVDataInformation* image = filter->getSourceProxy()->GetDataInformation(0);
+  std::array<double, 2> fraction{};
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double place = ends[0][axis] + along * (ends[1][axis] - ends[0][axis]);
+    // Bounds are centres of pixels.
+    const double* bounds = image->GetBounds() + 2 * axis;
+    const int* extent = image->GetExtent() + 2 * axis;
+    const double last = extent[1] - extent[0];
+    fraction[axis] = (0.5 + last * (place - bounds[0]) / (bounds[1] - bounds[0])) / (last + 1);
+  }
+  return fraction;
+}
+
+QString imagesInViews::placeInWords(vtkSMProxy* filter, double right, double up)
+{
+  // Sends the place itself, because a property would make views update.
+  vtkClientServerStream stream;
+  stream << vtkClientServerStream::Invoke << VTKOBJECT(filter) << "SetProbedPlace" << right << up
+         << vtkClientServerStream::End;
+  filter->GetSession()->ExecuteStream(vtkPVSession::DATA_SERVER, stream);
+  filter->UpdatePropertyInformation(filter->GetProperty("ProbedPlace"));
+  return QString::fromUtf8(vtkSMPropertyHelper(filter, "ProbedPlace").GetAsString());
 }
 
 bool imagesInViews::isFlat(pqView* view)

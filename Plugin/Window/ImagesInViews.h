@@ -3,6 +3,9 @@
 #pragma once
 
 #include <QList>
+#include <QString>
+
+#include <array>
 
 class pqOutputPort;
 class pqPipelineSource;
@@ -16,6 +19,9 @@ namespace imagesInViews
 {
 
 bool isSchlieren(pqPipelineSource* source);
+
+/// Returns whether a source compares an image with a photograph.
+bool isComparison(pqPipelineSource* source);
 
 /// Returns the Schlieren filter of an image, the source or one upstream; null if there is none.
 pqPipelineSource* filterOf(pqPipelineSource* source);
@@ -39,8 +45,16 @@ double shownK(pqRepresentation* representation);
 /// Lists the filters inside of the representations that a view draws as Schlieren.
 QList<vtkSMProxy*> benchesIn(pqView* view);
 
-/// Lists the filters whose images are visible in a view.
+/// Lists the filters, comparisons among them, whose images are visible in a view.
 QList<pqPipelineSource*> imagesIn(pqView* view);
+
+/// Returns which place of a filter's image, which is in the plane z = 0, is under a place of a view. Places are fractions of
+/// width and height from the lower left; one that is not there is below 0.
+std::array<double, 2> placeInImage(
+  pqPipelineSource* filter, pqRenderView* view, double right, double up);
+
+/// Returns what the image of a filter has at a place, in words.
+QString placeInWords(vtkSMProxy* filter, double right, double up);
 
 /// Returns whether a view looks onto a plane.
 bool isFlat(pqView* view);

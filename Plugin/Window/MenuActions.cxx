@@ -10,18 +10,27 @@
 #include "pqCoreUtilities.h"
 #include "pqFileDialog.h"
 #include "pqLoadDataReaction.h"
+#include "pqObjectBuilder.h"
 #include "pqOutputPort.h"
-#include "pqPipelineSource.h"
+#include "pqPipelineFilter.h"
 #include "pqProxyWidgetDialog.h"
 #include "pqRenderView.h"
 #include "pqServer.h"
+#include "pqUndoStack.h"
+#include "vtkDataObject.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSMTrace.h"
 #include "vtkSMViewProxy.h"
+#include "vtkSchlierenFilter.h"
 
 #include <QFileInfo>
+#include <QMap>
+#include <QScopeGuard>
 #include <QStringList>
 
 namespace
@@ -68,12 +77,42 @@ bool appendOptions(pqView* view, QByteArray& code)
   return true;
 }
 
+/// Returns the reader of a photograph by the ending of its name; empty: ParaView asks.
+QString readerOf(const QString& file)
+{
+  static const QMap<QString, QString> readers{ { "png", "PNGSeriesReader" },
+    { "jpg", "JPEGSeriesReader" }, { "jpeg", "JPEGSeriesReader" }, { "tif", "TIFFSeriesReader" },
+    { "tiff", "TIFFSeriesReader" } };
+  return readers.value(QFileInfo(file).suffix().toLower());
+}
+
+/// Returns the source that is meant, of those that an image may have: the selected one, or one whose image the active view shows.
+template <class Is>
+pqPipelineSource* meant(const Is& is)
+{
+  pqPipelineSource* selected = pqActiveObjects::instance().activeSource();
+  if (is(selected))
+  {
+    return selected;
+  }
+  pqView* view = pqActiveObjects::instance().activeView();
+  for (pqPipelineSource* shown : view ? imagesInViews::imagesIn(view) : QList<pqPipelineSource*>())
+  {
+    if (is(shown))
+    {
+      return shown;
+    }
+  }
+  return nullptr;
+}
+
 } // namespace
 
 bool menuActions::hasImage()
 {
   pqView* view = pqActiveObjects::instance().activeView();
-  return imagesInViews::isSchlieren(pqActiveObjects::instance().activeSource()) ||
+  pqPipelineSource* source = pqActiveObjects::instance().activeSource();
+  return imagesInViews::isSchlieren(source) || imagesInViews::isComparison(source) ||
     (view && !(imagesInViews::benchesIn(view).empty() && imagesInViews::imagesIn(view).empty()));
 }
 
@@ -102,6 +141,78 @@ QString menuActions::saveFigure()
   return QMetaObject::invokeMethod(python, "executeCode", Q_ARG(QByteArray, code))
     ? QString()
     : "This ParaView does not run Python, which draws figures.";
+}
+
+QString menuActions::compareWithPhotograph()
+{
+  pqPipelineSource* image = meant(imagesInViews::isSchlieren);
+  if (!image || image->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    return "There is no image to compare with a photograph. Choose Filters > Schlieren > "
+           "Schlieren, and "
+           "click Apply.";
+  }
+  pqServer* server = image->getServer();
+  pqFileDialog dialog(server, pqCoreUtilities::mainWidget(), "Open Photograph", QString(),
+    "Photographs (*.png *.jpg *.jpeg *.tif *.tiff);;All files (*)", false);
+  dialog.setObjectName("OpenPhotograph");
+  dialog.setFileMode(pqFileDialog::ExistingFile);
+  if (dialog.exec() != QDialog::Accepted)
+  {
+    return QString();
+  }
+  BEGIN_UNDO_SET("Beside a Photograph");
+  const QScopeGuard end([]() { END_UNDO_SET(); });
+  pqPipelineSource* photograph = pqLoadDataReaction::loadData(
+    dialog.getSelectedFiles(), "sources", readerOf(dialog.getSelectedFiles().front()), server);
+  if (!photograph)
+  {
+    return "The photograph '" + dialog.getSelectedFiles().front() + "' could not be opened.";
+  }
+  photograph->setModifiedState(pqProxy::UNMODIFIED);
+  photograph->getSourceProxy()->UpdatePipeline();
+  if (photograph->getOutputPort(0)->getDataInformation()->GetDataSetType() != VTK_IMAGE_DATA)
+  {
+    return "'" + dialog.getSelectedFiles().front() + "' is no image.";
+  }
+  pqPipelineSource* comparison = pqApplicationCore::instance()->getObjectBuilder()->createFilter(
+    "filters", "CompareWithPhotograph",
+    { { "Input", { image->getOutputPort(0) } },
+      { "Photograph", { photograph->getOutputPort(0) } } },
+    server);
+  comparison->getSourceProxy()->UpdatePipeline();
+  comparison->setModifiedState(pqProxy::UNMODIFIED); // which shows it
+  pqActiveObjects::instance().setActiveSource(comparison);
+  return QString();
+}
+
+double menuActions::kOfPhotograph()
+{
+  pqPipelineSource* comparison = meant(imagesInViews::isComparison);
+  vtkPVArrayInformation* k = comparison
+    ? comparison->getOutputPort(0)->getDataInformation()->GetArrayInformation(
+        "PhotographK", vtkDataObject::FIELD)
+    : nullptr;
+  return k ? k->GetComponentRange(0)[0] : 0;
+}
+
+void menuActions::copyK()
+{
+  const double k = kOfPhotograph();
+  auto* comparison = qobject_cast<pqPipelineFilter*>(meant(imagesInViews::isComparison));
+  pqPipelineSource* image = comparison
+    ? imagesInViews::filterOf(comparison->getInputs("Input").front()->getSource())
+    : nullptr;
+  if (k > 0 && image)
+  {
+    BEGIN_UNDO_SET("Copy k of Photograph");
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", image->getProxy());
+    vtkSMPropertyHelper(image->getProxy(), "KMode").Set(vtkSchlierenFilter::K_VALUE);
+    vtkSMPropertyHelper(image->getProxy(), "KScale").Set(k);
+    image->getProxy()->UpdateVTKObjects();
+    END_UNDO_SET();
+    image->renderAllViews();
+  }
 }
 
 QString menuActions::openExample()

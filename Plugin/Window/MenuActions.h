@@ -15,6 +15,16 @@ bool hasImage();
 /// user has cancelled.
 QString saveFigure();
 
+/// Requests the file of a photograph, and compares the selected image, or that of the active view, with it, as one undo step. Returns why it
+/// cannot; empty: it does, or the user has cancelled.
+QString compareWithPhotograph();
+
+/// Returns k of the photograph that the selected comparison, or that of the active view, has found; 0: none.
+double kOfPhotograph();
+
+/// Gives that k to the comparison's image.
+void copyK();
+
 /// Opens the jet that comes with the plugin, shows it, and selects it. Returns why it cannot; else empty.
 QString openExample();
 

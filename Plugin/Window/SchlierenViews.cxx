@@ -12,6 +12,7 @@
 #include "ViewsBeside.h"
 #include "VolumeDisplay.h"
 #include "WholeFlow.h"
+#include "pqPhotographPoints.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
@@ -23,9 +24,12 @@
 #include "pqServer.h"
 #include "pqUndoStack.h"
 #include "vtkCamera.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
+#include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPVDataSetAttributesInformation.h"
 #include "vtkPVRenderView.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
@@ -179,6 +183,47 @@ public:
     return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
 
+  /// Shows a comparison, its image and its photograph in views of their own.
+  void compare(pqPipelineSource* comparison)
+  {
+    if (pqRenderView* view = viewWith(comparison))
+    {
+      this->Controller->Hide(comparison->getSourceProxy(), 0, view->getViewProxy());
+    }
+    this->Scene = viewWith(this->Flow->getSource());
+    if (!this->Scene)
+    {
+      this->findScene();
+    }
+    pqOutputPort* photograph =
+      qobject_cast<pqPipelineFilter*>(comparison)->getInputs("Photograph").front();
+    this->Views = addViewsBeside(
+      this->Scene, { comparison->getSMName(), "Points in Image", "Points in Photograph" });
+    if (!this->isThere(3))
+    {
+      return;
+    }
+    pqOutputPort* const ports[] = { comparison->getOutputPort(0), this->Flow, photograph };
+    for (int i = 0; i < 3; ++i)
+    {
+      vtkSMProxy* representation = this->showFlat(ports[i], this->Views[i]);
+      pqPipelineSource* source = ports[i]->getSource();
+      vtkPVArrayInformation* values =
+        ports[i]->getDataInformation()->GetPointDataInformation()->GetAttributeInformation(
+          vtkDataSetAttributes::SCALARS);
+      if (representation && i < 2 && imagesInViews::filterOf(source) == source)
+      {
+        ImageDisplay::apply(representation, source->getProxy());
+      }
+      else if (representation && values)
+      {
+        ImageDisplay::applyToPhotograph(representation, values);
+      }
+    }
+    pqActiveObjects::instance().setActiveView(this->Views[0]);
+    new pqPhotographPoints(comparison, this->Views[1], this->Views[2]);
+  }
+
   /// Shows the image of a filter in a view of its own, which it fills: that in which ParaView has
   /// shown it, where nothing else is visible, or a new one.
   void show(pqPipelineSource* filter)
@@ -198,12 +243,33 @@ public:
       }
       view = this->Views[0];
     }
+    if (vtkSMProxy* representation = this->showFlat(filter->getOutputPort(0), view))
+    {
+      ImageDisplay::apply(representation, filter->getProxy());
+    }
+    pqActiveObjects::instance().setActiveView(view);
+  }
+
+  void render()
+  {
+    this->Scene->render();
+    for (pqRenderView* view : this->Views)
+    {
+      view->render();
+    }
+  }
+
+private:
+  /// Shows an image in a view that looks onto it. Returns its representation.
+  vtkSMProxy* showFlat(pqOutputPort* image, pqRenderView* view)
+  {
     vtkSMRenderViewProxy* window = view->getRenderViewProxy();
     {
       SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
       flatten(window);
     }
-    vtkSMProxy* representation = this->Controller->Show(filter->getSourceProxy(), 0, window);
+    vtkSMProxy* representation =
+      this->Controller->Show(image->getSource()->getSourceProxy(), image->getPortNumber(), window);
     if (representation)
     {
       vtkSMPVRepresentationProxy::SetScalarBarVisibility(representation, window, false);
@@ -215,7 +281,6 @@ public:
         type.Set("Slice");
         representation->UpdateVTKObjects();
       }
-      ImageDisplay::apply(representation, filter->getProxy());
     }
     {
       SM_SCOPED_TRACE(CallMethod).arg(window).arg("ResetCamera").arg(true);
@@ -230,19 +295,9 @@ public:
       }
     };
     addUndoStep([]() {}, redo);
-    pqActiveObjects::instance().setActiveView(view);
+    return representation;
   }
 
-  void render()
-  {
-    this->Scene->render();
-    for (pqRenderView* view : this->Views)
-    {
-      view->render();
-    }
-  }
-
-private:
   /// Returns the render view in which the image of a filter is visible; null if there is none.
   static pqRenderView* viewWith(pqPipelineSource* filter)
   {
@@ -474,6 +529,7 @@ void SchlierenViews::show(pqPipelineSource* filter)
   if (!inputs.empty())
   {
     const HeldInput input;
-    Builder(inputs.front(), nullptr).show(filter);
+    Builder builder(inputs.front(), nullptr);
+    imagesInViews::isComparison(filter) ? builder.compare(filter) : builder.show(filter);
   }
 }

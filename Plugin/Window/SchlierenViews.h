@@ -42,7 +42,8 @@ struct Result
 /// representation. `cell`: for one image.
 Result add(Arrangement arrangement, const Cell& cell = {}, const Completion& completion = {});
 
-/// Shows the image of a Schlieren filter in grey in a flat view beside the 3-D view.
+/// Shows the image of a Schlieren filter in grey in a flat view beside the 3-D view. Shows a comparison with a photograph in
+/// three flat views: itself, the image and the photograph, in which two points can be clicked.
 void show(pqPipelineSource* filter);
 
 } // namespace SchlierenViews

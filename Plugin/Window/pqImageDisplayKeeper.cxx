@@ -45,7 +45,7 @@ pqImageDisplayKeeper::~pqImageDisplayKeeper() = default;
 
 void pqImageDisplayKeeper::watch(pqPipelineSource* source)
 {
-  if (imagesInViews::isSchlieren(source))
+  if (imagesInViews::isSchlieren(source) || imagesInViews::isComparison(source))
   {
     source->setProperty(lastWhite, ImageDisplay::white(source->getProxy()));
     this->Events->Connect(

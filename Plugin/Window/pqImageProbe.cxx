@@ -9,20 +9,8 @@
 #include "pqRenderView.h"
 #include "pqServerManagerModel.h"
 
-#include "vtkClientServerStream.h"
-#include "vtkPVDataInformation.h"
-#include "vtkPVSession.h"
-#include "vtkRenderer.h"
-#include "vtkSMPropertyHelper.h"
-#include "vtkSMRenderViewProxy.h"
-#include "vtkSMSession.h"
-#include "vtkSMSourceProxy.h"
-
 #include <QHelpEvent>
 #include <QToolTip>
-
-#include <array>
-#include <cmath>
 
 namespace
 {
@@ -30,64 +18,20 @@ namespace
 /// Property of a watched widget: its view.
 constexpr const char* viewOfWidget = "SchlierenProbedView";
 
-/// Returns what the image of a filter has at a place, from 0 to 1 to the right and up, where the filter is.
-QString placeInWords(vtkSMProxy* filter, double right, double up)
-{
-  // Sends the place itself, because a property would make views update.
-  vtkClientServerStream stream;
-  stream << vtkClientServerStream::Invoke << VTKOBJECT(filter) << "SetProbedPlace" << right << up
-         << vtkClientServerStream::End;
-  filter->GetSession()->ExecuteStream(vtkPVSession::DATA_SERVER, stream);
-  filter->UpdatePropertyInformation(filter->GetProperty("ProbedPlace"));
-  return QString::fromUtf8(vtkSMPropertyHelper(filter, "ProbedPlace").GetAsString());
-}
-
 /// Returns what the image that a view draws has at a place, from 0 to 1 to the right and up.
 QString drawnInWords(pqRenderView* view, double right, double up)
 {
   const QList<vtkSMProxy*> benches = imagesInViews::benchesIn(view);
-  return benches.isEmpty() ? QString() : placeInWords(benches.front(), right, up);
+  return benches.isEmpty() ? QString() : imagesInViews::placeInWords(benches.front(), right, up);
 }
 
-/// Returns what an image of a filter, which is in the plane z = 0, has at a place of a view.
+/// Returns what an image of a filter has at a place of a view.
 QString sliceInWords(pqRenderView* view, double right, double up)
 {
-  vtkRenderer* renderer = view->getRenderViewProxy()->GetRenderer();
-  const int* size = renderer->GetSize();
-  std::array<std::array<double, 4>, 2> ends{}; // of the line of sight
-  for (int end = 0; end < 2; ++end)
-  {
-    renderer->SetDisplayPoint(right * size[0], up * size[1], end);
-    renderer->DisplayToWorld();
-    renderer->GetWorldPoint(ends[end].data());
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      ends[end][axis] /= ends[end][3];
-    }
-  }
-  const double depth = ends[0][2] - ends[1][2];
-  if (depth == 0)
-  {
-    return QString();
-  }
-  const double along = ends[0][2] / depth;
-  std::array<double, 2> place{};
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    place[axis] = ends[0][axis] + along * (ends[1][axis] - ends[0][axis]);
-  }
   for (pqPipelineSource* filter : imagesInViews::imagesIn(view))
   {
-    vtkPVDataInformation* image = filter->getSourceProxy()->GetDataInformation(0);
-    const auto fraction = [&](int axis)
-    {
-      // Bounds are centres of pixels.
-      const double* bounds = image->GetBounds() + 2 * axis;
-      const int* extent = image->GetExtent() + 2 * axis;
-      const double last = extent[1] - extent[0];
-      return (0.5 + last * (place[axis] - bounds[0]) / (bounds[1] - bounds[0])) / (last + 1);
-    };
-    const QString text = placeInWords(filter->getProxy(), fraction(0), fraction(1));
+    const auto place = imagesInViews::placeInImage(filter, view, right, up);
+    const QString text = imagesInViews::placeInWords(filter->getProxy(), place[0], place[1]);
     if (!text.isEmpty())
     {
       return text;

@@ -116,7 +116,7 @@ QString statusOf(vtkSMProxy* filter)
       filter->UpdatePropertyInformation(property);
     }
   }
-  QString status = QString::fromUtf8(vtkSMPropertyHelper(filter, "Status").GetAsString());
+  QString status = QString::fromUtf8(vtkSMPropertyHelper(filter, "Status", true).GetAsString());
   status.remove(speed);
   return vtkSMPropertyHelper(filter, "Stopped", true).GetAsInt() != 0 ? "Stopped. " + status
                                                                       : status;

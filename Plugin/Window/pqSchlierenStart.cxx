@@ -7,6 +7,7 @@
 #include "pqImageProbe.h"
 #include "pqImageProgress.h"
 #include "pqImageStatus.h"
+#include "pqPhotographMouse.h"
 
 #include "pqApplicationCore.h"
 
@@ -29,5 +30,6 @@ void pqSchlierenStart::startup()
   new pqImageDisplayKeeper(this);
   new pqImageProgress(this);
   new pqImageProbe(this);
+  new pqPhotographMouse(this);
   new pqFlowOfView(this);
 }

@@ -168,6 +168,18 @@ void pqSchlierenToolBar::addMenu()
     "Save the image of the active view with axes, legend and title as PNG, PDF or SVG");
   QObject::connect(
     menu, &QMenu::aboutToShow, figure, [figure]() { figure->setEnabled(menuActions::hasImage()); });
+  QAction* photograph = menu->addAction("Beside a &Photograph...",
+    [this]() {
+      this->showResult({ false, true, menuActions::compareWithPhotograph() });
+    });
+  photograph->setObjectName("actionPhotograph");
+  photograph->setToolTip(
+    "Compare the image of a filter Schlieren with a photograph of the experiment");
+  QAction* copyK = menu->addAction("Copy &k of Photograph", &menuActions::copyK);
+  copyK->setObjectName("actionCopyK");
+  copyK->setToolTip("Give the k that was found in the photograph to the image");
+  QObject::connect(menu, &QMenu::aboutToShow, copyK,
+    [copyK]() { copyK->setEnabled(menuActions::kOfPhotograph() > 0); });
   this->Example = menu->addAction("&Example", [this]() { this->showExample(); });
   this->Example->setObjectName("actionExample");
   this->Example->setToolTip("Open an under-expanded air jet and show it as a schlieren image");
