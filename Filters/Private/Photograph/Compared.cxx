@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Photograph/Compared.h"
 
-#include "Common/NumberText.h"
+#include "Photograph/Description.h"
 #include "Photograph/PlaceFit.h"
+#include "Photograph/Reading.h"
 #include "PhotographSettings.h"
 
 #include "vtkImageData.h"
@@ -24,120 +25,9 @@ namespace
 
 using Settings = PhotographSettings;
 
-constexpr float saturated = 0.985f;    // brighter pixels of the photograph may have had more light
 constexpr double leastFull = 0.01;     // fraction of points with all light, from which k is known
 constexpr double leastContrast = 0.02; // of a photograph that shows something
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-
-/// A photograph in its own pixels, or in squares of them where they are finer than the image's.
-struct Photograph
-{
-  Plane values;
-  Plane withoutFlow; // or empty
-  Plane used;        // 1 within the mirror where it is not saturated, else 0
-  Grid grid;
-  double black = 0;
-  bool isBlackKnown = false; // given, or seen beyond the mirror
-};
-
-Point2 pairOf(const double (&values)[2]) { return { values[0], values[1] }; }
-
-Place placeOf(const Grid& image, const Grid& photograph, const PhotographSettings& settings)
-{
-  const double aspect = settings.PixelAspect;
-  if (settings.Placement == Settings::PLACE_TWO_POINTS)
-  {
-    return placeByPoints(pairOf(settings.PhotographPoint1), pairOf(settings.PhotographPoint2),
-      pairOf(settings.FlowPoint1), pairOf(settings.FlowPoint2), aspect);
-  }
-  const double filling = image.rows * image.spacing[1] / (photograph.rows * photograph.spacing[1]);
-  Place place{ photograph.middle(), image.middle(), filling, 0, aspect };
-  if (settings.Placement == Settings::PLACE_BY_HAND ||
-    settings.Placement == Settings::PLACE_ONE_POINT)
-  {
-    place.rotation = vtkMath::RadiansFromDegrees(settings.PhotographRotation);
-    place.scale = settings.PhotographScale > 0 ? settings.PhotographScale : filling;
-    place.position = pairOf(settings.PhotographPosition);
-  }
-  if (settings.Placement == Settings::PLACE_ONE_POINT)
-  {
-    place.anchor = pairOf(settings.PhotographPoint1);
-    place.position = pairOf(settings.FlowPoint1);
-  }
-  return place;
-}
-
-Photograph read(vtkImageData* photograph, vtkImageData* withoutFlow, int factor,
-  const PhotographSettings& settings)
-{
-  Photograph result;
-  const double white = whiteOf(photograph, withoutFlow);
-  result.values = luminanceOf(photograph, white, factor, result.grid);
-  if (withoutFlow)
-  {
-    Grid same;
-    result.withoutFlow = luminanceOf(withoutFlow, white, factor, same);
-    if (same.columns != result.grid.columns || same.rows != result.grid.rows)
-    {
-      throw std::runtime_error(
-        "The photograph without flow has another number of pixels than the photograph. Take both "
-        "with the same camera, and cut both alike.");
-    }
-  }
-  result.used = Plane(result.grid.columns, result.grid.rows);
-  std::vector<float> dark; // beyond the mirror and what its edge scatters
-  for (int row = 0; row < result.grid.rows; ++row)
-  {
-    for (int column = 0; column < result.grid.columns; ++column)
-    {
-      const auto [x, y] = result.grid.at(column, row);
-      const double distance =
-        std::hypot(x - settings.MirrorCenter[0], y - settings.MirrorCenter[1]);
-      const bool isInside = !(settings.MirrorRadius > 0) || distance < settings.MirrorRadius;
-      result.used(column, row) = isInside && result.values(column, row) < saturated ? 1.f : 0.f;
-      if (!isInside && distance > 1.1 * settings.MirrorRadius)
-      {
-        dark.push_back(result.values(column, row));
-      }
-    }
-  }
-  result.isBlackKnown = settings.BlackLevel >= 0 || dark.size() > 100;
-  std::vector<float> all = result.values.values;
-  result.black = settings.BlackLevel >= 0 ? settings.BlackLevel
-    : result.isBlackKnown                 ? quantile(dark, 0.5)
-                                          : std::clamp<double>(quantile(all, 0.001), 0, 0.19);
-  return result;
-}
-
-/// Returns the photographs at the image's points.
-Exposure exposureOf(
-  const Photograph& photograph, const Place& place, const Grid& image, const Plane& open)
-{
-  const auto there = [&](const Plane& plane)
-  { return plane.values.empty() ? Plane() : resampled(plane, photograph.grid, place, image); };
-  Exposure exposure{ there(photograph.values), there(photograph.withoutFlow),
-    there(photograph.used) };
-  for (std::size_t i = 0; i < exposure.known.size(); ++i)
-  {
-    // Along a body's edge, light depends on where exactly the edge is.
-    const bool isEdge = open.values[i] > 0 && open.values[i] < 1;
-    exposure.known.values[i] = exposure.known.values[i] > 0.999f && !isEdge ? 1.f : 0.f;
-  }
-  return exposure;
-}
-
-std::vector<float> knownValues(const Plane& plane, const Plane& known)
-{
-  std::vector<float> values;
-  for (std::size_t i = 0; i < plane.size(); ++i)
-  {
-    if (known.values[i] > 0 && std::isfinite(plane.values[i]))
-    {
-      values.push_back(plane.values[i]);
-    }
-  }
-  return values;
-}
 
 CameraFit startOf(const SimulatedLight& light, const Photograph& photograph,
   const Exposure& exposure, const PhotographSettings& settings)
@@ -304,76 +194,6 @@ void measureShift(Compared& result, const Grid& image)
   result.shiftLarge = quantile(lengths, 0.95);
 }
 
-std::string percent(double fraction) { return textOf(100 * fraction, 2) + " %"; }
-
-void describe(
-  Compared& result, const Grid& image, const PhotographSettings& settings, bool isFitted)
-{
-  auto& sentences = result.sentences;
-  sentences.push_back("The photograph has " + textOf(result.scale) +
-    " data units per pixel, is turned by " + textOf(result.rotation, 4) +
-    " degrees, and its middle is at " + textOf(result.middle[0]) + ", " + textOf(result.middle[1]) +
-    ".");
-  if (settings.FitPlace == Settings::FIT_FLOW)
-  {
-    sentences.emplace_back("Warning: it was placed by its flow, which hides where shocks and other "
-                           "features lie elsewhere than simulated.");
-    result.notes.emplace_back("photograph placed by its flow: shifts are hidden");
-  }
-  if (!isFitted)
-  {
-    sentences.emplace_back(
-      "There is no light in it that a camera and a cutoff could be fitted to: its values are all "
-      "the same, or saturated.");
-    return;
-  }
-  const auto& cutoff = result.cutoff;
-  const auto about = [](double value, double uncertainty)
-  { return textOf(value, 4) + " +- " + textOf(value * uncertainty, 2) + " per rad"; };
-  if (std::isfinite(cutoff.contrast))
-  {
-    const std::string contrast = about(cutoff.contrast, result.contrastUncertainty);
-    sentences.push_back("Its contrast, the relative change of the light, is " + contrast + ".");
-    result.notes.push_back("photograph: contrast " + contrast);
-  }
-  if (cutoff.isAngleHidden)
-  {
-    sentences.push_back("Light is deflected along one direction only, so the cutoff's angle is not "
-                        "seen; the numbers are those of a cutoff at " +
-      textOf(cutoff.angle, 4) + " degrees.");
-  }
-  else if (std::isfinite(cutoff.angle))
-  {
-    sentences.push_back("The cutoff's angle is " + textOf(cutoff.angle, 4) + " +- " +
-      textOf(result.angleUncertainty, 2) + " degrees.");
-  }
-  if (std::isfinite(cutoff.offset) && !result.isKKnown)
-  {
-    sentences.push_back("k and offset cannot be separated: all light passes the edge at " +
-      percent(result.fullFraction) + " of the points, and 1 % are needed.");
-    result.notes.emplace_back("k and offset cannot be separated");
-  }
-  else if (std::isfinite(cutoff.k))
-  {
-    sentences.push_back("k is " + about(cutoff.k, result.kUncertainty) +
-      (std::isfinite(cutoff.offset) ? ", the offset " + textOf(cutoff.offset, 3) +
-            "; all light passes the edge at " + percent(result.fullFraction) + " of the points."
-                                    : "."));
-    result.notes.push_back("photograph: k = " + about(cutoff.k, result.kUncertainty));
-  }
-  sentences.push_back("The black level is " + textOf(result.black, 3) + ".");
-  if (result.shift)
-  {
-    const std::string shift = textOf(result.shiftMedian, 3) + " data units (" +
-      textOf(result.shiftMedian / image.spacing[0], 2) + " pixels of the image)";
-    sentences.push_back("Half of its features lie within " + shift +
-      " of where they are simulated, 95 % within " + textOf(result.shiftLarge, 3) + ".");
-    result.notes.push_back("features: half within " + shift);
-  }
-  sentences.push_back("Photograph and simulated image differ by " + textOf(result.residual, 2) +
-    " of white (root mean square), with a correlation of " + textOf(result.correlation, 4) + ".");
-}
-
 } // namespace
 
 Compared compare(vtkImageData* input, vtkImageData* photographed, vtkImageData* withoutFlow,
@@ -383,8 +203,8 @@ Compared compare(vtkImageData* input, vtkImageData* photographed, vtkImageData* 
   const Grid image(input), whole(photographed);
   Place place = placeOf(image, whole, settings);
   const double finer = image.spacing[1] / (place.scale * whole.spacing[1]);
-  const Photograph photograph =
-    read(photographed, withoutFlow, static_cast<int>(std::clamp(finer, 1., 100.)), settings);
+  const Photograph photograph = readPhotograph(
+    photographed, withoutFlow, static_cast<int>(std::clamp(finer, 1., 100.)), settings);
   progress.reach(0.1);
   place = improved(place, light, photograph, image, settings);
   progress.reach(0.3);
