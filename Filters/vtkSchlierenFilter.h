@@ -703,12 +703,12 @@ private:
 
   /// Makes the image on rank 0, or leaves the outputs empty where that is aborted. Throws what is reported by Fail().
   void MakeImage(double maxCells, vtkInformationVector* outputs);
-  /// Puts the image that was made last on the outputs.
   /// Returns the size of the image, which is promised before it is made: where a side is not given, by the proportions of the
   /// input as far as it is there, on a single rank; else 512.
   std::array<int, 2> SizeFor(vtkInformationVector* input) const;
   /// Returns the settings with that size, facing flat data.
   SchlierenSettings SettingsFor(int flatAxis) const;
+  /// Puts the image that was made last on the outputs.
   void ShowLast(vtkInformationVector* outputs);
   /// Returns what is read of the data, chosen once in an update.
   const filters::Choice& Chosen(vtkDataObject* input);
