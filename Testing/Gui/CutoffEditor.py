@@ -147,16 +147,18 @@ user.check("KMode/ComboBox", "currentText", "Automatic")
 # Real optics: where the edge is, and the width of the source.
 user.choose("Cutoff/ComboBox", "Knife Edge")
 user.choose("KMode/ComboBox", "Bench")
+user.choose("CutoffOffset/DoubleLineEdit0", "0")
 user.apply()
 settle()
 user.check(PLANE, "range", RANGE)
 drag((0, 0), tuple(np.rint(25 * along)))
-offset = round(edge + K * PIXEL * (np.rint(25 * along) @ along), 3)
+offset = round(K * PIXEL * (np.rint(25 * along) @ along), 3)
 expect("optics", Cutoff="Knife Edge", KMode="Bench", KScale=1.02 * K, CutoffOffset=offset)
 full = (0.5 + offset) / K
 way = np.rint(40 * along)
 drag(np.rint(full / PIXEL * along), tuple(way))
-expect("source", SourceWidth=float(f"{1 + 2 * K * PIXEL * (way @ along):.4g}"))
+rounded = float(f"{K * full / (full + PIXEL * way @ along):.4g}")
+expect("source", SourceWidth=float(f"{1e3 * FOCAL_LENGTH / rounded:.4g}"))
 
 user.play(f"""
 from paraview.simple import *
