@@ -49,7 +49,7 @@ assert abs(numbers["EncircledEnergy"] - 0.047) < 0.001, numbers
 names["flow"] = names["jet"]
 run(snippets("Documentation", "bench.md")[0], names, ("ImageSize=[612, 512]", "ImageSize=[64, 54]"),
     ("SamplesPerPixel=64", "SamplesPerPixel=1"))
-for bench, arrays in ((names["bos"], ("Recorded", "RecordedBackground", "BackgroundDisplacement")),
+for bench, arrays in ((names["bos"], ("Intensity", "Background", "BackgroundDisplacement")),
                       (names["knife"], ("Intensity",))):
     bench.ImageSize = [64, 54]
     bench.UpdatePipeline()

@@ -147,7 +147,7 @@ def compare():
             ([*MPIEXEC, "1", "pvbatch"], "draw", "1.png"), ([*MPIEXEC, "2", "pvbatch"], "draw", "2.png"),
             (["pvpython"], "server", "server.png"), (["pvpython"], "server", "blind.png", "env")):
         done = subprocess.run([*launcher, os.path.abspath(__file__), mode, path, *arguments], env=environment,
-                              timeout=100, check=True, capture_output=True, text=True)
+                              timeout=240, check=True, capture_output=True, text=True)
         said = done.stdout + done.stderr
         assert "remote rendering" not in said, said
         errors = re.findall(r"ERR\|.*(?:\n(?!.*(?:ERR|WARN)\|).*)?", said)
