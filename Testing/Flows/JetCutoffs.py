@@ -10,7 +10,7 @@ from paraview.simple import CreatePiecewiseFunction, SetProperties, XMLImageData
 
 jet = XMLImageDataReader(FileName=[os.path.join(DATA, "ladenburg_jet_3d.vti")])
 jet.UpdatePipeline()
-bench = Schlieren(jet, Density=["POINTS", "rho"], Device="CPU", ImageSize=[256, 138], **EVERY_VOXEL)
+bench = Schlieren(jet, GladstoneDaleConstant=2.26e-4, Density=["POINTS", "rho"], Device="CPU", ImageSize=[256, 138], **EVERY_VOXEL)
 
 
 def same(shown):

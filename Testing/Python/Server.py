@@ -46,8 +46,8 @@ def arrays():
     histogram = servermanager.Fetch(schlieren, idx=1)
     made["Rays"] = vtk_to_numpy(histogram.GetPointData().GetArray("Rays")).copy()
     schlieren.GradedFilter.Points = [0, 1, 0.5, 0, 1, 0, 0.5, 0]
-    for cutoff in ("Knife Edge", "Graded Filter"):
-        schlieren.Cutoff = cutoff
+    for cutoff, angle in (("Knife Edge", 180), ("Graded Filter", 0)):
+        schlieren.Cutoff, schlieren.KnifeEdgeAngle = cutoff, angle
         image = servermanager.Fetch(schlieren)
         made[cutoff] = vtk_to_numpy(image.GetPointData().GetArray("Intensity")).copy()
     schlieren.Cutoff = "Color Filter"
