@@ -513,6 +513,7 @@ TEST(ElectronDensity, AloneAndBesideAGas)
     auto image = cube(5);
     add(image, "ne [cm^-3]", [](const Vec& x) { return 1e-6 * electrons(x); });
     auto filter = automatic(image);
+    filter->SetGladstoneDaleConstant(air);
     filter->SetWavelength(532);
     EXPECT_LT(largestError(
                 filter, [](const Vec& x) { return refractivityOfElectrons(electrons(x), 532e-9); }),
