@@ -175,8 +175,6 @@ std::vector<Mistake> mistakes()
         f->SetGladstoneDaleConstant(nan);
       },
       { "GladstoneDaleConstant", "finite" }, [](Filter* f) { f->SetGladstoneDaleConstant(1); } },
-    { "ZeroWidth", [](Filter* f) { f->SetImageSize(0, 64); }, { "0 x 64", "ImageSize" },
-      [](Filter* f) { f->SetImageSize(64, 64); } },
     { "NegativeHeight", [](Filter* f) { f->SetImageSize(64, -3); }, { "64 x -3", "ImageSize" },
       [](Filter* f) { f->SetImageSize(64, 64); } },
     { "ViewUpParallel", [](Filter* f) { f->SetViewUp(0, 0, 2); }, { "ViewUp", "parallel" },
