@@ -126,6 +126,16 @@ void addReport(vtkImageData* output, const Compared& found)
     add("PhotographAngle", found.cutoff.angle);
     add("PhotographAngleUncertainty", found.angleUncertainty);
   }
+  add("PhotographFringeContrast", found.cutoff.fringeContrast);
+  if (std::isfinite(found.cutoff.fringeContrast))
+  {
+    add("PhotographFringePhase", found.cutoff.fringePhase);
+    add("PhotographFringeSpacing", found.cutoff.fringeSpacing);
+    if (found.cutoff.fringeSpacing > 0)
+    {
+      add("PhotographFringeAngle", found.cutoff.fringeAngle);
+    }
+  }
   add("PhotographFullFraction", found.fullFraction);
   add("PhotographBlackLevel", found.black);
   add("PhotographResidual", found.residual);

@@ -20,6 +20,9 @@
  * standard deviation); `PhotographK` and `PhotographKUncertainty` (per radian), `PhotographOffset`, of a knife edge only where all light
  * passes it at 1 % of the points, as they cannot be separated otherwise; `PhotographAngle` and `PhotographAngleUncertainty`
  * (degrees), not where light is deflected along one direction only, as any angle fits then;
+ * `PhotographFringeSpacing` (data units, 0 of infinite fringes), `PhotographFringeAngle` (degrees), `PhotographFringePhase` (0 to 1, at
+ * the image's middle, 0 where undisturbed light is bright) and `PhotographFringeContrast` (0 to 1, as recorded), of an interferogram in light of one
+ * wavelength that shows fringes;
  * `PhotographFullFraction` (where all light passes the edge); `PhotographBlackLevel`; `PhotographResidual` (root mean square of
  * Difference); `PhotographCorrelation`; `FeatureShiftMedian` and `FeatureShift95` (its median, and what 95 % do not exceed). What the
  * technique does not have is left out. `LegendNotes` of the input gets the most important ones.
@@ -169,7 +172,8 @@ public:
   vtkGetMacro(BlackLevel, double);
 
   /// Whether the cutoff is fitted: of a Knife Edge contrast, offset and angle, of a Graded Filter k
-  /// and angle, of Circular and Circular Complement k. Default: on.
+  /// and angle, of Circular and Circular Complement k, of an Interferogram contrast, phase and tilt
+  /// of the reference beam's fringes. Default: on.
   vtkSetMacro(FitCutoff, bool);
   vtkGetMacro(FitCutoff, bool);
   vtkBooleanMacro(FitCutoff, bool);

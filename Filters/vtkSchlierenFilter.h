@@ -32,7 +32,8 @@
  * (fraction of the rays at the cutoff's darkest or brightest level), `LightEmitted`, `LightOnFilm`
  * and `LightOutside` (behind the cutoff, in units of full light of all pixels; the first is the sum
  * of the others), `PatternPixel` (with BACKGROUND_ORIENTED: the side of a pixel where the pattern is, data units),
- * `FringeSpacing` (of finite fringes, data units), `AmbientRefractivity` and `ExitRefractivity`
+ * `FringeSpacing` (data units) and `FringeAngle` (degrees) of finite fringes, `Wavelength` (metres, of an INTERFEROGRAM without
+ * WhiteLight), `AmbientRefractivity` and `ExitRefractivity`
  * (the values used), `RaysTraced`, `RaysLost` (trapped in the medium, turned back by it, or totally
  * reflected at the exit), `StepsTaken` (of all rays), `TraceSeconds` (0 without tracing), and the
  * accuracy: `MomentumDrift` (maximum relative error of |p| = n at the exit of refracted rays; else 0). For a

@@ -384,9 +384,9 @@ bool vtkSchlierenFilter::Show(
   {
     addColor(output, image, colors);
   }
-  if (schlieren::techniqueOf(scene.cutoff).hasFringes && scene.fringes.finite)
+  if (schlieren::techniqueOf(scene.cutoff).hasFringes)
   {
-    addFringeSpacing(output, scene.fringes.spacing);
+    addFringes(output, scene);
   }
   if (const auto& source = inside.Refractivity->Source)
   {

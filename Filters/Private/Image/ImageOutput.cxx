@@ -207,9 +207,17 @@ void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale sc
   output->GetPointData()->SetActiveScalars("Color");
 }
 
-void addFringeSpacing(vtkImageData* output, double spacing)
+void addFringes(vtkImageData* output, const schlieren::Scene& scene)
 {
-  addWithUnit(output, "FringeSpacing", spacing, dataUnits);
+  if (!scene.fringes.whiteLight)
+  {
+    addWithUnit(output, "Wavelength", scene.wavelength, "m");
+  }
+  if (scene.fringes.finite)
+  {
+    addWithUnit(output, "FringeSpacing", scene.fringes.spacing, dataUnits);
+    addWithUnit(output, "FringeAngle", scene.fringes.angle, "degrees");
+  }
 }
 
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium)

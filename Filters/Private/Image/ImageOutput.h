@@ -32,8 +32,8 @@ unsigned char byteOf(float light, ColorScale scale);
 /// Adds the colours of an image and makes them the scalars.
 void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale);
 
-/// Adds the spacing of finite fringes, data units.
-void addFringeSpacing(vtkImageData* output, double spacing);
+/// Adds spacing (data units) and angle (degrees) of finite fringes, and the wavelength (metres) of light that has only one.
+void addFringes(vtkImageData* output, const schlieren::Scene& scene);
 
 /// Adds statistics of the medium.
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium);

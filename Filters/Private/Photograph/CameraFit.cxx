@@ -23,8 +23,6 @@ constexpr double leastBlur = 0.05, largestBlur = 20; // points
 // The black level is the middle of a range plus its half times tanh of the unknown.
 constexpr double blackMiddle = 0.075, blackHalf = 0.125;
 
-double coordinate(double index, int count) { return count > 1 ? 2 * index / (count - 1) - 1 : 0; }
-
 std::array<double, 6> termsAt(double x, double y) { return { 1, x, y, x * x, y * y, x * y }; }
 
 /// A block of the image that is compared.
@@ -48,7 +46,7 @@ public:
     , FitsBlur(blur == Blur::Fitted)
     , FitsLight(what == Fitted::Light || what == Fitted::All)
     , FitsBlack(what == Fitted::BrightnessAndBlack || what == Fitted::All)
-    , HasOther(!exposure.withoutFlow.values.empty() && !light.isDarkWithoutFlow())
+    , HasOther(!exposure.withoutFlow.values.empty() && light.isBrightWithoutFlow())
     , Factor(std::max(1, exposure.photograph.columns / 200))
   {
     const Plane photograph = shrunk(exposure.photograph, this->Factor);
@@ -258,7 +256,7 @@ CameraFit fitCamera(const SimulatedLight& light, const Exposure& exposure, const
 
 Plane recorded(const SimulatedLight& light, const Exposure& exposure, const CameraFit& fit)
 {
-  const bool hasOther = !exposure.withoutFlow.values.empty() && !light.isDarkWithoutFlow();
+  const bool hasOther = !exposure.withoutFlow.values.empty() && light.isBrightWithoutFlow();
   std::vector<float> seen;
   for (std::size_t i = 0; hasOther && i < exposure.known.size(); ++i)
   {

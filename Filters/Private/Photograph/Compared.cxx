@@ -27,6 +27,7 @@ using Settings = PhotographSettings;
 
 constexpr double leastFull = 0.01;     // fraction of points with all light, from which k is known
 constexpr double leastContrast = 0.02; // of a photograph that shows something
+constexpr double leastSeen = 0.2; // of the loss: what fringes, or the side of a tilt, must explain
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 CameraFit startOf(const SimulatedLight& light, const Photograph& photograph,
@@ -47,6 +48,16 @@ Fitted fittedOf(const Photograph& photograph, const PhotographSettings& settings
                                  : (settings.FitCutoff ? Fitted::All : Fitted::BrightnessAndBlack);
 }
 
+/// Returns the light that makes these values, in units of white.
+Plane lightOf(Plane values, const Camera& camera)
+{
+  for (float& value : values.values)
+  {
+    value = static_cast<float>(std::pow(std::max(value - camera.black, 0.), 1 / camera.exponent));
+  }
+  return values;
+}
+
 /// Fits from all sides on which the cutoff may have been, and returns the best.
 CameraFit firstFit(
   const SimulatedLight& light, const Exposure& exposure, const CameraFit& start, Fitted what)
@@ -54,8 +65,10 @@ CameraFit firstFit(
   CameraFit best = start;
   best.cost = std::numeric_limits<double>::infinity();
   const bool isOther = what == Fitted::Light || what == Fitted::All; // than that of the image
-  for (const auto& parameters :
-    isOther ? light.starts() : std::vector<SimulatedLight::Parameters>{ light.start() })
+  for (const auto& parameters : isOther
+      ? light.starts(lightOf(exposure.photograph, start.camera),
+          lightOf(exposure.withoutFlow, start.camera), exposure.known)
+      : std::vector<SimulatedLight::Parameters>{ light.start() })
   {
     CameraFit one = start;
     one.light = parameters;
@@ -256,7 +269,22 @@ Compared compare(vtkImageData* input, vtkImageData* photographed, vtkImageData* 
       measureShift(result, image);
     }
     progress.reach(0.9);
-    if (settings.FitCutoff && !fit.light.empty())
+    if (settings.FitCutoff && light.hasFringes())
+    {
+      const auto fitFrom = [&](const SimulatedLight::Parameters& parameters, Fitted free)
+      {
+        CameraFit other = fit;
+        other.light = parameters;
+        return fitCamera(light, pulled, other, free);
+      };
+      const auto isWorse = [&](const CameraFit& other)
+      { return fit.cost < (1 - leastSeen) * other.cost; };
+      const CameraFit mirrored = fitFrom(SimulatedLight::mirrored(fit.light), what);
+      result.isTiltKnown = isWorse(mirrored) || SimulatedLight::areSame(mirrored.light, fit.light);
+      result.lacksFringes =
+        !isWorse(fitFrom(SimulatedLight::withoutContrast(fit.light), Fitted::Brightness));
+    }
+    else if (settings.FitCutoff && !fit.light.empty())
     {
       measureUncertainty(result, light, pulled, fit, what);
     }
@@ -270,8 +298,16 @@ Compared compare(vtkImageData* input, vtkImageData* photographed, vtkImageData* 
     result.fullFraction = full / std::max(all, 1.);
     result.isKKnown = !light.hasOffset() || result.fullFraction >= leastFull;
   }
-  result.cutoff =
-    light.values(isFitted && settings.FitCutoff ? fit.light : SimulatedLight::Parameters());
+  result.cutoff = light.values(isFitted && settings.FitCutoff && !result.lacksFringes
+      ? fit.light
+      : SimulatedLight::Parameters());
+  if (result.cutoff.fringeSpacing > 0)
+  {
+    // As recorded: blur takes from the contrast of even fringes, and a fit cannot separate both.
+    const double turn =
+      vtkMath::Pi() * fit.camera.blur * image.spacing[0] / result.cutoff.fringeSpacing;
+    result.cutoff.fringeContrast *= std::exp(-2 * turn * turn);
+  }
   result.black = fit.camera.black;
   result.simulated = recorded(light, exposure, fit);
   measureDifference(result, exposure.known);

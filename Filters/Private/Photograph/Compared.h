@@ -36,6 +36,8 @@ struct Compared
   double contrastUncertainty = 0;  ///< one standard deviation, relative
   double kUncertainty = 0;         ///< the same
   double angleUncertainty = std::numeric_limits<double>::quiet_NaN(); ///< the same, degrees
+  bool lacksFringes = false; ///< of an interferogram: no fringes explain the photograph
+  bool isTiltKnown = false;  ///< of fringes: whether the flow shows the sign of their tilt
   double black = 0;
   double fullFraction = 0; ///< of the points compared: how many have all light
   double residual = 0;     ///< root mean square of the difference

@@ -48,6 +48,27 @@ void describe(
     sentences.push_back("Its contrast, the relative change of the light, is " + contrast + ".");
     result.notes.push_back("photograph: contrast " + contrast);
   }
+  if (result.lacksFringes)
+  {
+    sentences.emplace_back("No fringes are found in it: light without them explains it as well. "
+                           "Correct the place, or set MirrorRadius to what shows the flow.");
+  }
+  if (std::isfinite(cutoff.fringeContrast))
+  {
+    const std::string fringes = cutoff.fringeSpacing > 0
+      ? "are " + textOf(cutoff.fringeSpacing, 4) + " data units apart at " +
+        textOf(cutoff.fringeAngle, 4) + " degrees"
+      : "are infinite";
+    sentences.push_back("Its fringes " + fringes + ", with a contrast of " +
+      textOf(cutoff.fringeContrast, 3) + " and a phase of " + textOf(cutoff.fringePhase, 3) +
+      " fringes at the image's middle, up to whole ones.");
+    if (!result.isTiltKnown)
+    {
+      sentences.emplace_back("The sign of the reference beam's tilt and phase is not seen: fringes "
+                             "at 180 degrees more, with the opposite phase, fit as well.");
+    }
+    result.notes.push_back("photograph: fringes " + fringes);
+  }
   if (cutoff.isAngleHidden)
   {
     sentences.push_back("Light is deflected along one direction only, so the cutoff's angle is not "

@@ -9,6 +9,8 @@
 #include "vtkPointData.h"
 #include "vtkStringArray.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,6 +25,8 @@ namespace
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double largestOffset = 0.48; // beyond it, there is hardly any light to compare with
 constexpr double leastLight = 0.02;    // of undisturbed light behind a cutoff
+constexpr double fullContrast = 4;     // artanh 0.9993, of fringes that are dark in their middle
+constexpr double leastFringes = 0.25;  // in an image; fewer look like an uneven lamp
 // Deflection across the main direction over that along it, below which noise and errors of the image settle the angle.
 constexpr double leastAcross = 0.02;
 
@@ -48,6 +52,14 @@ Plane planeOf(vtkImageData* image, const char* name, int component = 0)
   return plane;
 }
 
+/// Less contrast than none is a phase half a fringe further on.
+Fringes fringesOf(const SimulatedLight::Parameters& parameters)
+{
+  const double contrast = std::tanh(parameters[0]);
+  return { std::abs(contrast), parameters[1] + (contrast < 0 ? vtkMath::Pi() : 0),
+    { parameters[2], parameters[3] } };
+}
+
 double offsetOf(double parameter) { return largestOffset * std::tanh(parameter); }
 
 } // namespace
@@ -66,6 +78,27 @@ SimulatedLight::SimulatedLight(vtkImageData* image)
   this->KScale = fieldValue(image, "KScale", 0);
   const double undisturbed = fieldValue(image, "UndisturbedLevel", 1);
   const double angle = vtkMath::RadiansFromDegrees(fieldValue(image, "LegendAngle", 0));
+  const double wavelength = fieldValue(image, "Wavelength", 0);
+  if (name == "Interferogram" && wavelength > 0)
+  {
+    this->Is = Technique::Interferogram;
+    vtkDataArray* path = image->GetPointData()->GetArray("OpticalPathDifference");
+    this->Turns = planeOf(image, "OpticalPathDifference");
+    for (std::size_t i = 0; i < this->Turns.size(); ++i)
+    {
+      const double turns = path->GetComponent(static_cast<vtkIdType>(i), 0) / wavelength;
+      this->Turns.values[i] =
+        std::isfinite(turns) ? static_cast<float>(std::remainder(turns, 1)) : 0.f;
+    }
+    this->HalfSize = { 0.5 * image->GetSpacing()[0] * (this->Turns.columns - 1),
+      0.5 * image->GetSpacing()[1] * (this->Turns.rows - 1) };
+    const double spacing = fieldValue(image, "FringeSpacing", HUGE_VAL);
+    const double turn = vtkMath::RadiansFromDegrees(fieldValue(image, "FringeAngle", 0));
+    this->Start = { fullContrast, 0,
+      2 * vtkMath::Pi() * this->HalfSize[0] / spacing * std::cos(turn),
+      2 * vtkMath::Pi() * this->HalfSize[1] / spacing * std::sin(turn) };
+    return;
+  }
   if (!(this->KScale > 0))
   {
   }
@@ -120,9 +153,25 @@ SimulatedLight::SimulatedLight(vtkImageData* image)
   }
 }
 
-std::vector<SimulatedLight::Parameters> SimulatedLight::starts() const
+std::vector<SimulatedLight::Parameters> SimulatedLight::starts(
+  const Plane& seen, const Plane& withoutFlow, const Plane& known) const
 {
   std::vector<Parameters> all{ this->Start };
+  if (this->hasFringes())
+  {
+    Plane weight = known;
+    for (std::size_t i = 0; i < weight.size(); ++i)
+    {
+      weight.values[i] *= this->Open.values[i];
+    }
+    for (const Fringes& one : findFringes(seen, weight, this->Turns, withoutFlow))
+    {
+      all.push_back(
+        { std::atanh(std::clamp(one.contrast, 0.1, 0.9)), one.phase, one.tilt[0], one.tilt[1] });
+    }
+    all.front()[0] = all[1][0];
+    return all;
+  }
   if (this->IsAngleHidden && std::abs(std::cos(this->Start.back() - this->DeflectionAngle)) < 0.1)
   {
     all.front().back() = this->DeflectionAngle;
@@ -151,6 +200,25 @@ Plane SimulatedLight::light(const Parameters& parameters) const
       result.values[i] = this->Open.values[i] * lightAt(right.values[i], up.values[i]);
     }
   };
+  if (this->Is == Technique::Interferogram)
+  {
+    const Fringes fringes = fringesOf(parameters);
+    const auto contrast = static_cast<float>(fringes.contrast);
+    const auto step = static_cast<float>(2 * fringes.tilt[0] / std::max(1, result.columns - 1));
+    const Eigen::ArrayXf along =
+      Eigen::ArrayXf::LinSpaced(result.columns, 0, static_cast<float>(result.columns - 1)) * step;
+    for (int row = 0; row < result.rows; ++row)
+    {
+      const std::size_t first = result.index(0, row);
+      const Eigen::Map<const Eigen::ArrayXf> turns(&this->Turns.values[first], result.columns);
+      const Eigen::Map<const Eigen::ArrayXf> open(&this->Open.values[first], result.columns);
+      const auto begin = static_cast<float>(fringes.phaseAt(-1, coordinate(row, result.rows)));
+      constexpr auto turn = static_cast<float>(2 * vtkMath::Pi());
+      Eigen::Map<Eigen::ArrayXf>(&result.values[first], result.columns) =
+        open * (1 + contrast * (turn * turns + along + begin).cos()) / (1 + contrast);
+    }
+    return result;
+  }
   // Within what single precision holds: a fit may try anything.
   const auto factor = static_cast<float>(std::exp(std::clamp(parameters[0], -60., 60.)));
   if (this->Is == Technique::Circular || this->Is == Technique::CircularComplement)
@@ -189,6 +257,25 @@ Plane SimulatedLight::light(const Parameters& parameters) const
   return result;
 }
 
+SimulatedLight::Parameters SimulatedLight::mirrored(const Parameters& ofFringes)
+{
+  return { ofFringes[0], -ofFringes[1], -ofFringes[2], -ofFringes[3] };
+}
+
+bool SimulatedLight::areSame(const Parameters& ofFringes, const Parameters& others)
+{
+  constexpr double least = 0.3; // radians: less is not another minimum
+  const Fringes one = fringesOf(ofFringes), other = fringesOf(others);
+  return std::abs(one.tilt[0] - other.tilt[0]) < least &&
+    std::abs(one.tilt[1] - other.tilt[1]) < least &&
+    std::abs(std::remainder(one.phase - other.phase, 2 * vtkMath::Pi())) < least;
+}
+
+SimulatedLight::Parameters SimulatedLight::withoutContrast(const Parameters& ofFringes)
+{
+  return { 0, ofFringes[1], ofFringes[2], ofFringes[3] };
+}
+
 std::vector<bool> SimulatedLight::isFull(const Parameters& parameters) const
 {
   std::vector<bool> full(this->Open.size(), false);
@@ -212,11 +299,9 @@ SimulatedLight::Values SimulatedLight::values(const Parameters& parameters) cons
     return { unknown, unknown, unknown, unknown };
   }
   const double factor = std::exp(parameters[0]);
-  const auto degrees = [&]
-  {
-    const double turn = std::fmod(vtkMath::DegreesFromRadians(parameters.back()), 360);
-    return turn < 0 ? turn + 360 : turn;
-  };
+  const auto within = [](double value, double period)
+  { return value - period * std::floor(value / period); };
+  const auto degrees = [&] { return within(vtkMath::DegreesFromRadians(parameters.back()), 360); };
   switch (this->Is)
   {
     case Technique::KnifeEdge:
@@ -226,6 +311,20 @@ SimulatedLight::Values SimulatedLight::values(const Parameters& parameters) cons
     }
     case Technique::GradedFilter:
       return { unknown, factor * this->KScale, unknown, degrees(), this->IsAngleHidden };
+    case Technique::Interferogram:
+    {
+      const Fringes fringes = fringesOf(parameters);
+      // Radians per data unit; along an axis of one point there is no tilt.
+      const auto slope = [&](std::size_t axis)
+      { return this->HalfSize[axis] > 0 ? fringes.tilt[axis] / this->HalfSize[axis] : 0; };
+      const double right = slope(0), up = slope(1);
+      const double fringesInImage = std::hypot(fringes.tilt[0], fringes.tilt[1]) / vtkMath::Pi();
+      const double spacing =
+        fringesInImage < leastFringes ? 0 : 2 * vtkMath::Pi() / std::hypot(right, up);
+      return { unknown, unknown, unknown, unknown, false, fringes.contrast,
+        within(fringes.phase / (2 * vtkMath::Pi()), 1), spacing,
+        within(vtkMath::DegreesFromRadians(std::atan2(up, right)), 360) };
+    }
     case Technique::Circular:
       return { factor, factor, unknown, unknown };
     default:

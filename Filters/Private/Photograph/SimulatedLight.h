@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The light of a simulated image for another cutoff, without another image: from its deflection alone.
+// The light of a simulated image for another cutoff, without another image: from its deflection or its optical path alone.
 #pragma once
 
+#include "Photograph/Fringes.h"
 #include "Photograph/Plane.h"
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,8 @@ namespace filters
  * - Knife Edge: ln contrast, artanh(offset / 0.48), angle;
  * - Graded Filter: ln of the factor to k, angle; the filter lies where it is simulated;
  * - Circular and Circular Complement: ln k;
+ * - Interferogram in light of one wavelength: artanh contrast, phase and tilts of its Fringes; the light is relative to bright
+ *   fringes;
  * - other techniques: none; the light is Intensity.
  *
  * Where light is deflected along one direction only, all angles show the same but for the contrast, which takes up the cosine: a
@@ -40,16 +44,28 @@ public:
   /// The image's own.
   const Parameters& start() const { return this->Start; }
   /// Those that a fit should begin with: the edge on four sides, as nobody knows on which it was; on two where the angle is not
-  /// seen, across the deflection if the image's edge lies along it.
-  std::vector<Parameters> starts() const;
+  /// seen, across the deflection if the image's edge lies along it. Of fringes the image's own, and those that are found in the
+  /// photograph's light `seen`, where `known` is 1, and in that without flow, which may be empty.
+  std::vector<Parameters> starts(
+    const Plane& seen, const Plane& withoutFlow, const Plane& known) const;
   /// How many of the parameters, from the first on, a fit may change.
   std::size_t free() const { return this->Start.size() - (this->IsAngleHidden ? 1 : 0); }
 
   /// Returns the light relative to undisturbed light. Behind a Circular Complement, which is dark without flow, it is
   /// relative to full light.
   Plane light(const Parameters& parameters) const;
-  /// Whether a photograph without flow has that undisturbed light.
-  bool isDarkWithoutFlow() const { return this->Is == Technique::CircularComplement; }
+  /// Whether a photograph without flow has that undisturbed light: it is dark behind a Circular Complement, and may have fringes.
+  bool isBrightWithoutFlow() const
+  {
+    return this->Is != Technique::CircularComplement && !this->hasFringes();
+  }
+
+  /// Whether the fit has fringes.
+  bool hasFringes() const { return this->Is == Technique::Interferogram; }
+  /// Fringes with the opposite tilt and phase, which look the same without flow; and without any contrast.
+  static Parameters mirrored(const Parameters& ofFringes);
+  static bool areSame(const Parameters& ofFringes, const Parameters& others);
+  static Parameters withoutContrast(const Parameters& ofFringes);
 
   /// Whether the fit has a contrast and an offset, which cannot always be separated.
   bool hasOffset() const { return this->Is == Technique::KnifeEdge; }
@@ -64,6 +80,10 @@ public:
     double offset;              ///< of the knife edge, 0 to 1/2 further in
     double angle;               ///< degrees
     bool isAngleHidden = false; ///< whether the others hold for this angle, which is not seen
+    double fringeContrast = std::numeric_limits<double>::quiet_NaN(); ///< 0 to 1, of light
+    double fringePhase = 0; ///< at the image's middle, 0 to 1; 0 where undisturbed light is bright
+    double fringeSpacing = 0; ///< data units; 0 with less than a quarter of a fringe in the image
+    double fringeAngle = 0;   ///< as FringeAngle, 0 to 360 degrees
   };
   Values values(const Parameters& parameters) const;
 
@@ -77,6 +97,7 @@ private:
     GradedFilter,
     Circular,
     CircularComplement,
+    Interferogram,
     Other
   };
 
@@ -91,6 +112,8 @@ private:
   std::vector<double>
     Filter; // of a graded filter: light by the deflection, from Range[0] to Range[1]
   std::array<double, 2> Range{};
+  Plane Turns;                      // of the optical path, wavelengths without whole ones
+  std::array<double, 2> HalfSize{}; // from the middle to the last point, data units
 };
 
 } // namespace filters

@@ -147,6 +147,62 @@ ShiftErrors errorsOfShift(vtkAlgorithm* comparison, double by)
   return { errors.empty() ? HUGE_VAL : errors[errors.size() / 2], disc / weights, errors.size() };
 }
 
+/// Of an interferometer; the phase is that at the image's middle, fringes.
+struct ReferenceBeam
+{
+  double spacing; // m, 0 of infinite fringes
+  double angle;   // degrees
+  double phase;
+  double contrast;
+};
+
+/// An interferogram of the jet with infinite fringes, and photographs of that behind another reference beam. `strength`: of the
+/// flow.
+struct Interferograms
+{
+  vtkSmartPointer<vtkSchlierenFilter> bench, finer;
+  Taken taken;
+
+  explicit Interferograms(const ReferenceBeam& beam, double strength = 1)
+    : bench(make(1, strength))
+    , finer(make(1.5, strength))
+  {
+    const Grid grid(finer->GetOutput());
+    const auto middle = Grid(this->bench->GetOutput()).middle();
+    const double wavelength = fieldValue(this->bench, "Wavelength");
+    EXPECT_NEAR(wavelength, 1e-9 * finer->GetWavelength(), 1e-15);
+    const double angle = vtkMath::RadiansFromDegrees(beam.angle);
+    const std::vector<double> paths = valuesOf(finer, "OpticalPathDifference");
+    Plane light[2];
+    for (const bool hasFlow : { false, true })
+    {
+      light[hasFlow ? 1 : 0] = Plane(grid.columns, grid.rows);
+      for (std::size_t i = 0; i < paths.size(); ++i)
+      {
+        const int column = static_cast<int>(i) % grid.columns;
+        const auto at = grid.at(column, static_cast<int>(i) / grid.columns);
+        const double across =
+          (at[0] - middle[0]) * std::cos(angle) + (at[1] - middle[1]) * std::sin(angle);
+        const double turns = (hasFlow ? paths[i] / wavelength : 0) + beam.phase +
+          (beam.spacing > 0 ? across / beam.spacing : 0);
+        light[hasFlow ? 1 : 0].values[i] =
+          static_cast<float>(0.5 * (1 + beam.contrast * std::cos(2 * vtkMath::Pi() * turns)));
+      }
+    }
+    this->taken = { take(light[1], grid, truePlace(), 0.5).withFlow,
+      take(light[0], grid, truePlace(), 0.5).withFlow };
+  }
+
+  static vtkSmartPointer<vtkSchlierenFilter> make(double factor, double strength)
+  {
+    auto filter = jetBench(factor);
+    filter->SetCutoff(vtkSchlierenFilter::INTERFEROGRAM);
+    filter->SetLengthScale(strength);
+    filter->Update();
+    return filter;
+  }
+};
+
 std::string report(vtkCompareWithPhotograph* comparison) { return comparison->GetReport(); }
 
 bool has(const std::string& text, const std::string& words)
@@ -157,6 +213,30 @@ bool has(const std::string& text, const std::string& words)
 vtkDataArray* fieldArray(vtkAlgorithm* filter, const char* name)
 {
   return filter->GetOutputDataObject(0)->GetFieldData()->GetArray(name);
+}
+
+void expectFringes(vtkCompareWithPhotograph* comparison, const ReferenceBeam& truth)
+{
+  comparison->Update();
+  ASSERT_NE(fieldArray(comparison, "PhotographFringeContrast"), nullptr);
+  EXPECT_NEAR(fieldValue(comparison, "PhotographFringeContrast"), truth.contrast, 0.05);
+  EXPECT_NEAR(
+    std::remainder(fieldValue(comparison, "PhotographFringePhase") - truth.phase, 1), 0, 0.05);
+  if (truth.spacing > 0)
+  {
+    EXPECT_NEAR(fieldValue(comparison, "PhotographFringeSpacing") / truth.spacing, 1, 0.01);
+    EXPECT_NEAR(
+      std::remainder(fieldValue(comparison, "PhotographFringeAngle") - truth.angle, 360), 0, 0.5);
+  }
+  else
+  {
+    EXPECT_EQ(fieldValue(comparison, "PhotographFringeSpacing"), 0);
+    EXPECT_EQ(fieldArray(comparison, "PhotographFringeAngle"), nullptr);
+  }
+  EXPECT_FALSE(has(report(comparison), "sign")) << report(comparison);
+  EXPECT_EQ(fieldArray(comparison, "PhotographContrast"), nullptr);
+  EXPECT_GT(fieldValue(comparison, "PhotographCorrelation"), 0.95);
+  EXPECT_LT(fieldValue(comparison, "FeatureShiftMedian") / pixel, 0.1);
 }
 
 /// A round body, whose top and bottom noses say how the photograph is turned, before a column of gas, and the light of
@@ -437,6 +517,77 @@ TEST(Photograph, GradedFilterIsFound)
   comparison->Update();
   EXPECT_NEAR(fieldValue(comparison, "PhotographAngle"), edgeAngle, 0.5);
   EXPECT_NEAR(fieldValue(comparison, "PhotographK") / k, 1, 0.03);
+}
+
+TEST(Photograph, InfiniteFringesAreFound)
+{
+  const ReferenceBeam truth{ 0, 0, 0.3, 0.7 };
+  const Interferograms of(truth);
+  expectFringes(compared(of.bench, of.taken, truePlace()), truth);
+}
+
+TEST(Photograph, FiniteFringesAreFoundOnEitherSide)
+{
+  const ReferenceBeam truth{ 2 * halfHeight / 10, 215, 0.8, 0.6 };
+  const Interferograms of(truth);
+  expectFringes(compared(of.bench, of.taken, truePlace(), false), truth);
+
+  // Those of the filter itself.
+  of.finer->SetFringeSpacing(-10);
+  of.finer->SetFringeAngle(35);
+  of.finer->Update();
+  const Taken taken =
+    take(planeOf(of.finer, "Intensity"), Grid(of.finer->GetOutput()), truePlace(), 1);
+  expectFringes(compared(of.bench, taken, truePlace(), false), { truth.spacing, 35, 0, 1 });
+}
+
+TEST(Photograph, FringesOfTheImageAreNotThoseOfThePhotograph)
+{
+  const ReferenceBeam truth{ halfHeight / 6, 120, 0.4, 0.6 };
+  Interferograms of(truth);
+  of.bench->SetFringeSpacing(-5);
+  of.bench->SetFringeAngle(90);
+  auto comparison = compared(of.bench, of.taken, truePlace());
+  expectFringes(comparison, truth);
+  comparison->SetFitCutoff(false);
+  comparison->Update();
+  EXPECT_EQ(fieldArray(comparison, "PhotographFringeContrast"), nullptr);
+  EXPECT_LT(fieldValue(comparison, "PhotographCorrelation"), 0.6);
+}
+
+TEST(Photograph, ReferenceBeamIsFoundWithAWeakFlow)
+{
+  const ReferenceBeam truth{ halfHeight / 6, 120, 0.4, 0.6 };
+  const Interferograms of(truth, 0.01); // a tenth of a fringe
+  expectFringes(compared(of.bench, of.taken, truePlace()), truth);
+}
+
+TEST(Photograph, SideOfTheReferenceBeamIsNotSeenWithoutFlow)
+{
+  const ReferenceBeam truth{ halfHeight / 6, 120, 0.4, 0.6 };
+  Interferograms of(truth, 1e-4);
+  auto comparison = compared(of.bench, of.taken, truePlace());
+  comparison->Update();
+  EXPECT_TRUE(has(report(comparison), "sign")) << report(comparison);
+  EXPECT_NEAR(fieldValue(comparison, "PhotographFringeSpacing") / truth.spacing, 1, 0.01);
+  EXPECT_NEAR(
+    std::remainder(fieldValue(comparison, "PhotographFringeAngle") - truth.angle, 180), 0, 0.5);
+  EXPECT_NEAR(fieldValue(comparison, "PhotographFringeContrast"), truth.contrast, 0.05);
+}
+
+TEST(Photograph, GreyPhotographHasNoFringes)
+{
+  const Interferograms of({ 0, 0, 0, 0 }); // of no contrast: striae, dust and an uneven lamp
+  auto comparison = compared(of.bench, of.taken, truePlace());
+  comparison->Update();
+  EXPECT_TRUE(has(report(comparison), "No fringes are found")) << report(comparison);
+  EXPECT_EQ(fieldArray(comparison, "PhotographFringeContrast"), nullptr);
+  of.taken.withFlow->GetPointData()->GetScalars()->Fill(120);
+  of.taken.withFlow->Modified();
+  comparison->Update();
+  EXPECT_TRUE(has(report(comparison), "no light in it")) << report(comparison);
+  EXPECT_FALSE(has(report(comparison), "ringes")) << report(comparison);
+  EXPECT_FALSE(isEmpty(comparison));
 }
 
 TEST(Photograph, ShadowgraphIsComparedAsItIs)
