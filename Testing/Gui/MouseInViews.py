@@ -223,6 +223,8 @@ for kind, (x, y) in PLACES.items():
         for points, is_in in ((places[away < -1.5], True), (places[away < 1.5], False)):
             distance = np.min([np.hypot(*(on_filter - point).transpose(2, 0, 1)) for point in points], axis=0)
             if is_in:
-                assert painted[distance < BRUSH / 100 - 2 / SIDE].all(), kind
+                # What is not deflected keeps its colour.
+                is_deflected = np.hypot(*on_filter.transpose(2, 0, 1)) > 0.02 + 2 / SIDE
+                assert painted[(distance < BRUSH / 100 - 2 / SIDE) & is_deflected].all(), kind
             else:
                 assert not painted[distance > BRUSH / 100 + 2 / SIDE].any(), kind
