@@ -118,9 +118,9 @@ QString problemOfFlow(pqOutputPort* port)
   if (algorithm && isOfPointsAndLines(algorithm->GetOutputDataObject(port->getPortNumber())))
   {
     return name +
-      " has nothing but points or lines, so there is no volume for light to cross. Make a volume "
-      "of "
-      "particles with Point Volume Interpolator, SPH Volume Interpolator or Gaussian Resampling.";
+      " has nothing but points or lines, so there is no volume for light to cross. Make a "
+      "volume of particles with Point Volume Interpolator, SPH Volume Interpolator or "
+      "Gaussian Resampling.";
   }
   return QString();
 }

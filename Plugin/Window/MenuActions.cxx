@@ -149,8 +149,7 @@ QString menuActions::compareWithPhotograph()
   if (!image || image->modifiedState() == pqProxy::UNINITIALIZED)
   {
     return "There is no image to compare with a photograph. Choose Filters > Schlieren > "
-           "Schlieren, and "
-           "click Apply.";
+           "Schlieren, and click Apply.";
   }
   pqServer* server = image->getServer();
   pqFileDialog dialog(server, pqCoreUtilities::mainWidget(), "Open Photograph", QString(),
