@@ -135,7 +135,8 @@ Image Bench::Stages::renderFirst(const Monitor& monitor)
     first.samplesPerPixel = 1;
     // The rays of an image that differs by its cutoff only are there already, and coarse ones would take their place.
     const AccurateSettings* before = targets.lastFor(ofImage.scene);
-    if (before != nullptr && rays.areOf(frameOf(ofImage.field.grid, first.view), first.view))
+    if (before != nullptr && media.holds(ofImage.field, first) &&
+      rays.areOf(frameOf(ofImage.field.grid, first.view), first.view))
     {
       first.stepSize = before->step;
       first.adaptiveTolerance = adaptiveToleranceFor(before->step, first.adaptiveTolerance);
