@@ -57,7 +57,7 @@ def main(path):
         schlieren.ViewDirection = [math.sin(turned), 0, -math.cos(turned)]
         schlieren.UpdatePipeline(last)
         frames.append(with_knife(pixels_of(servermanager.Fetch(schlieren)), edge))
-    frames[0].save(path, save_all=True, append_images=frames[1:], duration=1000 // PER_SECOND, loop=0, quality=80, method=4)
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=1000 // PER_SECOND, loop=0, quality=95, method=6)
     print(f"{os.path.abspath(path)}: {len(frames)} images, {os.path.getsize(path) / 1e6:.2f} MB")
 
 

@@ -152,10 +152,12 @@ std::string statusInWords(
     words += speedInWords(raysPerSecond) + " on ";
   }
   const std::string waves = wavesInWords(image);
+  const std::string limit = image.accuracy.limit == schlieren::ErrorSource::None
+    ? ""
+    : ", limited by " + limitInWords(image.accuracy);
   return words + deviceInWords(image) + ", " + accuracyInWords(image, scene) +
     (waves.empty() ? "" : ", " + waves) +
-    (image.accuracy.target > 0 ? ", " + errorInWords(image.accuracy, scene) + ", limited by " +
-          limitInWords(image.accuracy)
+    (image.accuracy.target > 0  ? ", " + errorInWords(image.accuracy, scene) + limit
         : scene.targetError > 0 ? ", error not known yet"
                                 : "");
 }

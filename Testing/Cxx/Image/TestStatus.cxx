@@ -79,6 +79,8 @@ TEST(Status, SaysWhatATargetErrorHasLedTo)
   image.accuracy.reached = 0.3;
   image.accuracy.limit = schlieren::ErrorSource::Rounding;
   EXPECT_TRUE(ends(", target error not kept: 0.3 fringes (target 0.004), limited by rounding"));
+  image.accuracy.limit = schlieren::ErrorSource::None;
+  EXPECT_TRUE(ends(", target error not kept: 0.3 fringes (target 0.004)"));
 }
 
 TEST(Status, ShowsTheSpeedOfTheLastTracingWhereNothingIsTraced)
