@@ -95,9 +95,9 @@ public:
       set(3, arrays.roots);
       set(4, arrays.children);
       set(5, arrays.gasDistances);
-      set(7, arrays.gradients);
-      set(8, arrays.gradientBricks);
-      arrays.firstGradient = request.offsets[7] != nowhere ? request.offsets[7] : 0;
+      set(6, arrays.gradients);
+      set(7, arrays.gradientBricks);
+      arrays.firstGradient = request.offsets[6] != nowhere ? request.offsets[6] : 0;
     }
     return arrays;
   }
