@@ -126,8 +126,6 @@ void tellPlaces(vtkInformationVector* outputs)
   }
 }
 
-constexpr int usualSide = 512;
-
 } // namespace
 
 std::array<int, 2> vtkSchlierenFilter::SizeFor(vtkInformationVector* input) const

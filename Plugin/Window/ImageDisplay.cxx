@@ -48,20 +48,25 @@ void setMapScalars(vtkSMProxy* representation, int value)
   representation->UpdateVTKObjects();
 }
 
+/// Colours by an array of points, by a map of its own or as the values are. Returns the map.
+vtkSMProxy* colorBy(vtkSMProxy* representation, const char* array, bool isMapped)
+{
+  setValue(representation, "UseSeparateColorMap", 1);
+  setMapScalars(representation, isMapped ? 1 : 0);
+  if (auto* colored = vtkSMPVRepresentationProxy::SafeDownCast(representation))
+  {
+    colored->SetScalarColoring(array, vtkDataObject::POINT);
+  }
+  representation->UpdateVTKObjects();
+  return vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+}
+
 } // namespace
 
 void ImageDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 {
   const bool isColored = white(filter) == 0;
-  const char* const colors = filter->GetProperty("Comparison") ? "Comparison" : "Color";
-  setValue(representation, "UseSeparateColorMap", 1);
-  setMapScalars(representation, isColored ? 0 : 1);
-  if (auto* colored = vtkSMPVRepresentationProxy::SafeDownCast(representation))
-  {
-    colored->SetScalarColoring(isColored ? colors : "Intensity", vtkDataObject::POINT);
-  }
-  representation->UpdateVTKObjects();
-  vtkSMProxy* map = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+  vtkSMProxy* map = colorBy(representation, isColored ? "Color" : "Intensity", !isColored);
   if (!isColored && map)
   {
     vtkSMTransferFunctionProxy::ApplyPreset(map, "Grayscale", false);
@@ -76,14 +81,7 @@ void ImageDisplay::apply(vtkSMProxy* representation, vtkSMProxy* filter)
 void ImageDisplay::applyToPhotograph(vtkSMProxy* representation, vtkPVArrayInformation* values)
 {
   const bool areBytes = values->GetDataType() == VTK_UNSIGNED_CHAR;
-  setValue(representation, "UseSeparateColorMap", 1);
-  setMapScalars(representation, areBytes ? 0 : 1);
-  if (auto* colored = vtkSMPVRepresentationProxy::SafeDownCast(representation))
-  {
-    colored->SetScalarColoring(values->GetName(), vtkDataObject::POINT);
-  }
-  representation->UpdateVTKObjects();
-  vtkSMProxy* map = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+  vtkSMProxy* map = colorBy(representation, values->GetName(), !areBytes);
   if (!areBytes && map)
   {
     vtkSMTransferFunctionProxy::ApplyPreset(map, "Grayscale", true);
@@ -92,10 +90,6 @@ void ImageDisplay::applyToPhotograph(vtkSMProxy* representation, vtkPVArrayInfor
 
 double ImageDisplay::white(vtkSMProxy* filter)
 {
-  if (!filter->GetProperty("Cutoff")) // it is a comparison
-  {
-    return 0;
-  }
   const int cutoff = valueOf(filter, "Cutoff");
   const bool isColored = valueOf(filter, "ColorByField") != 0 ||
     Filter::CutoffHasColor(

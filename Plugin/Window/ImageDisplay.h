@@ -11,10 +11,10 @@ namespace ImageDisplay
 {
 
 /// Shows Intensity in grey, from 0 to 1 (for a shadowgraph to 2), with a separate colour map, or
-/// Color as it is, depending on the cutoff. Of a comparison with a photograph, Comparison as it is.
+/// Color as it is, depending on the cutoff.
 void apply(vtkSMProxy* representation, vtkSMProxy* filter);
 
-/// Shows the values of a photograph as they are, of more than 8 bits in grey over their range.
+/// Shows the values of a photograph, or of a comparison with it, as they are, of more than 8 bits in grey over their range.
 void applyToPhotograph(vtkSMProxy* representation, vtkPVArrayInformation* values);
 
 /// Returns the intensity that apply() maps to white; 0: the image has its own colours.

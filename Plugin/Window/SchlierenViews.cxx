@@ -211,7 +211,7 @@ public:
       vtkPVArrayInformation* values =
         ports[i]->getDataInformation()->GetPointDataInformation()->GetAttributeInformation(
           vtkDataSetAttributes::SCALARS);
-      if (representation && i < 2 && imagesInViews::filterOf(source) == source)
+      if (representation && ports[i] == this->Flow && imagesInViews::isSchlieren(source))
       {
         ImageDisplay::apply(representation, source->getProxy());
       }

@@ -45,11 +45,14 @@ pqImageDisplayKeeper::~pqImageDisplayKeeper() = default;
 
 void pqImageDisplayKeeper::watch(pqPipelineSource* source)
 {
-  if (imagesInViews::isSchlieren(source) || imagesInViews::isComparison(source))
+  if (imagesInViews::isSchlieren(source))
   {
     source->setProperty(lastWhite, ImageDisplay::white(source->getProxy()));
     this->Events->Connect(
       source->getProxy(), vtkCommand::UpdateEvent, this, SLOT(onFilterChanged(vtkObject*)));
+  }
+  if (imagesInViews::isSchlieren(source) || imagesInViews::isComparison(source))
+  {
     QObject::connect(source, &pqPipelineSource::modifiedStateChanged, this,
       [source, state = source->modifiedState()]() mutable
       {

@@ -135,18 +135,18 @@ struct ProcessTracer<Real>::State
   {
     if (!medium.tree)
     {
-      set(0, medium.volume.samples);
-      set(1, medium.solid);
+      set(samplesOfTask, medium.volume.samples);
+      set(solidOfTask, medium.solid);
     }
     else
     {
-      set(0, medium.tree->samples());
-      set(2, medium.tree->leaves());
-      set(3, medium.tree->roots());
-      set(4, medium.tree->children());
-      set(5, medium.tree->gasDistances());
-      set(6, medium.tree->gradientValues());
-      set(7, medium.tree->gradientBricks());
+      set(samplesOfTask, medium.tree->samples());
+      set(leavesOfTask, medium.tree->leaves());
+      set(rootsOfTask, medium.tree->roots());
+      set(childrenOfTask, medium.tree->children());
+      set(gasDistancesOfTask, medium.tree->gasDistances());
+      set(gradientsOfTask, medium.tree->gradientValues());
+      set(gradientBricksOfTask, medium.tree->gradientBricks());
     }
     hasFieldsOfTree = medium.tree != nullptr;
   }
@@ -156,10 +156,10 @@ struct ProcessTracer<Real>::State
   {
     const FieldGradientsView& fields = task.gradients;
     if (!hasFieldsOfTree && fields.count > 0 &&
-      (arrays[6].first != fields.values || versions.gradients != now.gradients))
+      (arrays[gradientsOfTask].first != fields.values || versions.gradients != now.gradients))
     {
-      arrays[6].version = 0;
-      set(6, fields.values,
+      arrays[gradientsOfTask].version = 0;
+      set(gradientsOfTask, fields.values,
         static_cast<std::size_t>(fields.count * fields.planeStride * (fields.lastCell[2] + 2)));
       versions.gradients = now.gradients;
     }

@@ -20,22 +20,32 @@
 namespace schlieren
 {
 
-/// The arrays that a task points to.
-constexpr std::size_t arraysOfTask = 8;
-constexpr std::size_t samplesOfTask = 0;
+/// The numbers of the arrays that a task points to.
+enum ArrayNumber : std::size_t
+{
+  samplesOfTask,
+  solidOfTask,
+  leavesOfTask,
+  rootsOfTask,
+  childrenOfTask,
+  gasDistancesOfTask,
+  gradientsOfTask,
+  gradientBricksOfTask,
+  arraysOfTask ///< how many
+};
 
 /// Calls visit(number of the array, pointer to where the task needs it).
 template <class Real, class Visit>
 void forArrays(RayTask<Real>& task, const Visit& visit)
 {
-  visit(0, task.medium.samples);
-  visit(1, task.medium.solid);
-  visit(2, task.medium.leaves);
-  visit(3, task.medium.finder.roots);
-  visit(4, task.medium.finder.children);
-  visit(5, task.medium.gasDistances);
-  visit(6, task.gradients.values);
-  visit(7, task.gradients.bricks);
+  visit(samplesOfTask, task.medium.samples);
+  visit(solidOfTask, task.medium.solid);
+  visit(leavesOfTask, task.medium.leaves);
+  visit(rootsOfTask, task.medium.finder.roots);
+  visit(childrenOfTask, task.medium.finder.children);
+  visit(gasDistancesOfTask, task.medium.gasDistances);
+  visit(gradientsOfTask, task.gradients.values);
+  visit(gradientBricksOfTask, task.gradients.bricks);
 }
 
 /// The beginning of a message with a piece of an array, which follows. Pieces come in their order; so neither side has a

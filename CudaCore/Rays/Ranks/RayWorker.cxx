@@ -124,8 +124,8 @@ struct RayWorker::Arrays
     traced = {};
     if (const Passes own = passes.ofBands(bands); own.rays() > 0)
     {
-      here.tracer->trace(
-        request.task, own, { request.versions[6] }, CudaTracer<Real>::Exits::OnHost, traced, {});
+      here.tracer->trace(request.task, own, { request.versions[gradientsOfTask] },
+        CudaTracer<Real>::Exits::OnHost, traced, {});
     }
     return answerOf(request);
   }

@@ -87,17 +87,18 @@ public:
     };
     MediumArrays<Real> arrays;
     arrays.view = request.task.medium;
-    set(0, arrays.samples);
-    set(1, arrays.solid);
+    set(samplesOfTask, arrays.samples);
+    set(solidOfTask, arrays.solid);
     if (request.task.medium.leaves != nullptr)
     {
-      set(2, arrays.leaves);
-      set(3, arrays.roots);
-      set(4, arrays.children);
-      set(5, arrays.gasDistances);
-      set(6, arrays.gradients);
-      set(7, arrays.gradientBricks);
-      arrays.firstGradient = request.offsets[6] != nowhere ? request.offsets[6] : 0;
+      set(leavesOfTask, arrays.leaves);
+      set(rootsOfTask, arrays.roots);
+      set(childrenOfTask, arrays.children);
+      set(gasDistancesOfTask, arrays.gasDistances);
+      set(gradientsOfTask, arrays.gradients);
+      set(gradientBricksOfTask, arrays.gradientBricks);
+      const std::int64_t first = request.offsets[gradientsOfTask];
+      arrays.firstGradient = first != nowhere ? first : 0;
     }
     return arrays;
   }
