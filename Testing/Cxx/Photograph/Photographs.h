@@ -66,8 +66,8 @@ struct Film
   double striae = 0.03;
   int dust = 10;
   double vignette = 0.35;
-  double blur = 0.5; // pixels
-  double fullWell = 12000;
+  double blur = 0.5;                      // pixels
+  double fullWell = 12000, readNoise = 0; // electrons
   int bits = 8;
   double mirror = 0.47; // radius, in parts of the width
   int width = columns, height = rows;
@@ -168,7 +168,8 @@ inline Taken take(const Plane& light, const Grid& ofLight, const Place& place, d
     for (std::size_t i = 0; i < exposed.size(); ++i)
     {
       const double electrons = std::max(0.f, exposed.values[i]) * film.fullWell;
-      const double counted = electrons + std::sqrt(electrons) * normal(random);
+      const double counted =
+        electrons + std::sqrt(electrons) * normal(random) + film.readNoise * normal(random);
       const double value = film.black +
         (1 - film.black) * std::pow(std::clamp(counted / film.fullWell, 0., 1.), film.gamma);
       array->SetTuple1(static_cast<vtkIdType>(i), std::round(std::clamp(value, 0., 1.) * white));
