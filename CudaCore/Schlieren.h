@@ -19,7 +19,7 @@
 #include "Medium/Samples/Solids.h"
 #include "Medium/Tree/BrickMakers.h"
 #include "Medium/Tree/RootCells.h"
-#include "Optics/Circular.h"
+#include "Optics/BrightField.h"
 #include "Optics/KnifeEdge.h"
 #include "Optics/NumericalSchlieren.h"
 #include "Optics/Techniques.h"
@@ -161,7 +161,7 @@ struct Scene
   /// Red, green and blue, 0 ... 1, of each of Field::gradients.
   std::vector<std::array<float, 3>> fieldColors;
 
-  /// Waves are for Cutoff::Shadowgraph, and of collimated light for KnifeEdge, Circular, CircularComplement, GradedFilter,
+  /// Waves are for Cutoff::Shadowgraph, and of collimated light for KnifeEdge, BrightField, DarkField, GradedFilter,
   /// PhaseContrast and Interferogram without white light: the light of each pixel is then that of a wave, for which there is one
   /// ray in each pixel. All else of the image remains that of rays.
   LightModel lightModel = LightModel::Rays;

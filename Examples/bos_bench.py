@@ -101,7 +101,7 @@ Knife edge
   grey to white                 {1e3 * s.full_deflection:8.2f} mrad
   least deflection              {1e6 * s.least_deflection:8.2f} urad (1 % of full scale)
   least density gradient        {s.least_gradient:8.3f} kg/m^4 over {options.depth:g} m of depth
-  in ParaView                   Cutoff="Knife Edge", KMode="Bench", FocalLength={options.mirror:g}, SourceWidth={options.source:g}""")
+  in ParaView                   Cutoff="Knife Edge", KMode="Bench", MirrorFocalLength={options.mirror:g}, SourceWidth={options.source:g}""")
 
 
 if __name__ == "__main__":

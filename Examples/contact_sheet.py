@@ -193,11 +193,11 @@ def take_tiles(take, frame, options, scratch):
         (0, 0.1), (0.35, 0.1), (0.4, 1), (0.6, 1), (0.65, 0.4), (1, 0.4)) for number in (x, y, 0.5, 0)])
     knife_tile("graded", "Graded filter, 90°", "clear in its middle, 0.1 below, 0.4 above",
                Cutoff="Graded Filter", GradedFilter=steps, KnifeEdgeAngle=90)
-    circular = take.shoot(Cutoff="Circular", KMode="Automatic")
+    circular = take.shoot(Cutoff="Bright Field", KMode="Automatic")
     round_k = circular.facts["KScale"] or 1
-    add("circular", "Circular stop", f"1 - k |ε|, k = {round_k:.4g}", grey(circular["Intensity"], 1),
+    add("circular", "Bright field", f"1 - k |ε|, k = {round_k:.4g}", grey(circular["Intensity"], 1),
         circular)
-    shot = take.shoot(Cutoff="Circular Complement", KMode="Value", KScale=round_k)
+    shot = take.shoot(Cutoff="Dark Field", KMode="Value", KScale=round_k)
     add("complement", "Its complement", "k |ε|: dark field", grey(shot["Intensity"], 1), shot)
 
     group("Colour, and where light meets the cutoff plane")
@@ -210,7 +210,7 @@ def take_tiles(take, frame, options, scratch):
     add("color filter", "Colour filter from a PNG", "stored as text in the property", shot["Color"],
         shot, shrunk(four_colors()))
     # The source's image is as wide as the deflection that goes from black to white.
-    source = {"SourceShape": "Disc", "FocalLength": 1, "SourceWidth": 1e3 / k, "KnifeEdgeAngle": 90}
+    source = {"SourceShape": "Disc", "MirrorFocalLength": 1, "SourceWidth": 1e3 / k, "KnifeEdgeAngle": 90}
     knife_tile("disc knife", "Knife edge, 90°, round source", f"{1e3 / k:.2g} mm at f = 1 m",
                **source)
     shot = take.shoot(port=1)
@@ -241,7 +241,7 @@ def take_tiles(take, frame, options, scratch):
                 f"from {length(4 * frame.depth)} before the middle", SourceDistance=4 * frame.depth)
     blur = 8 * pixel
     shadow_tile("disc", "Round source", f"blurs what is {length(caustic)} off by 8 pixels",
-                SourceShape="Disc", FocalLength=1, SourceWidth=1e3 * blur / caustic,
+                SourceShape="Disc", MirrorFocalLength=1, SourceWidth=1e3 * blur / caustic,
                 SamplesPerPixel=64)  # as many places of the source
 
     def fringe_tile(name, title, line, **settings):

@@ -70,7 +70,7 @@ def reactor():
 
 def blob():
     flow = read(XMLUnstructuredGridReader, "blob_lagrange_hex.vtu")
-    return dict(Input=flow, Density=["POINTS", "rho"], LengthScale=0.01, Cutoff="Circular Complement",
+    return dict(Input=flow, Density=["POINTS", "rho"], LengthScale=0.01, Cutoff="Dark Field",
                 FocalPoint=[-15, 0, 0], ParallelScale=2.6)
 
 

@@ -37,8 +37,8 @@ FIGURES = (
         ("finite fringes", {"Cutoff": "Interferogram", "FringeSpacing": 0.0008, "FringeAngle": 90}),
         ("white light", {"Cutoff": "Interferogram", "WhiteLight": 1}))),
     ("5. One flow, three stops", (
-        ("circular stop", {"Cutoff": "Circular"}),
-        ("dark field", {"Cutoff": "Circular Complement"}),
+        ("bright field", {"Cutoff": "Bright Field"}),
+        ("dark field", {"Cutoff": "Dark Field"}),
         ("colour filter", {"Cutoff": "Color Filter"}))))
 
 

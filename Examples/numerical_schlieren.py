@@ -53,7 +53,7 @@ schlieren = Schlieren(Input=jet, Density=["POINTS", "rho"], ViewDirection=[0, 0,
 images = {}
 for name, settings in (("knife edge, upright", {"Cutoff": "Knife Edge", "KnifeEdgeAngle": 0}),
                        ("shadowgraph", {"Cutoff": "Shadowgraph", "ScreenDistance": 0.02}),
-                       ("circular stop", {"Cutoff": "Circular"})):
+                       ("bright field", {"Cutoff": "Bright Field"})):
     for key, value in settings.items():
         setattr(schlieren, key, value)
     timed(name, schlieren.UpdatePipeline)
@@ -67,7 +67,7 @@ shown = (("|∇ρ| in the plane of symmetry", middle, "gray_r", (0, 0.3 * middle
          ("exp(−15 |∇ρ| / max) in that plane", exponential, "gray", (0, 1)),
          ("traced: shadowgraph, screen at 20 mm", images["shadowgraph"], "gray", (0, 2)),
          ("∫ |∇ρ| ds along the light", along_light, "gray_r", (0, along_light.max())),
-         ("traced: circular stop", images["circular stop"], "gray", (0, 1)))
+         ("traced: bright field", images["bright field"], "gray", (0, 1)))
 millimetres = 1e3 * step
 for place, (title, values, colors, limits) in zip(axes.flat, shown):
     place.imshow(values, origin="lower", cmap=colors, vmin=limits[0], vmax=limits[1],

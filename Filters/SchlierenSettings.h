@@ -113,7 +113,7 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   double CutoffOffset = 0;
   int KMode = 0;
   double KScale = 1000;
-  double FocalLength = 1;
+  double MirrorFocalLength = 1;
   double SourceWidth = 1;
   std::string ColorFilterImage;
   double FringeSpacing = 0;
@@ -165,7 +165,7 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
     use("CutoffOffset", &S::CutoffOffset);
     use("KMode", &S::KMode);
     use("KScale", &S::KScale);
-    use("FocalLength", &S::FocalLength);
+    use("MirrorFocalLength", &S::MirrorFocalLength);
     use("SourceWidth", &S::SourceWidth);
     use("ColorFilterImage", &S::ColorFilterImage);
     use("FringeSpacing", &S::FringeSpacing);

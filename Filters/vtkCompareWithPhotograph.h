@@ -172,8 +172,8 @@ public:
   vtkGetMacro(BlackLevel, double);
 
   /// Whether the cutoff is fitted: of a Knife Edge contrast, offset and angle, of a Graded Filter k
-  /// and angle, of Circular and Circular Complement k, of an Interferogram contrast, phase and tilt
-  /// of the reference beam's fringes. Default: on.
+  /// and angle, of Bright Field and Dark Field k, of an Interferogram contrast, phase and tilt of
+  /// the reference beam's fringes. Default: on.
   vtkSetMacro(FitCutoff, bool);
   vtkGetMacro(FitCutoff, bool);
   vtkBooleanMacro(FitCutoff, bool);

@@ -49,8 +49,8 @@ static_assert(sameValue(Self::AUTO, schlieren::Device::Auto) &&
   sameValue(Self::CPU, schlieren::Device::Cpu) && sameValue(Self::CUDA, schlieren::Device::Cuda));
 static_assert(sameValue(Self::KNIFE_EDGE, schlieren::Cutoff::KnifeEdge) &&
   sameValue(Self::SHADOWGRAPH, schlieren::Cutoff::Shadowgraph) &&
-  sameValue(Self::CIRCULAR, schlieren::Cutoff::Circular) &&
-  sameValue(Self::CIRCULAR_COMPLEMENT, schlieren::Cutoff::CircularComplement) &&
+  sameValue(Self::BRIGHT_FIELD, schlieren::Cutoff::BrightField) &&
+  sameValue(Self::DARK_FIELD, schlieren::Cutoff::DarkField) &&
   sameValue(Self::GRADED_FILTER, schlieren::Cutoff::GradedFilter) &&
   sameValue(Self::COLOR_FILTER, schlieren::Cutoff::ColorFilter) &&
   sameValue(Self::INTERFEROGRAM, schlieren::Cutoff::Interferogram) &&

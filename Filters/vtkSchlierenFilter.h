@@ -197,8 +197,8 @@ public:
   {
     KNIFE_EDGE = 0,
     SHADOWGRAPH = 1,
-    CIRCULAR = 2,
-    CIRCULAR_COMPLEMENT = 3,
+    BRIGHT_FIELD = 2,
+    DARK_FIELD = 3,
     GRADED_FILTER = 4,
     COLOR_FILTER = 5,
     INTERFEROGRAM = 6,
@@ -237,8 +237,8 @@ public:
   vtkGetMacro(KScale, double);
 
   /// Focal length of the second mirror, metres; more than 0. Default: 1.
-  vtkSetMacro(FocalLength, double);
-  vtkGetMacro(FocalLength, double);
+  vtkSetMacro(MirrorFocalLength, double);
+  vtkGetMacro(MirrorFocalLength, double);
 
   /// Width of the source's image at the cutoff, across the knife edge, or diameter of a disc;
   /// millimetres. Default: 1.
@@ -360,7 +360,7 @@ public:
   vtkGetMacro(LightModel, int);
 
   /// Of Phase Contrast: diameter of the plate in the middle of the cutoff plane, millimetres, with
-  /// Focal Length; 0: only undisturbed light passes it. Default: 0.
+  /// Mirror Focal Length; 0: only undisturbed light passes it. Default: 0.
   vtkSetClampMacro(PhasePlateDiameter, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(PhasePlateDiameter, double);
 
@@ -497,7 +497,7 @@ public:
   /// the sensitivity k, the intensity, clamped to 0 ... 1, is
   /// - KNIFE_EDGE (the default): 1/2 - offset + k e;
   /// - SHADOWGRAPH: 1, so that the image shows only where light lands on a screen;
-  /// - CIRCULAR: 1 - k |eps|, inverse of a dark field; CIRCULAR_COMPLEMENT: k |eps|;
+  /// - BRIGHT_FIELD: 1 - k |eps|, dark on bright; DARK_FIELD: k |eps|;
   /// - GRADED_FILTER: GradedFilter at 1/2 - offset + k e;
   /// - COLOR_FILTER: the colour at k eps in ColorFilterImage, or in a colour wheel;
   /// - INTERFEROGRAM: (1 + cos(2 pi OPD / wavelength + carrier)) / 2;
@@ -651,7 +651,7 @@ public:
 
   /// Counts the different images of this filter, including one that Refine() has made for the next
   /// update. Unchanged where a step had nothing new to show.
-  vtkTypeInt64 GetPictureCount() const;
+  vtkTypeInt64 GetImageCount() const;
 
   /// Returns a text about the last image, in one line: samples per pixel; rays per second of the
   /// last tracing; device; path model. Empty before the first image; after a failure, "No image: " and why.
@@ -766,7 +766,7 @@ private:
   vtkSmartPointer<vtkPiecewiseFunction> GradedFilter;
   double KScaleUsed = 0;
   std::string Sensitivity;
-  vtkTypeInt64 PictureCount = 0;
+  vtkTypeInt64 ImageCount = 0;
   std::string Status;
   double ProbedPlace[2] = { -1, -1 };
   std::string Probed;

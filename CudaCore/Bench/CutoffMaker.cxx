@@ -73,10 +73,10 @@ Cutoffs CutoffMaker::cutoffOf(const Scene& scene, double k, const PixelPlaces& p
   {
     case Cutoff::KnifeEdge:
       return KnifeEdge{ axis, scene.source.shape == SourceShape::Disc };
-    case Cutoff::Circular:
-      return Circular{ k };
-    case Cutoff::CircularComplement:
-      return CircularComplement{ k };
+    case Cutoff::BrightField:
+      return BrightField{ k };
+    case Cutoff::DarkField:
+      return DarkField{ k };
     case Cutoff::NumericalSchlieren:
       return NumericalSchlieren{ k };
     case Cutoff::GradedFilter:

@@ -117,8 +117,8 @@ Imaging imagingOf(
     case Cutoff::Interferogram:
       return { {}, pointsOf(scene), carrierOf(scene, wavelength, pixelSize) };
     case Cutoff::Shadowgraph:
-    case Cutoff::Circular:
-    case Cutoff::CircularComplement:
+    case Cutoff::BrightField:
+    case Cutoff::DarkField:
     case Cutoff::GradedFilter:
     case Cutoff::ColorFilter:
     case Cutoff::Background:
@@ -140,8 +140,8 @@ std::string noteOnRays(Cutoff cutoff, double width)
       note << "rays suffice for features wider than " << perMillimetre * 2 * width
            << " mm in focus";
       break;
-    case Cutoff::Circular:
-    case Cutoff::CircularComplement:
+    case Cutoff::BrightField:
+    case Cutoff::DarkField:
       note << "rays suffice where paths differ by several wavelengths across features wider than "
            << perMillimetre * 2 * width << " mm in focus";
       break;

@@ -27,9 +27,8 @@ double largestSlope(const Scene& scene, const Frame& frame)
 
 bool isOfWaves(Cutoff cutoff)
 {
-  constexpr Cutoff all[] = { Cutoff::Shadowgraph, Cutoff::KnifeEdge, Cutoff::Circular,
-    Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::Interferogram,
-    Cutoff::PhaseContrast };
+  constexpr Cutoff all[] = { Cutoff::Shadowgraph, Cutoff::KnifeEdge, Cutoff::BrightField,
+    Cutoff::DarkField, Cutoff::GradedFilter, Cutoff::Interferogram, Cutoff::PhaseContrast };
   return std::find(std::begin(all), std::end(all), cutoff) != std::end(all);
 }
 

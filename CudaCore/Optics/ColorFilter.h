@@ -5,7 +5,7 @@
 #include "Math/HostDevice.h"
 #include "Math/Trigonometry.h"
 #include "Math/Units.h"
-#include "Optics/Circular.h"
+#include "Optics/BrightField.h"
 #include "Optics/Color.h"
 #include "Optics/RayAtFilm.h"
 #include "Optics/Table.h"

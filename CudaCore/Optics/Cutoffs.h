@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Math/HostDevice.h"
-#include "Optics/Circular.h"
+#include "Optics/BrightField.h"
 #include "Optics/ColorFilter.h"
 #include "Optics/Interferogram.h"
 #include "Optics/KnifeEdge.h"
@@ -29,9 +29,9 @@ struct Shadowgraph
 
 /// All that there are. Each turns a ray into light, 0 ... 1 in each of its channels: one, or linear red,
 /// green and blue.
-using Cutoffs = std::variant<KnifeEdge, Shadowgraph, Circular, CircularComplement, GradedFilter,
-  ColorWheel, ColorImage, Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes,
-  BackgroundImage, NumericalSchlieren>;
+using Cutoffs =
+  std::variant<KnifeEdge, Shadowgraph, BrightField, DarkField, GradedFilter, ColorWheel, ColorImage,
+    Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes, BackgroundImage, NumericalSchlieren>;
 
 inline int channelsOf(const Cutoffs& cutoff)
 {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Math/HostDevice.h"
-#include "Optics/Circular.h"
+#include "Optics/BrightField.h"
 #include "Optics/RayAtFilm.h"
 
 namespace schlieren

@@ -16,11 +16,11 @@ namespace schlieren
 /// 0 ... 1; where the medium concentrates rays on a pixel, the pixel's intensity exceeds 1.
 enum class Cutoff
 {
-  KnifeEdge,          ///< I = 1/2 - offset + k e; undisturbed light: 1/2 - offset
-  Shadowgraph,        ///< I = 1 for every ray: where rays land makes the image
-  Circular,           ///< I = 1 - k |eps|: dark where light is bent; undisturbed: 1
-  CircularComplement, ///< I = k |eps|; undisturbed: 0
-  GradedFilter,       ///< I = Scene::gradedFilter at 1/2 - offset + k e
+  KnifeEdge,    ///< I = 1/2 - offset + k e; undisturbed light: 1/2 - offset
+  Shadowgraph,  ///< I = 1 for every ray: where rays land makes the image
+  BrightField,  ///< I = 1 - k |eps|: dark where light is bent; undisturbed: 1
+  DarkField,    ///< I = k |eps|; undisturbed: 0
+  GradedFilter, ///< I = Scene::gradedFilter at 1/2 - offset + k e
   ColorFilter, ///< the colour at k eps of Scene::colorFilter, or of a wheel: hue is the direction of eps,
                ///< saturation min(1, k |eps|)
   Interferogram, ///< I = (1 + cos(2 pi OPD / wavelength + carrier)) / 2; undisturbed: 1 without a carrier
@@ -67,9 +67,8 @@ constexpr std::array<Technique, 10> techniques = { {
   // cutoff, name, full scale, edge, fringes, plane, colours
   { Cutoff::KnifeEdge, "Knife Edge", 0.5, true, false, RecordedPlane::Focus, Coloring::None },
   { Cutoff::Shadowgraph, "Shadowgraph", 0, false, false, RecordedPlane::Screen, Coloring::None },
-  { Cutoff::Circular, "Circular", 1, false, false, RecordedPlane::Focus, Coloring::None },
-  { Cutoff::CircularComplement, "Circular Complement", 1, false, false, RecordedPlane::Focus,
-    Coloring::None },
+  { Cutoff::BrightField, "Bright Field", 1, false, false, RecordedPlane::Focus, Coloring::None },
+  { Cutoff::DarkField, "Dark Field", 1, false, false, RecordedPlane::Focus, Coloring::None },
   { Cutoff::GradedFilter, "Graded Filter", 0.5, true, false, RecordedPlane::Focus, Coloring::None },
   { Cutoff::ColorFilter, "Color Filter", 1, false, false, RecordedPlane::Focus, Coloring::Always },
   { Cutoff::Interferogram, "Interferogram", 0, false, true, RecordedPlane::Focus,

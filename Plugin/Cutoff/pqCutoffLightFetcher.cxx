@@ -82,7 +82,7 @@ void pqCutoffLightFetcher::fetch()
   {
     return;
   }
-  const int image = informationOf(this->Filter, "PictureCount");
+  const int image = informationOf(this->Filter, "ImageCount");
   Q_EMIT this->imageChanged();
   // Fetching an unfinished image would first finish it.
   if (image != this->FetchedImage && informationOf(this->Filter, "Finished") != 0)

@@ -45,7 +45,7 @@ private:
   QWidget* Widget;
   QTimer Timer;
   bool Waits = false;
-  int FetchedImage = 0; ///< its PictureCount
+  int FetchedImage = 0; ///< its ImageCount
   pqCutoffLight Light;
   vtkNew<vtkEventQtSlotConnect> Connection;
 };

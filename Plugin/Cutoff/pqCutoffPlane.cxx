@@ -65,11 +65,11 @@ double pqCutoff::transmission(const QPointF& deflection) const
         this->IsOfDisc ? schlieren::SourceShape::Disc : schlieren::SourceShape::Slit)
         .shade(ray, light);
       break;
-    case Circular:
-      schlieren::Circular{ this->K }.shade(ray, light);
+    case BrightField:
+      schlieren::BrightField{ this->K }.shade(ray, light);
       break;
-    case CircularComplement:
-      schlieren::CircularComplement{ this->K }.shade(ray, light);
+    case DarkField:
+      schlieren::DarkField{ this->K }.shade(ray, light);
       break;
     case NumericalSchlieren:
       schlieren::NumericalSchlieren{ this->K }.shade(ray, light);

@@ -14,8 +14,8 @@ struct pqCutoff
   {
     NoCutoff = -1, ///< or one that does not depend on the deflection
     KnifeEdge = 0,
-    Circular = 2,
-    CircularComplement = 3,
+    BrightField = 2,
+    DarkField = 3,
     GradedFilter = 4,
     ColorFilter = 5,
     NumericalSchlieren = 8

@@ -24,8 +24,8 @@ namespace
 using Filter = vtkSchlierenFilter;
 
 static_assert(int(pqCutoff::KnifeEdge) == Filter::KNIFE_EDGE &&
-  int(pqCutoff::Circular) == Filter::CIRCULAR &&
-  int(pqCutoff::CircularComplement) == Filter::CIRCULAR_COMPLEMENT &&
+  int(pqCutoff::BrightField) == Filter::BRIGHT_FIELD &&
+  int(pqCutoff::DarkField) == Filter::DARK_FIELD &&
   int(pqCutoff::GradedFilter) == Filter::GRADED_FILTER &&
   int(pqCutoff::ColorFilter) == Filter::COLOR_FILTER &&
   int(pqCutoff::NumericalSchlieren) == Filter::NUMERICAL_SCHLIEREN);
@@ -66,7 +66,7 @@ pqCutoff cutoffOf(vtkSMProxy* proxy)
   if (mode == Filter::K_BENCH)
   {
     const double width = valueOf(proxy, "SourceWidth"); // millimetres
-    cutoff.K = kOfWidth(kind) * 1e3 * valueOf(proxy, "FocalLength") / width;
+    cutoff.K = kOfWidth(kind) * 1e3 * valueOf(proxy, "MirrorFocalLength") / width;
   }
   else
   {
@@ -115,8 +115,8 @@ pqCutoffWidget::pqCutoffWidget(vtkSMProxy* smProxy, vtkSMPropertyGroup*, QWidget
   QObject::connect(this->View, &pqCutoffView::dragged, this, &pqCutoffWidget::dragged);
   QObject::connect(this->View, &pqCutoffView::released, this, &pqCutoffWidget::released);
   for (const char* name :
-    { "Cutoff", "KnifeEdgeAngle", "CutoffOffset", "KMode", "KScale", "FocalLength", "SourceWidth",
-      "SourceShape", "ColorFilterImage", "GradedFilter", "KScaleUsed" })
+    { "Cutoff", "KnifeEdgeAngle", "CutoffOffset", "KMode", "KScale", "MirrorFocalLength",
+      "SourceWidth", "SourceShape", "ColorFilterImage", "GradedFilter", "KScaleUsed" })
   {
     this->Connection->Connect(
       smProxy->GetProperty(name), vtkCommand::ModifiedEvent, this, SLOT(readCutoff()));
@@ -181,8 +181,8 @@ QMap<QString, QVariant> pqCutoffWidget::changes() const
     case pqCutoffPlane::SizeHandle:
       if (fromOptics)
       {
-        values["SourceWidth"] =
-          rounded(kOfWidth(now.Kind) * 1e3 * valueOf(this->proxy(), "FocalLength") / now.K, digits);
+        values["SourceWidth"] = rounded(
+          kOfWidth(now.Kind) * 1e3 * valueOf(this->proxy(), "MirrorFocalLength") / now.K, digits);
       }
       else
       {

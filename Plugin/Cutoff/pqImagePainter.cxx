@@ -186,11 +186,11 @@ bool pqImagePainter::eventFilter(QObject* watched, QEvent* event)
 
 bool pqImagePainter::fetchDeflection()
 {
-  for (const char* name : { "PictureCount", "KScaleUsed" })
+  for (const char* name : { "ImageCount", "KScaleUsed" })
   {
     this->Filter->UpdatePropertyInformation(this->Filter->GetProperty(name));
   }
-  const int image = vtkSMPropertyHelper(this->Filter, "PictureCount").GetAsInt();
+  const int image = vtkSMPropertyHelper(this->Filter, "ImageCount").GetAsInt();
   this->K = vtkSMPropertyHelper(this->Filter, "KScaleUsed").GetAsDouble();
   if (image != this->FetchedImage)
   {

@@ -64,7 +64,7 @@ private:
   pqView* Pressed = nullptr;
   double BrushRadius = 0.04;
   double K = 0;
-  int FetchedImage = 0; ///< its PictureCount
+  int FetchedImage = 0; ///< its ImageCount
   vtkSmartPointer<vtkImageData> Deflection;
   QPointF Last; ///< mouse position in the image
   bool HasLast = false;

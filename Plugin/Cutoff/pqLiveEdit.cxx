@@ -45,7 +45,7 @@ pqLiveEdit::pqLiveEdit(vtkSMProxy* filter, const QString& label)
 
 bool pqLiveEdit::isPossible(vtkSMProxy* filter)
 {
-  return vtkSMPropertyHelper(filter, "PictureCount").GetAsInt() > 0;
+  return vtkSMPropertyHelper(filter, "ImageCount").GetAsInt() > 0;
 }
 
 void pqLiveEdit::push(const QMap<QString, QVariant>& values)

@@ -174,11 +174,11 @@ void vtkSchlierenActor::TracePreview()
   this->Reduction = std::clamp(static_cast<int>(std::ceil(wanted)), isOneRay ? 1 : 2, coarsest);
   this->Bench->SetPreviewReduction(this->Reduction);
   this->Bench->SetTimeLimit(0);
-  const vtkTypeInt64 before = this->Bench->GetPictureCount();
+  const vtkTypeInt64 before = this->Bench->GetImageCount();
   const double begin = vtkTimerLog::GetUniversalTime();
   this->Bench->Update();
   // Ignores measured times with several ranks, which must make the same image.
-  if (!this->HasOtherRanks && this->Bench->GetPictureCount() != before)
+  if (!this->HasOtherRanks && this->Bench->GetImageCount() != before)
   {
     const double seconds = vtkTimerLog::GetUniversalTime() - begin;
     const double measured = seconds * this->Reduction * this->Reduction / pixels;
@@ -220,10 +220,10 @@ bool vtkSchlierenActor::Refine()
   this->Reduction = 1;
   this->Bench->SetPreviewReduction(1);
   this->Bench->SetTimeLimit(this->TimeSlice);
-  const vtkTypeInt64 before = this->Bench->GetPictureCount();
+  const vtkTypeInt64 before = this->Bench->GetImageCount();
   this->Bench->Refine();
   this->KnownTime = this->Bench->GetMTime();
-  this->HasMore = this->Bench->GetPictureCount() != before || this->Bench->GetFinished();
+  this->HasMore = this->Bench->GetImageCount() != before || this->Bench->GetFinished();
   return false;
 }
 

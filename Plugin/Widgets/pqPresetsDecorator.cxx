@@ -103,7 +103,7 @@ pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidge
       [this, &preset]()
       {
         vtkSMProxy* filter = this->parentWidget()->proxy();
-        filter->UpdatePropertyInformation(filter->GetProperty("PictureCount"));
+        filter->UpdatePropertyInformation(filter->GetProperty("ImageCount"));
         if (pqLiveEdit::isPossible(filter))
         {
           applyPreset(filter, keepingK(filter, preset));

@@ -36,7 +36,7 @@ bool imagesInViews::isSchlieren(pqPipelineSource* source)
 {
   const char* name = source && source->getProxy() ? source->getProxy()->GetXMLName() : nullptr;
   return name && std::strcmp(name, "Schlieren") == 0 &&
-    source->getProxy()->GetProperty("PictureCount");
+    source->getProxy()->GetProperty("ImageCount");
 }
 
 bool imagesInViews::isComparison(pqPipelineSource* source)

@@ -171,12 +171,12 @@ void filterRefines(benchmark::State& state)
     do
     {
       filter->Refine();
-      const vtkTypeInt64 images = filter->GetPictureCount();
+      const vtkTypeInt64 images = filter->GetImageCount();
       const Clock::time_point start = Clock::now();
       filter->Update();
       longest = std::max(longest, since(start));
       ++slices;
-      if (filter->GetPictureCount() != images)
+      if (filter->GetImageCount() != images)
       {
         longestWait = std::max(longestWait, since(shown));
         shown = Clock::now();

@@ -16,8 +16,8 @@ expansion, disc = row[int(1 / step):int(8 / step)], row[int(13 / step):int(14.5 
 assert expansion.max() < 0.5 and disc.max() > 0.8, (expansion.max(), disc.max())
 
 # The ring at 18.7 mm crosses the jet in the traced image, and not on the slice.
-ring, beside = (made["images"]["circular stop"][row, int(18.7 / step) - 3:int(18.7 / step) + 4].min()
-                - made["images"]["circular stop"][row, int(20.5 / step)] for row in (edge.shape[0] // 2, 10))
+ring, beside = (made["images"]["bright field"][row, int(18.7 / step) - 3:int(18.7 / step) + 4].min()
+                - made["images"]["bright field"][row, int(20.5 / step)] for row in (edge.shape[0] // 2, 10))
 assert ring < -0.05 and abs(beside) < 0.02, (ring, beside)
 middle = made["middle"]
 assert middle[middle.shape[0] // 2, int(18.7 / (2 * step))] < 0.05 * middle.max()

@@ -35,7 +35,7 @@ assert spread[0] < spread[1] < spread[2], spread
 spread = [image.std() for image in shadow]
 assert spread[0] < spread[1] < spread[2], spread
 assert np.ptp(fringes[2], axis=2).max() > 60 and np.ptp(fringes[0], axis=2).max() == 0
-assert np.abs(stops[0] + stops[1] - 255).mean() < 4, "Dark field is the negative of the circular stop"
+assert np.abs(stops[0] + stops[1] - 255).mean() < 4, "Dark field is the negative of the bright field"
 
 # Light that is bent upwards passes an edge at 90 degrees: the knife covers the lower half.
 frame = np.asarray(animation.with_knife(np.full((100, 120, 3), 128, np.uint8), 90))

@@ -41,8 +41,8 @@ shoot("JetKnifeEdgeFurtherIn", CutoffOffset=0.25)
 shoot("JetGradedFilter", Cutoff="Graded Filter", GradedFilter=CreatePiecewiseFunction(
     Points=[number for x, y in ((0, 0.1), (0.35, 0.1), (0.4, 1), (0.6, 1), (0.65, 0.4), (1, 0.4))
             for number in (x, y, 0.5, 0)]))
-circular = shoot("JetCircular", Cutoff="Circular")
-complement = shoot("JetCircularComplement", Cutoff="Circular Complement")
+circular = shoot("JetBrightField", Cutoff="Bright Field")
+complement = shoot("JetDarkField", Cutoff="Dark Field")
 assert np.abs(circular + complement - 1).mean() < 0.01
 
 shoot("JetColorWheel", green_for_blue, array="Color", Cutoff="Color Filter")

@@ -81,5 +81,5 @@ for place, density in (((0.5, 0.3), 1.4), ((1.9, 0.7), 2.380), ((3.9, 0.2), 3.76
 schlieren.KnifeEdgeAngle = 90
 check_baseline(schlieren, "ObliqueShock")
 
-schlieren.Cutoff = "Circular Complement"
+schlieren.Cutoff = "Dark Field"
 check_baseline(schlieren, "ObliqueShockDarkField")

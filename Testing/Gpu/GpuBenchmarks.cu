@@ -162,10 +162,11 @@ void measureCutoffs(const Field& field, const Vector& viewDirection)
 {
   Bench bench;
   Scene scene = sceneOf(viewDirection);
-  for (const auto& [name, cutoff] : { std::pair{ "shadowgraph", Cutoff::Shadowgraph },
-         std::pair{ "circular", Cutoff::Circular }, std::pair{ "graded", Cutoff::GradedFilter },
-         std::pair{ "colour", Cutoff::ColorFilter }, std::pair{ "fringes", Cutoff::Interferogram },
-         std::pair{ "background", Cutoff::Background } })
+  for (const auto& [name, cutoff] :
+    { std::pair{ "shadowgraph", Cutoff::Shadowgraph },
+      std::pair{ "bright field", Cutoff::BrightField }, std::pair{ "graded", Cutoff::GradedFilter },
+      std::pair{ "colour", Cutoff::ColorFilter }, std::pair{ "fringes", Cutoff::Interferogram },
+      std::pair{ "background", Cutoff::Background } })
   {
     scene.cutoff = cutoff;
     measure(name, bench, field, scene);

@@ -169,7 +169,7 @@ assert GetRepresentation(blocks, scene).Visibility == 1
 check_linked_now(scene, view)
 drawn(blocks, view).SchlierenBench.Quality = "Interactive"
 Render(view)
-until(lambda: information(drawn(blocks, view).SchlierenBench, "PictureCount") > 0)
+until(lambda: information(drawn(blocks, view).SchlierenBench, "ImageCount") > 0)
 assert np.ptp(intensity(drawn(blocks, view).SchlierenBench)) > 0.2
 """)
 
@@ -190,9 +190,9 @@ for bench in benches:
     assert bench.Cutoff == "Shadowgraph" and bench.GradedFilter.Points[1] == 0.25
 assert benches[0].GradedFilter.SMProxy != benches[1].GradedFilter.SMProxy, "A curve of both"
 """)
-user.choose("Cutoff/ComboBox", "Circular")
+user.choose("Cutoff/ComboBox", "Bright Field")
 user.python("""
-assert [drawn(FindSource("blocks"), view).SchlierenBench.Cutoff for _, view in views()[1:]] == ["Shadowgraph", "Circular"]
+assert [drawn(FindSource("blocks"), view).SchlierenBench.Cutoff for _, view in views()[1:]] == ["Shadowgraph", "Bright Field"]
 """)
 
 # With a filter selected, its flow and its settings.
@@ -207,6 +207,6 @@ user.python("""
 (bench,) = filters().values()
 assert bench.Input == FindSource("blocks") and len(views()) == 5
 cutoffs = [display.SchlierenBench.Cutoff for display in displays()]
-assert len(cutoffs) == 3 and all(name in cutoffs for name in ("Circular", "Color Filter", "Shadowgraph")), cutoffs
+assert len(cutoffs) == 3 and all(name in cutoffs for name in ("Bright Field", "Color Filter", "Shadowgraph")), cutoffs
 """)
 user.play("", expected="No array is chosen for Density, and none is known by its name. Choose one of: point arrays T (287.353")

@@ -131,9 +131,9 @@ user.apply()
 
 # Once there is an image, at once.
 user.python("Show(FindSource('bench'))\nRender()\nsettle(FindSource('bench'))\n" + keep("toepler"))
-choose_preset("Circular Complement, dark field")
+choose_preset("Dark Field")
 user.check_at(PANEL + "/Accept", "enabled", "false")
-user.check("Cutoff/ComboBox", "currentText", "Circular Complement")
+user.check("Cutoff/ComboBox", "currentText", "Dark Field")
 user.check("KMode/ComboBox", "currentText", "Automatic")
 user.python(keep("dark"))
 user.undo()
@@ -157,7 +157,7 @@ user.python(keep("fringes"))
 user.choose("Cutoff/ComboBox", "Knife Edge")
 user.choose("KMode/ComboBox", "Automatic Kept")
 user.apply()
-choose_preset("Circular, bright field")
+choose_preset("Bright Field")
 user.check("KMode/ComboBox", "currentText", "Automatic Kept")
 
 # A preset begins with the name that its cutoff has in the panel, and in the legend.
@@ -314,15 +314,15 @@ bench = scripted(KMode="Value")
 bench.UpdatePipeline()
 assert bench.KScale == 1000 and bench.FieldData["KScale"].GetRange()[0] == 1000
 
-for name, properties in (("toepler", {"KMode": "Bench", "SourceShape": "Slit"}), ("dark", {"Cutoff": "Circular Complement"}),
+for name, properties in (("toepler", {"KMode": "Bench", "SourceShape": "Slit"}), ("dark", {"Cutoff": "Dark Field"}),
                          ("fringes", {"Cutoff": "Interferogram", "FringeSpacing": -10, "FringeAngle": 90})):
     assert np.array_equal(kept(name), image_array(scripted(**properties), "Intensity").ravel()), name
     assert np.ptp(kept(name)) > 0
 assert np.array_equal(kept("toepler"), kept("toepler again"))
 # Each preset is one entry of the trace.
 lines = traced(text_of("presets"), "bench")
-dark = lines.index(("Cutoff", "'Circular Complement'"))
-assert set(lines[dark:dark + 3]) == {("Cutoff", "'Circular Complement'"), ("KMode", "'Automatic'"),
+dark = lines.index(("Cutoff", "'Dark Field'"))
+assert set(lines[dark:dark + 3]) == {("Cutoff", "'Dark Field'"), ("KMode", "'Automatic'"),
                                      ("SourceShape", "'Point'")}, lines
 
 wheel = kept("wheel")

@@ -18,7 +18,7 @@ PLANE = "SchlierenCutoff/Plane"
 SHIFT = 0x02000000
 TRACE, LOG = os.path.join(FOLDER, "trace.py"), os.path.join(FOLDER, "log.json")
 FOCAL_LENGTH = 1e-3 * K  # metres: of a source 1 mm wide k is K
-SETTINGS = {"ImageSize": [32, 32], "GladstoneDaleConstant": 2e-6, "FocalLength": FOCAL_LENGTH}
+SETTINGS = {"ImageSize": [32, 32], "GladstoneDaleConstant": 2e-6, "MirrorFocalLength": FOCAL_LENGTH}
 
 user = Session()
 saved = {}
@@ -129,9 +129,9 @@ further = round(keyed + 1.02 * K * PIXEL * (np.rint(30 * along) @ along), 3)
 expect("waited", CutoffOffset=further)
 
 # A circle, whose sensitivity was automatic before its radius was dragged; undone at one go.
-automatic = automatic_k("Circular")
+automatic = automatic_k("Bright Field")
 circle = next(r for r in (0.001, 0.002, 0.005, 0.01) if r > 1.3 / automatic)
-user.choose("Cutoff/ComboBox", "Circular")
+user.choose("Cutoff/ComboBox", "Bright Field")
 user.choose("KMode/ComboBox", "Automatic")
 user.apply()
 settle()
@@ -140,7 +140,7 @@ rim = round(1 / automatic / (2 * circle / SIDE))
 drag((0, rim), (0, -20))
 user.check("KMode/ComboBox", "currentText", "Value")
 narrower = 1 / (1 / automatic - 20 * 2 * circle / SIDE)
-expect("circle", Cutoff="Circular", KScale=float(f"{narrower:.4g}"))
+expect("circle", Cutoff="Bright Field", KScale=float(f"{narrower:.4g}"))
 user.menu("menu_Edit", "actionEditUndo")
 user.check("KMode/ComboBox", "currentText", "Automatic")
 

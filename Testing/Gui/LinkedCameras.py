@@ -99,11 +99,11 @@ click(abort)
 until(lambda: line().startswith("Stopped. "))
 assert not abort.isEnabled() and bar.text() == ""
 assert (information(bench, "Stopped"), information(display, "SchlierenFinished")) == (1, 1)
-made = [information(bench, name) for name in ("PictureCount", "PercentDone")]
+made = [information(bench, name) for name in ("ImageCount", "PercentDone")]
 Render(view)
 SaveScreenshot(os.path.join(FOLDER, "stopped.png"), view)
 pause(1)
-assert [information(bench, name) for name in ("PictureCount", "PercentDone")] == made and line().startswith("Stopped. ")
+assert [information(bench, name) for name in ("ImageCount", "PercentDone")] == made and line().startswith("Stopped. ")
 
 # Turned, it is made again.
 view.GetActiveCamera().Azimuth(10)

@@ -127,7 +127,7 @@ assert found[1] == inside_window.k and found[0] < 0.95 * inside_window.k, (found
 user.python(HELPERS + """
 import inside_window
 (display, _) = by_age()
-display.SchlierenBench.Cutoff = "Circular"
+display.SchlierenBench.Cutoff = "Bright Field"
 RenderAllViews()
 settle_views()
 assert k_of(display) > 0 and k_of(display) != inside_window.k

@@ -31,7 +31,7 @@ for name in ("Presets", "KnifeEdgeAngle", "CutoffOffset", "KMode", "FitKAgain", 
 user.reset()
 
 user.choose("KMode/ComboBox", "Bench")
-user.choose("FocalLength/DoubleLineEdit0", "2")
+user.choose("MirrorFocalLength/DoubleLineEdit0", "2")
 user.choose("SourceWidth/DoubleLineEdit0", "4")
 user.apply()
 user.python("""

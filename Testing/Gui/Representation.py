@@ -41,7 +41,7 @@ user.event(DISPLAY + "/Representation/displayRepresentationWidget/comboBox", "se
 user.python(SAVE.format("chosen", SETTINGS))
 user.drag_view(0, (0.3, 0.5), (0.35, 0.55), (0.4, 0.6), (0.45, 0.6), (0.5, 0.6))
 user.python(SAVE.format("turned", SETTINGS))
-user.event(BENCH + "/Cutoff/ComboBox", "set_string", "Circular Complement")
+user.event(BENCH + "/Cutoff/ComboBox", "set_string", "Dark Field")
 user.python(SAVE.format("changed", SETTINGS))
 
 # The editor shows the light at the cutoff, and the edge that is dragged in it.
@@ -130,7 +130,7 @@ turned = drawn("turned")
 assert len(turned) >= 4 and turned[-1] == 1 and max(turned) > 1, turned
 # Another cutoff needs no rays.
 assert set(drawn("changed")) == {1}
-assert np.load(os.path.join(FOLDER, "changed.npz"))["Cutoff"].item() == "Circular Complement"
+assert np.load(os.path.join(FOLDER, "changed.npz"))["Cutoff"].item() == "Dark Field"
 assert set(drawn("dragged")) == {1}
 dragged = np.load(os.path.join(FOLDER, "dragged.npz"))
 assert dragged["Cutoff"].item() == "Knife Edge" and dragged["CutoffOffset"].item() > 0.01, dict(dragged)

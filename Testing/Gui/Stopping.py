@@ -76,8 +76,8 @@ abort = widget("AbortButton")
 view, display = GetActiveView(), GetDisplayProperties(FindSource("flow"), GetActiveView())
 bench = display.SchlierenBench
 pause(0.5)
-assert (builds(bench), information(bench, "PictureCount")) == (0, 0), (
-    builds(bench), information(bench, "PictureCount"), information(bench, "Status"))
+assert (builds(bench), information(bench, "ImageCount")) == (0, 0), (
+    builds(bench), information(bench, "ImageCount"), information(bench, "Status"))
 assert not abort.isEnabled()
 # Nothing begins anew by itself.
 view.GetActiveCamera().Azimuth(10)

@@ -70,10 +70,10 @@ TEST(CutoffPlane, OfADiscAnEdgeLeavesTheSegmentOfACircle)
 TEST(CutoffPlane, StopsDependOnTheDistanceAlone)
 {
   pqCutoff cutoff = knifeEdge();
-  cutoff.Kind = pqCutoff::Circular;
+  cutoff.Kind = pqCutoff::BrightField;
   cutoff.HasEdge = false;
   EXPECT_NEAR(cutoff.transmission({ 3e-4, -4e-4 }), 0.5, 1e-12);
-  cutoff.Kind = pqCutoff::CircularComplement;
+  cutoff.Kind = pqCutoff::DarkField;
   EXPECT_NEAR(cutoff.transmission({ -6e-4, 0 }), 0.6, 1e-12);
   cutoff.Kind = pqCutoff::NumericalSchlieren;
   EXPECT_NEAR(cutoff.transmission({ 0, 6e-4 }), std::exp(-3.), 1e-9);

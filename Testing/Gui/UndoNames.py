@@ -17,7 +17,7 @@ assert action.text() == "&Undo " + {name!r} and action.isEnabled(), action.text(
 user.press("OneImage")
 user.python("settle_views()")
 check_undo("Add Schlieren View")
-user.choose("Cutoff/ComboBox", "Circular")
+user.choose("Cutoff/ComboBox", "Bright Field")
 check_undo("Change Cutoff")
 user.choose("Cutoff/ComboBox", "Knife Edge")
 user.type("KnifeEdgeAngle/DoubleLineEdit0", "30")

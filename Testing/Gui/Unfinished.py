@@ -83,9 +83,9 @@ draw()
 Hide(flow, turned)
 Render(turned)
 pause(0.2)
-count = information(bench, "PictureCount")
+count = information(bench, "ImageCount")
 pause(0.3)
-assert information(bench, "PictureCount") == count
+assert information(bench, "ImageCount") == count
 
 LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=globals())
 draw()

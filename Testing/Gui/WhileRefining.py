@@ -51,7 +51,7 @@ user.idle()
 user.python(GONE + MESH.replace("[-8, 8]", "[-24, 24]"))
 user.press("OneImage")
 user.python(HELPERS + """
-until(lambda: information(bench, "PictureCount") > 0 and path() > 0)
+until(lambda: information(bench, "ImageCount") > 0 and path() > 0)
 """)
 
 # While the refractive index is computed, its key does nothing; afterwards it does.
@@ -81,7 +81,7 @@ user.idle()
 user.python(GONE + OPEN_JET)
 user.press("OneImage")
 user.python(HELPERS + """
-until(lambda: information(bench, "PictureCount") > 0 and path() > 0)
+until(lambda: information(bench, "ImageCount") > 0 and path() > 0)
 """)
 user.play(f"""
 from paraview.simple import *

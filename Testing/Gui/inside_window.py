@@ -90,14 +90,14 @@ def displays():
 
 def shown_at_all():
     """Whether all that is drawn as Schlieren has an image, complete or not."""
-    return displays() and all(information(display.SchlierenBench, "PictureCount") > 0 for display in displays())
+    return displays() and all(information(display.SchlierenBench, "ImageCount") > 0 for display in displays())
 
 
 def settle_views():
     """Until all that is drawn as Schlieren is complete and nothing changes it any more."""
     def whole():
         benches = [display.SchlierenBench for display in displays()]
-        return all(finished(bench) and information(bench, "PictureCount") > 0
+        return all(finished(bench) and information(bench, "ImageCount") > 0
                    and not information(bench, "Status").startswith("Preview") for bench in benches)
     until(whole)
     pause(0.5)
@@ -115,7 +115,7 @@ def save(name, source, *views):
         dimensions=image.GetDimensions(), origin=image.GetOrigin(), spacing=image.GetSpacing(),
         status=information(source, "Status"),
         direction=source.ViewDirection, up=source.ViewUp, focus=source.FocalPoint,
-        scale=source.ParallelScale, count=information(source, "PictureCount"),
+        scale=source.ParallelScale, count=information(source, "ImageCount"),
         k=information(source, "KScaleUsed"),
         **{f"{key}{index}": value for index, camera in enumerate(cameras) for key, value in (
             ("position", camera.GetPosition()), ("focal_point", camera.GetFocalPoint()),

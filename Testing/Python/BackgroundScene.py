@@ -71,7 +71,7 @@ display.SchlierenBench.BackgroundDistance = -1
 
 def counts():
     bench = display.SchlierenBench.GetClientSideObject()
-    return [bench.GetPictureCount(), bench.GetTotalRaysTraced()]
+    return [bench.GetImageCount(), bench.GetTotalRaysTraced()]
 
 
 simple.Render(view)

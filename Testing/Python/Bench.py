@@ -35,7 +35,7 @@ RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
 FILTER = as_text(png([[RED, GREEN], [BLUE, WHITE]]))
 # Every property of the bench, unlike its default.
 SETTINGS = {"Wavelength": 500.0, "Cutoff": "Color Filter", "KnifeEdgeAngle": 30.0, "CutoffOffset": 0.1,
-            "KMode": "Bench", "KScale": 500.0, "FocalLength": 2.0,
+            "KMode": "Bench", "KScale": 500.0, "MirrorFocalLength": 2.0,
             "SourceWidth": 0.5, "SourceLength": 5.0, "ColorFilterImage": FILTER,
             "FringeSpacing": 0.125, "FringeAngle": 45.0,
             "WhiteLight": 1, "ScreenDistance": 3.0, "FocusOffset": 0.5, "SourceDistance": 30.0, "SourceShape": "Slit", "LightModel": "Waves",

@@ -38,7 +38,7 @@ ramp = max((np.diff(row)[(np.diff(row) > 0) & (np.diff(row) < 6)].sum() for row 
 assert ramp > 240, ramp
 
 # With a white panel's opposite behind it: the image does not shine through to what the texts have.
-simple.SetProperties(display.SchlierenBench, Cutoff="Circular")
+simple.SetProperties(display.SchlierenBench, Cutoff="Bright Field")
 bright = pixels_of(view, SIZE)
 display.SchlierenLegend = 0
 assert np.ptp(box_of(bright, pixels_of(view, SIZE)) - box) < 0.05

@@ -65,7 +65,7 @@ for item in properties.values():
                 listed = set(CUTOFFS.values()) - listed
             shown_with[item.name] = shown_with.get(item.name, set()) | listed
 for shown, names in (
-        (WITH_K, "KMode KScale FocalLength SourceWidth"),
+        (WITH_K, "KMode KScale MirrorFocalLength SourceWidth"),
         (WITH_K | WITH_FRINGES, "Sensitivity"),
         (WITH_EDGE, "KnifeEdgeAngle CutoffOffset"),
         ({vtkSchlierenFilter.PHASE_CONTRAST}, "PhasePlateDiameter PhasePlateDelay PhasePlateTransmission"),

@@ -73,10 +73,10 @@ def information(name):
 
 tag = view.GetRenderWindow().AddObserver("EndEvent", lambda *_: drawn.append(None))
 while information("Finished") == 0:
-    count = information("PictureCount")
+    count = information("ImageCount")
     drawn.clear()
     view.SMProxy.StreamingUpdate(True)
-    updates.add((information("PictureCount") > count, len(drawn) > 0))
+    updates.add((information("ImageCount") > count, len(drawn) > 0))
 view.GetRenderWindow().RemoveObserver(tag)
 assert {(True, False), (False, True)} <= updates and (True, True) not in updates, updates
 display.SchlierenTimeSlice, bench.SamplesPerPixel = 0, 1

@@ -53,7 +53,7 @@ def check(source, target, **settings):
 jet = simple.XMLImageDataReader(FileName=[os.path.join(DATA, "ladenburg_jet_3d.vti")])
 check(jet, 0.02, LengthScale=0.001)
 check(jet, 0.004, LengthScale=0.001)
-check(jet, 0.004, LengthScale=0.001, ViewDirection=[0.3, -0.4, -1], Cutoff="Circular")
+check(jet, 0.004, LengthScale=0.001, ViewDirection=[0.3, -0.4, -1], Cutoff="Bright Field")
 
 # Automatic: the error that cannot be seen. With a limit of time there is an image of one ray per pixel first.
 for cutoff, unseen in (("Knife Edge", 0.004), ("Interferogram", 0.02)):

@@ -90,7 +90,7 @@ column = Schlieren(Input=gaussian_column(96), Density=["POINTS", "N"], IndexMode
                    AmbientRefractivity=0, LengthScale=2e-3, Wavelength=1e9 * WAVELENGTH, ParallelScale=0.8,
                    ImageSize=[64, 64], LightModel="Waves", SamplesPerPixel=4)
 for cutoff, words in (("Phase Contrast", "rays do not show phases"), ("Graded Filter", "waves"), ("Interferogram", "waves"),
-                      ("Circular", "several wavelengths")):
+                      ("Bright Field", "several wavelengths")):
     column.Cutoff = cutoff
     output(column)
     assert words in status_of(column), status_of(column)

@@ -167,9 +167,9 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
     this->UseOwnRanks();
 }
 
-vtkTypeInt64 vtkSchlierenFilter::GetPictureCount() const
+vtkTypeInt64 vtkSchlierenFilter::GetImageCount() const
 {
-  return this->PictureCount + (this->Inside->Ready ? 1 : 0);
+  return this->ImageCount + (this->Inside->Ready ? 1 : 0);
 }
 
 bool vtkSchlierenFilter::GetFinished() { return this->Inside->UnfinishedOf == 0; }
@@ -372,7 +372,7 @@ bool vtkSchlierenFilter::Show(
     (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
   this->Sensitivity = sensitivityInWords(*this, image.kScale, isKept);
-  ++this->PictureCount;
+  ++this->ImageCount;
   output->Initialize();
   histogram->Initialize();
   const ColorScale colors = this->HasOwnColor() ? ColorScale::Srgb

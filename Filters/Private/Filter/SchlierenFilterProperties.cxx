@@ -72,7 +72,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "KScaleUsed: " << this->KScaleUsed << "\n";
   os << indent << "Sensitivity: " << this->Sensitivity << "\n";
   os << indent << "Finished: " << this->GetFinished() << "\n";
-  os << indent << "PictureCount: " << this->PictureCount << "\n";
+  os << indent << "ImageCount: " << this->ImageCount << "\n";
   os << indent << "Status: " << this->Status << "\n";
   os << indent << "Grid: " << this->GetGrid() << "\n";
   os << indent << "MediumBuilds: " << this->GetMediumBuilds() << "\n";

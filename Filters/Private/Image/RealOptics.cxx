@@ -52,11 +52,11 @@ void requireMillimetres(const char* property, double value, const std::string& o
 /// Requires the focal length of a mirror, which is in metres.
 void requireMirror(double focalLength, const std::string& owner)
 {
-  requirePositive("FocalLength", focalLength, "m", owner);
+  requirePositive("MirrorFocalLength", focalLength, "m", owner);
   constexpr double most = 100;
   if (focalLength > most)
   {
-    refuse("FocalLength", focalLength, "m",
+    refuse("MirrorFocalLength", focalLength, "m",
       "but no mirror has so long a one. Set it to " + textOf(1e-3 * focalLength, 4) +
         " if this is in millimetres.");
   }
@@ -94,8 +94,8 @@ bool choosesK(const SchlierenSettings& optics)
 
 double kOfOptics(const SchlierenSettings& optics)
 {
-  return optics.FocalLength > 0 && optics.SourceWidth > 0
-    ? optics.FocalLength * kOfWidth(optics) / (metresPerMillimetre * optics.SourceWidth)
+  return optics.MirrorFocalLength > 0 && optics.SourceWidth > 0
+    ? optics.MirrorFocalLength * kOfWidth(optics) / (metresPerMillimetre * optics.SourceWidth)
     : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -104,7 +104,7 @@ void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
   scene.cutoffOffset = optics.CutoffOffset;
   if (optics.KMode == SchlierenSettings::K_BENCH)
   {
-    requireMirror(optics.FocalLength, "the second mirror");
+    requireMirror(optics.MirrorFocalLength, "the second mirror");
     const bool isOfFilter = kOfWidth(optics) > 1;
     requirePositive("SourceWidth", optics.SourceWidth, "mm",
       isOfFilter ? "the colour filter" : "the source's image");
@@ -113,7 +113,7 @@ void setSensitivity(const SchlierenSettings& optics, schlieren::Scene& scene)
       throw std::runtime_error(
         "SourceWidth is the width of the colour filter where KMode is Bench, so that of an "
         "extended source is not "
-        "known. Set KMode to Value and KScale to 2 FocalLength over the filter's width.");
+        "known. Set KMode to Value and KScale to 2 MirrorFocalLength over the filter's width.");
     }
     scene.kScale = kOfOptics(optics);
   }
@@ -128,8 +128,8 @@ schlieren::PhasePlate phasePlateFrom(const SchlierenSettings& optics)
   schlieren::PhasePlate plate;
   if (optics.PhasePlateDiameter > 0)
   {
-    requireMirror(optics.FocalLength, "the second mirror");
-    plate.diameter = metresPerMillimetre * optics.PhasePlateDiameter / optics.FocalLength;
+    requireMirror(optics.MirrorFocalLength, "the second mirror");
+    plate.diameter = metresPerMillimetre * optics.PhasePlateDiameter / optics.MirrorFocalLength;
   }
   plate.delay = optics.PhasePlateDelay;
   plate.transmission = optics.PhasePlateTransmission;
@@ -162,7 +162,7 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
   {
     return "";
   }
-  const double focalLength = settings.FocalLength;
+  const double focalLength = settings.MirrorFocalLength;
   // Ranges from undisturbed light to the brightest or darkest.
   const schlieren::Technique& technique = techniqueOf(settings);
   std::string words = kInWords(k, isKept) + ": full scale is a deflection of " +
@@ -194,14 +194,14 @@ schlieren::LightSource lightSourceFrom(const SchlierenSettings& optics)
   source.shape = static_cast<schlieren::SourceShape>(optics.SourceShape);
   if (source.shape != schlieren::SourceShape::Point)
   {
-    requireMirror(optics.FocalLength, "the mirrors");
+    requireMirror(optics.MirrorFocalLength, "the mirrors");
     requireSize("SourceWidth", optics.SourceWidth);
-    source.width = metresPerMillimetre * optics.SourceWidth / optics.FocalLength;
+    source.width = metresPerMillimetre * optics.SourceWidth / optics.MirrorFocalLength;
   }
   if (source.shape == schlieren::SourceShape::Slit)
   {
     requireSize("SourceLength", optics.SourceLength);
-    source.length = metresPerMillimetre * optics.SourceLength / optics.FocalLength;
+    source.length = metresPerMillimetre * optics.SourceLength / optics.MirrorFocalLength;
   }
   return source;
 }

@@ -53,7 +53,7 @@ std::vector<double> settingsOfRays(const SchlierenSettings& settings)
   if (static_cast<schlieren::SourceShape>(settings.SourceShape) != schlieren::SourceShape::Point)
   {
     values.insert(values.end(),
-      { settings.SourceWidth, settings.SourceLength, settings.FocalLength,
+      { settings.SourceWidth, settings.SourceLength, settings.MirrorFocalLength,
         settings.KnifeEdgeAngle });
   }
   return values;

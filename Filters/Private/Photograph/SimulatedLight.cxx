@@ -109,9 +109,9 @@ SimulatedLight::SimulatedLight(vtkImageData* image)
     this->Start = { std::log(this->KScale / (0.5 - offset)), std::atanh(offset / largestOffset),
       angle };
   }
-  else if (name == "Circular" || name == "Circular Complement")
+  else if (name == "Bright Field" || name == "Dark Field")
   {
-    this->Is = name == "Circular" ? Technique::Circular : Technique::CircularComplement;
+    this->Is = name == "Bright Field" ? Technique::BrightField : Technique::DarkField;
     this->Start = { std::log(this->KScale) };
   }
   else if (vtkDataArray* colors = image->GetFieldData()->GetArray("LegendColors");
@@ -221,9 +221,9 @@ Plane SimulatedLight::light(const Parameters& parameters) const
   }
   // Within what single precision holds: a fit may try anything.
   const auto factor = static_cast<float>(std::exp(std::clamp(parameters[0], -60., 60.)));
-  if (this->Is == Technique::Circular || this->Is == Technique::CircularComplement)
+  if (this->Is == Technique::BrightField || this->Is == Technique::DarkField)
   {
-    const bool isStop = this->Is == Technique::CircularComplement;
+    const bool isStop = this->Is == Technique::DarkField;
     fill(
       [&](float u, float v)
       {
@@ -325,7 +325,7 @@ SimulatedLight::Values SimulatedLight::values(const Parameters& parameters) cons
         within(fringes.phase / (2 * vtkMath::Pi()), 1), spacing,
         within(vtkMath::DegreesFromRadians(std::atan2(up, right)), 360) };
     }
-    case Technique::Circular:
+    case Technique::BrightField:
       return { factor, factor, unknown, unknown };
     default:
       return { unknown, factor, unknown, unknown };

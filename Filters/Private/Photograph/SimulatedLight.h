@@ -26,7 +26,7 @@ namespace filters
  * Parameters that a fit may change are numbers without bounds; see inWords for what they stand for:
  * - Knife Edge: ln contrast, artanh(offset / 0.48), angle;
  * - Graded Filter: ln of the factor to k, angle; the filter lies where it is simulated;
- * - Circular and Circular Complement: ln k;
+ * - Bright Field and Dark Field: ln k;
  * - Interferogram in light of one wavelength: artanh contrast, phase and tilts of its Fringes; the light is relative to bright
  *   fringes;
  * - other techniques: none; the light is Intensity.
@@ -51,13 +51,13 @@ public:
   /// How many of the parameters, from the first on, a fit may change.
   std::size_t free() const { return this->Start.size() - (this->IsAngleHidden ? 1 : 0); }
 
-  /// Returns the light relative to undisturbed light. Behind a Circular Complement, which is dark without flow, it is
+  /// Returns the light relative to undisturbed light. Behind a Dark Field, which is dark without flow, it is
   /// relative to full light.
   Plane light(const Parameters& parameters) const;
-  /// Whether a photograph without flow has that undisturbed light: it is dark behind a Circular Complement, and may have fringes.
+  /// Whether a photograph without flow has that undisturbed light: it is dark behind a Dark Field, and may have fringes.
   bool isBrightWithoutFlow() const
   {
-    return this->Is != Technique::CircularComplement && !this->hasFringes();
+    return this->Is != Technique::DarkField && !this->hasFringes();
   }
 
   /// Whether the fit has fringes.
@@ -95,8 +95,8 @@ private:
   {
     KnifeEdge,
     GradedFilter,
-    Circular,
-    CircularComplement,
+    BrightField,
+    DarkField,
     Interferogram,
     Other
   };

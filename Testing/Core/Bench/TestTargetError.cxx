@@ -128,7 +128,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Techniques, TargetError,
   testing::Values(Case{ "KnifeEdge", Cutoff::KnifeEdge, 1. / 256 },
-    Case{ "Circular", Cutoff::Circular, 1. / 256 },
+    Case{ "BrightField", Cutoff::BrightField, 1. / 256 },
     Case{ "Shadowgraph", Cutoff::Shadowgraph, 1. / 256 },
     Case{ "Interferogram", Cutoff::Interferogram, 0.02 },
     Case{ "Background", Cutoff::Background, 0.02 }),

@@ -26,7 +26,7 @@ namespace
 
 const char* name(Cutoff cutoff)
 {
-  constexpr const char* names[] = { "knife edge", "shadowgraph", "circular", "circular complement",
+  constexpr const char* names[] = { "knife edge", "shadowgraph", "bright field", "dark field",
     "graded filter", "colour filter", "interferogram", "background", "numerical schlieren" };
   return names[static_cast<int>(cutoff)];
 }

@@ -56,7 +56,7 @@ public:
     }
     {
       SCOPED_TRACE("walls in a tree, double precision");
-      Scene scene = sceneOf(Cutoff::Circular);
+      Scene scene = sceneOf(Cutoff::BrightField);
       scene.targetError = 1. / 64;
       scene.precision = Precision::Double;
       scene.view.parallelScale = 1.5;

@@ -153,21 +153,21 @@ TEST(NumericalSchlieren, DarkensExponentially)
   EXPECT_EQ(lightOf(NumericalSchlieren{ 0 }, 0.3, 0.4), 1);
 }
 
-TEST(Circular, DarkensWithTheDeflectionWhateverItsDirection)
+TEST(BrightField, DarkensWithTheDeflectionWhateverItsDirection)
 {
   for (const double degrees : { 0., 37., 90., 200., 315. })
   {
     const double u = 2e-4 * std::cos(degrees * radiansPerDegree);
     const double v = 2e-4 * std::sin(degrees * radiansPerDegree);
-    EXPECT_NEAR(lightOf(Circular{ 1500 }, u, v), 0.7, 1e-14);
-    EXPECT_NEAR(lightOf(CircularComplement{ 1500 }, u, v), 0.3, 1e-14);
-    EXPECT_EQ(lightOf(Circular{ 0 }, u, v), 1);
-    EXPECT_EQ(lightOf(CircularComplement{ 0 }, u, v), 0);
-    EXPECT_EQ(lightOf(Circular{ 1e12 }, u, v), 0);
-    EXPECT_EQ(lightOf(CircularComplement{ 1e12 }, u, v), 1);
+    EXPECT_NEAR(lightOf(BrightField{ 1500 }, u, v), 0.7, 1e-14);
+    EXPECT_NEAR(lightOf(DarkField{ 1500 }, u, v), 0.3, 1e-14);
+    EXPECT_EQ(lightOf(BrightField{ 0 }, u, v), 1);
+    EXPECT_EQ(lightOf(DarkField{ 0 }, u, v), 0);
+    EXPECT_EQ(lightOf(BrightField{ 1e12 }, u, v), 0);
+    EXPECT_EQ(lightOf(DarkField{ 1e12 }, u, v), 1);
   }
-  EXPECT_EQ(lightOf(Circular{ 1e12 }, 0, 0), 1);
-  EXPECT_EQ(lightOf(CircularComplement{ 1e12 }, 0, 0), 0);
+  EXPECT_EQ(lightOf(BrightField{ 1e12 }, 0, 0), 1);
+  EXPECT_EQ(lightOf(DarkField{ 1e12 }, 0, 0), 0);
 }
 
 TEST(GradedFilter, IsReadWhereTheKnifeEdgesFractionIs)
@@ -329,8 +329,8 @@ TEST(UndisturbedLevel, IsThatOfLightThatNothingBends)
   };
   EXPECT_EQ(level(Cutoff::KnifeEdge), 0.5);
   EXPECT_EQ(level(Cutoff::Shadowgraph), 1);
-  EXPECT_EQ(level(Cutoff::Circular), 1);
-  EXPECT_EQ(level(Cutoff::CircularComplement), 0);
+  EXPECT_EQ(level(Cutoff::BrightField), 1);
+  EXPECT_EQ(level(Cutoff::DarkField), 0);
   EXPECT_EQ(level(Cutoff::NumericalSchlieren), 1);
   EXPECT_EQ(level(Cutoff::PhaseContrast), 1);
   EXPECT_EQ(level(Cutoff::GradedFilter), 0.5);
@@ -357,10 +357,10 @@ TEST(Saturation, BeginsWhereMoreDeflectionChangesNothing)
   EXPECT_TRUE(saturates(knife, 6.1e-4, 0));
   EXPECT_FALSE(saturates(knife, -3.9e-4, 1));
   EXPECT_TRUE(saturates(knife, -4.1e-4, 0));
-  EXPECT_FALSE(saturates(Circular{ 1000 }, 7e-4, 7e-4));
-  EXPECT_TRUE(saturates(Circular{ 1000 }, 7.1e-4, 7.1e-4));
-  EXPECT_FALSE(saturates(CircularComplement{ 1000 }, 7e-4, -7e-4));
-  EXPECT_TRUE(saturates(CircularComplement{ 1000 }, 7.1e-4, -7.1e-4));
+  EXPECT_FALSE(saturates(BrightField{ 1000 }, 7e-4, 7e-4));
+  EXPECT_TRUE(saturates(BrightField{ 1000 }, 7.1e-4, 7.1e-4));
+  EXPECT_FALSE(saturates(DarkField{ 1000 }, 7e-4, -7e-4));
+  EXPECT_TRUE(saturates(DarkField{ 1000 }, 7.1e-4, -7.1e-4));
   EXPECT_TRUE(saturates(ColorWheel{ 1000, {} }, 0, -1.1e-3));
   EXPECT_FALSE(saturates(ColorWheel{ 1000, {} }, 0, -0.9e-3));
   EXPECT_TRUE(saturates(ColorImage{ 1000, 1, 1, {} }, 0, -1.1e-3));
@@ -374,9 +374,9 @@ TEST(Cutoffs, AnyDeflectionGivesLight)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double huge = std::numeric_limits<double>::max();
   Scene scene;
-  for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::Circular,
-         Cutoff::CircularComplement, Cutoff::GradedFilter, Cutoff::ColorFilter,
-         Cutoff::Interferogram, Cutoff::NumericalSchlieren, Cutoff::PhaseContrast })
+  for (const Cutoff cutoff : { Cutoff::KnifeEdge, Cutoff::Shadowgraph, Cutoff::BrightField,
+         Cutoff::DarkField, Cutoff::GradedFilter, Cutoff::ColorFilter, Cutoff::Interferogram,
+         Cutoff::NumericalSchlieren, Cutoff::PhaseContrast })
   {
     scene.cutoff = cutoff;
     for (const int variant : { 0, 1, 2, 3 })
@@ -491,13 +491,13 @@ TEST_F(WeakBlob, IsSeenThroughEveryCutoffAndTracedOnce)
     [&](double, double, const double(&bent)[2], double) { return clamped(0.5 + bent[0]); });
   EXPECT_EQ(knife.undisturbedLevel, 0.5);
 
-  scene.cutoff = Cutoff::Circular;
+  scene.cutoff = Cutoff::BrightField;
   const Image circular = expectImage([&](double, double, const double(&bent)[2], double)
     { return clamped(1 - std::hypot(bent[0], bent[1])); });
   EXPECT_EQ(circular.undisturbedLevel, 1);
   EXPECT_DOUBLE_EQ(circular.kScale, 2 * knife.kScale); // the same light at full scale
 
-  scene.cutoff = Cutoff::CircularComplement;
+  scene.cutoff = Cutoff::DarkField;
   const Image complement = expectImage([&](double, double, const double(&bent)[2], double)
     { return clamped(std::hypot(bent[0], bent[1])); });
   EXPECT_EQ(complement.undisturbedLevel, 0);
@@ -532,7 +532,7 @@ TEST_F(WeakBlob, CountsSaturatedRays)
 {
   scene.kScale = 1e8;
   for (const Cutoff cutoff :
-    { Cutoff::KnifeEdge, Cutoff::CircularComplement, Cutoff::ColorFilter, Cutoff::Interferogram })
+    { Cutoff::KnifeEdge, Cutoff::DarkField, Cutoff::ColorFilter, Cutoff::Interferogram })
   {
     scene.cutoff = cutoff;
     const Image image = bench.render(blob.field, scene);

@@ -198,7 +198,7 @@ TEST(Histogram, BelongsToTheImageAndIsCountedOnce)
   const Image first = bench.render(column.field, scene);
   EXPECT_EQ(first.histogram.size, 33);
   EXPECT_EQ(sumOf(first.histogram), 20 * 14 * 3);
-  scene.cutoff = Cutoff::Circular;
+  scene.cutoff = Cutoff::BrightField;
   EXPECT_EQ(bench.render(column.field, scene).histogram.rays, first.histogram.rays);
   scene.samplesPerPixel = 5;
   const Image more = bench.render(column.field, scene);

@@ -120,7 +120,7 @@ TEST_F(KeptK, AnotherMediumCutoffOrDataHasItsOwn)
   this->filter->SetKMode(Filter::K_AUTOMATIC_KEPT);
   EXPECT_DOUBLE_EQ(this->kAt(0), this->own[0]);
   EXPECT_EQ(this->kAt(1), this->own[0]);
-  this->filter->SetCutoff(Filter::CIRCULAR); // whose full scale is twice as far
+  this->filter->SetCutoff(Filter::BRIGHT_FIELD); // whose full scale is twice as far
   EXPECT_NEAR(this->kAt(1), 2 * this->own[1], 1e-6 * this->own[1]);
   EXPECT_FALSE(this->saysLocked());
   this->filter->SetCutoff(Filter::KNIFE_EDGE);
@@ -304,7 +304,7 @@ TEST_F(KeptAmbient, CanBeGiven)
 TEST_F(KeptAmbient, LightAloneMakesNoMedium)
 {
   this->ambientAt(1);
-  for (const int cutoff : { Filter::KNIFE_EDGE, Filter::CIRCULAR })
+  for (const int cutoff : { Filter::KNIFE_EDGE, Filter::BRIGHT_FIELD })
   {
     const vtkTypeInt64 builds = this->filter->GetMediumBuilds();
     this->filter->SetCutoff(cutoff);

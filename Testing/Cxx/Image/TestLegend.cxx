@@ -137,7 +137,7 @@ TEST(Legend, ShowsTheLightOfAnEdgeOverTheDeflectionAlongIt)
 TEST(Legend, ShowsTheLightOfStopsOverTheSizeOfTheDeflection)
 {
   auto filter = ball();
-  for (const int cutoff : { vtkSchlierenFilter::CIRCULAR, vtkSchlierenFilter::CIRCULAR_COMPLEMENT,
+  for (const int cutoff : { vtkSchlierenFilter::BRIGHT_FIELD, vtkSchlierenFilter::DARK_FIELD,
          vtkSchlierenFilter::NUMERICAL_SCHLIEREN })
   {
     filter->SetCutoff(cutoff);

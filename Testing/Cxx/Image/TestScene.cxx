@@ -96,7 +96,7 @@ TEST_F(Scene, HasWhatIsSet)
 TEST_F(Scene, SensitivityFollowsFromOptics)
 {
   this->filter->SetKMode(Filter::K_BENCH);
-  this->filter->SetFocalLength(1.5);
+  this->filter->SetMirrorFocalLength(1.5);
   this->filter->SetSourceWidth(0.5);
   this->filter->SetCutoffOffset(7);
   EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 3000);
@@ -114,11 +114,11 @@ TEST_F(Scene, SensitivityFollowsFromOptics)
 
 TEST_F(Scene, SensitivityIsStatedInWords)
 {
-  this->filter->SetFocalLength(2);
+  this->filter->SetMirrorFocalLength(2);
   EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 4000),
     "k = 4000: full scale is a deflection of 0.125 mrad; optics: 2 m focal length, source 0.5 mm "
     "wide");
-  this->filter->SetCutoff(Filter::CIRCULAR);
+  this->filter->SetCutoff(Filter::BRIGHT_FIELD);
   EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 4000).substr(0, 49),
     "k = 4000: full scale is a deflection of 0.25 mrad");
   this->filter->SetCutoff(Filter::KNIFE_EDGE);
@@ -136,7 +136,7 @@ TEST_F(Scene, AFilterIsAsWideAsSourceWidth)
 {
   this->filter->SetCutoff(Filter::COLOR_FILTER);
   this->filter->SetKMode(Filter::K_BENCH);
-  this->filter->SetFocalLength(0.75);
+  this->filter->SetMirrorFocalLength(0.75);
   this->filter->SetSourceWidth(3);
   EXPECT_DOUBLE_EQ(this->scene().kScale.value_or(0), 500);
   EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 500),
@@ -162,18 +162,18 @@ TEST_F(Scene, OpticsThatCannotBeAreRefused)
   this->filter->SetKMode(Filter::K_BENCH);
   for (const double wrong : { 0., -1., notANumber, HUGE_VAL })
   {
-    this->filter->SetFocalLength(wrong);
-    EXPECT_NE(this->error().find("FocalLength is "), std::string::npos) << wrong;
-    this->filter->SetFocalLength(1);
+    this->filter->SetMirrorFocalLength(wrong);
+    EXPECT_NE(this->error().find("MirrorFocalLength is "), std::string::npos) << wrong;
+    this->filter->SetMirrorFocalLength(1);
     this->filter->SetSourceWidth(wrong);
     EXPECT_NE(this->error().find("SourceWidth is "), std::string::npos) << wrong;
     this->filter->SetSourceWidth(1);
   }
-  this->filter->SetFocalLength(1500);
-  EXPECT_NE(this->error().find("FocalLength is 1500 m, but no mirror"), std::string::npos);
-  this->filter->SetFocalLength(1);
+  this->filter->SetMirrorFocalLength(1500);
+  EXPECT_NE(this->error().find("MirrorFocalLength is 1500 m, but no mirror"), std::string::npos);
+  this->filter->SetMirrorFocalLength(1);
   // Where they do not count, they may be anything.
-  this->filter->SetFocalLength(0);
+  this->filter->SetMirrorFocalLength(0);
   this->filter->SetCutoff(Filter::INTERFEROGRAM);
   EXPECT_EQ(this->error(), "none");
 }
@@ -201,7 +201,7 @@ TEST_F(Scene, GradedFilterIsReadOffFromItsFunction)
 
 TEST_F(Scene, LightIsAsLargeAsItIsSeenFromTheData)
 {
-  this->filter->SetFocalLength(2);
+  this->filter->SetMirrorFocalLength(2);
   this->filter->SetSourceWidth(4);
   this->filter->SetSourceLength(6);
   this->filter->SetSourceShape(Filter::SLIT);
@@ -214,9 +214,9 @@ TEST_F(Scene, LightIsAsLargeAsItIsSeenFromTheData)
   source = this->scene().source;
   EXPECT_EQ(source.shape, schlieren::SourceShape::Disc);
   EXPECT_DOUBLE_EQ(source.width, 2e-3);
-  this->filter->SetFocalLength(0);
-  EXPECT_NE(this->error().find("FocalLength is 0 m"), std::string::npos);
-  this->filter->SetFocalLength(1);
+  this->filter->SetMirrorFocalLength(0);
+  EXPECT_NE(this->error().find("MirrorFocalLength is 0 m"), std::string::npos);
+  this->filter->SetMirrorFocalLength(1);
   this->filter->SetSourceWidth(-1);
   EXPECT_NE(this->error().find("SourceWidth is -1 mm"), std::string::npos);
   this->filter->SetSourceWidth(0);

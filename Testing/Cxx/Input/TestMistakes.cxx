@@ -202,9 +202,9 @@ std::vector<Mistake> mistakes()
       [](Filter* f)
       {
         f->SetKMode(Filter::K_BENCH);
-        f->SetFocalLength(0);
+        f->SetMirrorFocalLength(0);
       },
-      { "FocalLength is 0 m", "positive" }, [](Filter* f) { f->SetFocalLength(1); } },
+      { "MirrorFocalLength is 0 m", "positive" }, [](Filter* f) { f->SetMirrorFocalLength(1); } },
     { "NoSuchImage",
       [](Filter* f)
       {

@@ -484,9 +484,9 @@ TEST(Photograph, AspectOfPixelsIsUndone)
   EXPECT_GT(errorsOfShift(comparison, 0).median, 0.1);
 }
 
-TEST(Photograph, CircularStopIsFound)
+TEST(Photograph, BrightAndDarkFieldsAreFound)
 {
-  for (const int cutoff : { vtkSchlierenFilter::CIRCULAR, vtkSchlierenFilter::CIRCULAR_COMPLEMENT })
+  for (const int cutoff : { vtkSchlierenFilter::BRIGHT_FIELD, vtkSchlierenFilter::DARK_FIELD })
   {
     auto bench = jetBench();
     bench->SetCutoff(cutoff);
@@ -499,11 +499,11 @@ TEST(Photograph, CircularStopIsFound)
     finer->SetSamplesPerPixel(4);
     finer->Update();
     const Taken taken = take(planeOf(finer, "Intensity"), Grid(finer->GetOutput()), truePlace(),
-      cutoff == vtkSchlierenFilter::CIRCULAR ? 1 : 0);
+      cutoff == vtkSchlierenFilter::BRIGHT_FIELD ? 1 : 0);
     auto comparison = compared(bench, taken, truePlace());
     comparison->Update();
     EXPECT_NEAR(fieldValue(comparison, "PhotographK") / k, 1,
-      cutoff == vtkSchlierenFilter::CIRCULAR ? 0.03 : 0.1);
+      cutoff == vtkSchlierenFilter::BRIGHT_FIELD ? 0.03 : 0.1);
   }
 }
 

@@ -31,11 +31,11 @@ int updateInSlices(vtkSchlierenFilter* filter, double seconds = shortest)
   int slices = 1;
   for (constexpr int tooMany = 10000; !filter->GetFinished() && slices < tooMany; ++slices)
   {
-    const vtkTypeInt64 images = filter->GetPictureCount();
+    const vtkTypeInt64 images = filter->GetImageCount();
     const std::vector<double> before = valuesOf(filter, "Intensity");
     filter->Refine();
     filter->Update();
-    EXPECT_TRUE(filter->GetPictureCount() > images || valuesOf(filter, "Intensity") == before);
+    EXPECT_TRUE(filter->GetImageCount() > images || valuesOf(filter, "Intensity") == before);
   }
   EXPECT_TRUE(filter->GetFinished());
   filter->SetTimeLimit(0);
@@ -123,7 +123,7 @@ TEST(TimeSlices, ANewFilterBeginsWithAPreview)
   filter->SetTimeLimit(shortest);
   filter->Update();
   EXPECT_FALSE(filter->GetFinished());
-  EXPECT_EQ(filter->GetPictureCount(), 1);
+  EXPECT_EQ(filter->GetImageCount(), 1);
   vtkImageData* image = filter->GetOutput();
   EXPECT_TRUE(std::equal(image->GetExtent(), image->GetExtent() + 6,
     filter->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
@@ -132,7 +132,7 @@ TEST(TimeSlices, ANewFilterBeginsWithAPreview)
   const Vec origin{ image->GetOrigin()[0], image->GetOrigin()[1], 0 };
 
   EXPECT_GT(updateInSlices(filter), 3);
-  EXPECT_EQ(filter->GetPictureCount(), 4); // one for each sample, too
+  EXPECT_EQ(filter->GetImageCount(), 4); // one for each sample, too
   EXPECT_LT(relativeDifference(rough, valuesOf(filter, "Deflection")), 0.3);
   EXPECT_NEAR(image->GetOrigin()[0], origin[0], 1e-12);
   EXPECT_NEAR(image->GetOrigin()[1], origin[1], 1e-12);
@@ -143,18 +143,18 @@ TEST(TimeSlices, TheLastImageStaysUntilThereIsABetterOne)
   auto filter = smallBench(columnImage());
   filter->Update();
   const std::vector<double> last = valuesOf(filter, "Intensity");
-  const vtkTypeInt64 images = filter->GetPictureCount();
+  const vtkTypeInt64 images = filter->GetImageCount();
   const std::string status = filter->GetStatus();
   filter->SetViewDirection(0.5, 0.2, -1);
   filter->SetTimeLimit(shortest);
   filter->Update();
   EXPECT_FALSE(filter->GetFinished());
   EXPECT_EQ(valuesOf(filter, "Intensity"), last);
-  EXPECT_EQ(filter->GetPictureCount(), images);
+  EXPECT_EQ(filter->GetImageCount(), images);
   EXPECT_EQ(filter->GetStatus(), status);
   EXPECT_GT(filter->GetOutput(vtkSchlierenFilter::HISTOGRAM_PORT)->GetNumberOfPoints(), 0);
 
-  while (filter->GetPictureCount() == images)
+  while (filter->GetImageCount() == images)
   {
     filter->Refine();
     filter->Update();
@@ -263,19 +263,19 @@ TEST(TimeSlices, RefineBeginsAfterAnotherProperty)
     auto filter = smallBench(image);
     filter->Update();
     const vtkMTimeType shown = filter->GetOutput()->GetMTime();
-    const vtkTypeInt64 images = filter->GetPictureCount();
+    const vtkTypeInt64 images = filter->GetImageCount();
     change(filter);
     EXPECT_TRUE(filter->GetFinished()); // nothing has been begun
     filter->SetTimeLimit(shortest);
     int slices = 0;
-    for (; filter->GetPictureCount() == images && slices < 10000; ++slices)
+    for (; filter->GetImageCount() == images && slices < 10000; ++slices)
     {
       filter->Refine();
       EXPECT_FALSE(filter->GetFinished());
       EXPECT_EQ(filter->GetOutput()->GetMTime(), shown);
     }
     EXPECT_GT(slices, what == std::string("cutoff") ? 0 : 1);
-    EXPECT_EQ(filter->GetPictureCount(), images + 1);
+    EXPECT_EQ(filter->GetImageCount(), images + 1);
     updateInSlices(filter);
     expectSameImage(filter, fresh);
     EXPECT_EQ(
@@ -333,7 +333,7 @@ TEST(TimeSlices, RefineLeavesTheMediumToUpdates)
   fresh->SetTimeLimit(shortest);
   fresh->Refine(); // nothing has been shown yet
   EXPECT_TRUE(fresh->GetFinished());
-  EXPECT_EQ(fresh->GetPictureCount(), 0);
+  EXPECT_EQ(fresh->GetImageCount(), 0);
 }
 
 TEST(TimeSlices, AnotherInputInTheMidstMakesAnotherImage)

@@ -19,7 +19,7 @@ SCHLIEREN_HD double distanceFromAxis(double k, const double (&eps)[2])
 
 /// A stop that lets less light pass the further it is from the axis, whatever its direction (Brownlee et
 /// al. 2011, eq. 15): I = 1 - k |eps|, bright field.
-struct Circular
+struct BrightField
 {
   static constexpr int channels = 1;
 
@@ -33,7 +33,7 @@ struct Circular
 };
 
 /// Its complement, dark field: I = k |eps|.
-struct CircularComplement
+struct DarkField
 {
   static constexpr int channels = 1;
 
