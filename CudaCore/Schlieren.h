@@ -169,10 +169,11 @@ struct Scene
     0;                     ///< of the image, pixels: twice a Gaussian's standard deviation; 0: none
   int histogramSize = 0;   ///< bins along each axis of Image::histogram; 0: none
   int samplesPerPixel = 4; ///< rays, 1 or more
+  int samplesAtEdges = 0;  ///< likewise, where edges of bodies are; 0: as many as elsewhere
   std::uint32_t seed = 1;  ///< of the rays' places in pixels and on the source
 
   /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the settings below. It chooses
-  /// interpolation, stepSize, samplesPerPixel, mediumTolerance (no coarser than 0.01) and precision,
+  /// interpolation, stepSize, samplesPerPixel, samplesAtEdges, mediumTolerance (no coarser than 0.01) and precision,
   /// and says in Image::accuracy what is reached. Its unit is that which the image is read in: of an interferogram fringes;
   /// of Cutoff::Background pixels of displacement; else the fraction of full scale, of a shadowgraph of undisturbed light,
   /// not counting what light displaced by 0.05 pixels explains.

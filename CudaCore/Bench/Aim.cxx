@@ -70,6 +70,7 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
   accurate.stepSize = chosen.step;
   accurate.adaptiveTolerance = adaptiveToleranceFor(chosen.step, scene.adaptiveTolerance);
   accurate.samplesPerPixel = chosen.samples;
+  accurate.samplesAtEdges = chosen.samplesAtEdges;
   ofImage.request = std::make_unique<UnfinishedImage>(field, accurate);
   ofImage.request->device = ofImage.device;
   ofImage.request->deviceNote = ofImage.deviceNote;
@@ -141,6 +142,7 @@ Image Bench::Stages::renderFirst(const Monitor& monitor)
       first.stepSize = before->step;
       first.adaptiveTolerance = adaptiveToleranceFor(before->step, first.adaptiveTolerance);
       first.samplesPerPixel = before->samples;
+      first.samplesAtEdges = before->samplesAtEdges;
     }
     request = std::make_unique<UnfinishedImage>(ofImage.field, first);
     request->device = ofImage.device;
@@ -189,7 +191,8 @@ Image Bench::Stages::renderAim(const Monitor& monitor)
   {
     const Scene& chosen = ofImage.request->scene;
     Image& image = *ofImage.shown;
-    if (image.stepSize == chosen.stepSize && image.samplesPerPixel == chosen.samplesPerPixel)
+    if (image.stepSize == chosen.stepSize && image.samplesPerPixel == chosen.samplesPerPixel &&
+      image.samplesAtEdges == chosen.samplesAtEdges)
     {
       image.accuracy = ofImage.request->accuracy;
       image.finished = true;

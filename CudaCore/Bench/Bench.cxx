@@ -93,16 +93,17 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
     light = lightOf(scene, field.grid, frame, light.faces);
     key.light = LightKey::of(scene, frame, filmDistance(scene, frame, light.faces), light.faces);
   }
-  const std::int64_t margin =
-    marginFor(isOfCamera(scene.cutoff) ? std::vector<MovedRay>{} : rays.movedIn(key, look), scene,
-      frame, light);
+  const std::vector<MovedRay> moved =
+    isOfCamera(scene.cutoff) ? std::vector<MovedRay>{} : rays.movedIn(key, look);
 
   const double exitRefractivity = exitRefractivityOf(scene, medium.ambient);
   // Of straight rays all is of first order, and the bend makes nothing longer.
   const bool bends = settings.kernel.path != PathModel::Straight;
   const double ofVoxels = medium.tree ? medium.tree->statistics().deflectionError : 0;
   return ViewSetup<Real>{ onDevices, tracer, key, light, settings,
-    makeTask<Real>(medium, medium.gradientsOf(field), light, settings), margin, exitRefractivity,
+    makeTask<Real>(medium, medium.gradientsOf(field), light, settings),
+    marginFor(moved, scene, frame, light), movedInFocus(moved, scene, frame, light),
+    exitRefractivity,
     { light.faces.ratio * noiseFloor(medium, field, light), light.faces.ratio * ofVoxels },
     projectionOf(scene, frame, light, bends ? (1 + exitRefractivity) * field.lengthScale : 0),
     pixelPlacesOf(frame, scene.view, light) };
@@ -218,12 +219,24 @@ Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
   {
     return abortedImage();
   }
+  EdgeStage<Real> edges(*view, request, watch, edgeRays, work);
+  const bool hasAll =
+    hasAllPasses && request.image->passes() == request.scene.samplesPerPixel && edges.trace(key);
   Image image = imageOf(request, *view);
-  image.finished = hasAllPasses && request.image->passes() == request.scene.samplesPerPixel;
-  return develop(request, watch, image) &&
-      (!image.finished || WaveStage<Real>{ *view, request, watch, waveRays, work }.run(image))
-    ? std::move(image)
-    : abortedImage();
+  image.finished = hasAll;
+  if (watch.isAborted() || !develop(request, watch, image))
+  {
+    return abortedImage();
+  }
+  if (image.finished)
+  {
+    edges.paste(image);
+    if (!WaveStage<Real>{ *view, request, watch, waveRays, work }.run(image))
+    {
+      return abortedImage();
+    }
+  }
+  return image;
 }
 
 std::unique_ptr<UnfinishedImage> Bench::Stages::instead(

@@ -107,7 +107,7 @@ public:
   /// `allowed`: where the error of 16 rays is less than that by what 4 gain, it is not measured.
   double ofRays(int samples, double allowed)
   {
-    constexpr int cheap = 4, mostCompared = 16;
+    constexpr int cheap = 4;
     constexpr double trust = 0.7, most = 16;
     if (!hasFilm_)
     {
@@ -115,8 +115,7 @@ public:
     }
     if (samples > mostCompared)
     {
-      const double times = static_cast<double>(samples) / mostCompared;
-      return ofRays(mostCompared, 0) / std::pow(leastGain, std::log2(times) / 2);
+      return ofRays(mostCompared, 0) / gainFrom(mostCompared, samples);
     }
     if (samples > cheap)
     {
@@ -134,12 +133,37 @@ public:
     return differenceOf({ longest(), samples, samples }, { longest(), more, more }, errorIn);
   }
 
+  /// With more where edges of bodies are.
+  double ofRaysBesideEdges(int samples, int atEdges)
+  {
+    const auto errorIn = [&](const Differences& differences)
+    { return exceededBy(mayExceedAsChosen, differences); };
+    const int measured = std::min(atEdges, mostCompared);
+    const Cutoff cutoff = pilot_.scene().cutoff;
+    const int more = manyMoreThan(samples, cutoff), moreAtEdges = manyMoreThan(measured, cutoff);
+    return differenceOf({ longest(), samples, measured, samples },
+      { longest(), more, moreAtEdges, more }, errorIn, 1 / gainFrom(measured, atEdges));
+  }
+
+  /// See Pilot::partOfEdges(); 1 where that is unknown.
+  double partOfEdges(int samples)
+  {
+    return pilot_.partOfEdges({ longest(), samples, samples, samples }, monitor_).value_or(1);
+  }
+
 private:
+  static constexpr int mostCompared = 16; ///< rays per pixel, with four times as many
+  static double gainFrom(int samples, int more)
+  {
+    return std::pow(leastGain, std::log2(static_cast<double>(more) / samples) / 2);
+  }
+
   template <class ErrorIn>
-  double differenceOf(const PatchSettings& a, const PatchSettings& b, const ErrorIn& errorIn)
+  double differenceOf(const PatchSettings& a, const PatchSettings& b, const ErrorIn& errorIn,
+    double factorAtEdges = 1)
   {
     const auto differenceIn = [&](Patches patches)
-    { return errorIn(pilot_.compare(patches, a, b, monitor_)); };
+    { return errorIn(pilot_.compare(patches, a, b, monitor_, factorAtEdges)); };
     const double difference = differenceIn(Patches::ToChoose);
     return looksAtAll_ ? std::max(difference, differenceIn(Patches::ToVerify)) : difference;
   }

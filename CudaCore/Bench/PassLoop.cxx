@@ -80,9 +80,8 @@ Monitor PassLoop<Real>::monitorOfPass(std::int64_t number) const
   {
     monitor.progress = [this, number](double fraction)
     {
-      const double done = (static_cast<double>(number) + fraction) / request_.scene.samplesPerPixel;
-      watch_.monitor().progress(
-        request_.progressAt(request_.progressOfVoxels + (1 - request_.progressOfVoxels) * done));
+      watch_.monitor().progress(request_.progressOfRays(
+        (static_cast<double>(number) + fraction) / request_.scene.samplesPerPixel));
     };
   }
   return monitor;

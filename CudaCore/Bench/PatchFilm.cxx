@@ -118,6 +118,17 @@ void PatchFilm::add(const TracedPass& traced, const Pass& pass)
   const bool isFirst = film_.passes() == 0;
   film_.add(traced, pass, schlieren::Rays::Go, {});
   const std::int64_t columns = patch_.columns + 2 * patch_.margin;
+  for (std::int64_t row = patch_.margin - 1; row <= patch_.margin + patch_.rows; ++row)
+  {
+    for (std::int64_t column = patch_.margin - 1; column <= patch_.margin + patch_.columns;
+         ++column)
+    {
+      const bool isStopped =
+        traced.exits[static_cast<std::size_t>(row * columns + column)].fate == RayFate::Blocked;
+      stopsSome_ = stopsSome_ || isStopped;
+      stopsAll_ = stopsAll_ && isStopped;
+    }
+  }
   std::size_t pixel = 0;
   for (std::int64_t row = patch_.margin; row < patch_.margin + patch_.rows; ++row)
   {
@@ -136,12 +147,19 @@ void PatchFilm::add(const TracedPass& traced, const Pass& pass)
   }
 }
 
-PatchPixels PatchFilm::develop()
+Image PatchFilm::image()
 {
   Image image;
   image.width = settings_.width;
   image.height = settings_.height;
   film_.develop(image);
+  return image;
+}
+
+PatchPixels PatchFilm::develop()
+{
+  const Image image = this->image();
+  pixels_.hasEdge = stopsSome_ && !stopsAll_;
   const PixelArray<float>& light = image.color.empty() ? image.intensity : image.color;
   pixels_.light.assign(light.begin(), light.end());
   pixels_.path.assign(image.opticalPathDifference.begin(), image.opticalPathDifference.end());

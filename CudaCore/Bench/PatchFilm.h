@@ -23,6 +23,7 @@ struct PatchPixels
   std::vector<bool> hasMet, isLit, isStopped;
   ///@}
   std::vector<bool> isClear; ///< at the pixel's centre, whose path it has
+  bool hasEdge = false; ///< bodies stop some rays of the patch and pixels beside it, but not all
 };
 
 /// Exposes a patch.
@@ -36,13 +37,15 @@ public:
   void add(const TracedPass& traced, const Pass& pass);
   int passes() const { return static_cast<int>(film_.passes()); }
   PatchPixels develop();
+  Image image(); ///< of the patch
 
 private:
   Patch patch_;
   Projection projection_;
   FilmSettings settings_;
   ProgressiveImage film_;
-  PatchPixels pixels_; ///< what of them the passes have shown
+  PatchPixels pixels_;                       ///< what of them the passes have shown
+  bool stopsSome_ = false, stopsAll_ = true; ///< bodies, of the rays so far
 };
 
 /// Pixels in which a body stops some rays.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bench/Pilot.h"
 
+#include "Bench/EdgeStage.h"
 #include "Bench/StageSettings.h"
 #include "Device/Parallel.h"
 #include "Film/ProgressiveImage.h"
@@ -205,21 +206,30 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
 
 template <class Real>
 bool Pilot<Real>::compare(const Exposure& a, const Exposure& b, double factor, Edges edges,
-  const Monitor& monitor, Differences& differences)
+  const Monitor& monitor, Differences& differences, const std::optional<Choice>& choice)
 {
   const std::vector<PatchPixels>* ofA = expose(a.group, a.rays, monitor);
   const std::vector<PatchPixels>* ofB = ofA ? expose(b.group, b.rays, monitor) : nullptr;
-  for (std::size_t patch = 0; ofB && patch < ofB->size(); ++patch)
+  const std::vector<PatchPixels>* by =
+    ofB && choice ? expose(a.group, choice->by, monitor) : nullptr;
+  if (!ofB || (choice && !by))
   {
-    addDifferences((*ofA)[patch], (*ofB)[patch], (*a.group.patches)[patch], factor, scene_,
-      setup_.projection, differences, edges);
+    return false;
   }
-  return ofB != nullptr;
+  for (std::size_t patch = 0; patch < ofB->size(); ++patch)
+  {
+    if (!choice || (*by)[patch].hasEdge == choice->hasEdge)
+    {
+      addDifferences((*ofA)[patch], (*ofB)[patch], (*a.group.patches)[patch], factor, scene_,
+        setup_.projection, differences, edges);
+    }
+  }
+  return true;
 }
 
 template <class Real>
-Differences Pilot<Real>::compare(
-  Patches patches, const PatchSettings& a, const PatchSettings& b, const Monitor& monitor)
+Differences Pilot<Real>::compare(Patches patches, const PatchSettings& a, const PatchSettings& b,
+  const Monitor& monitor, double factorAtEdges)
 {
   Differences all;
   const std::size_t set = layout_.isWhole ? 0 : static_cast<std::size_t>(patches);
@@ -227,34 +237,85 @@ Differences Pilot<Real>::compare(
   {
     Group& group = groups_[set][n];
     const auto place = static_cast<PatchPlace>(n);
-    const auto raysOf = [&](const PatchSettings& settings)
+    const auto compareRays = [&](
+                               int samplesOfA, int samplesOfB, const std::optional<Choice>& choice)
     {
-      return RaySet{ settings.step,
-        place == PatchPlace::Body ? settings.samplesAtBodies : settings.samples };
+      const RaySet raysOfA{ a.step, samplesOfA };
+      RaySet raysOfB{ b.step, samplesOfB };
+      const bool isOfRays = samplesOfB > samplesOfA;
+      const bool isOfAperture = setup_.light.pupilTilt > 0; // whose points are as many as the rays
+      if (isOfRays && !isOfAperture && !layout_.isWhole)
+      {
+        constexpr int moreAtBodies = 4, most = 16; // what steps are compared with, too
+        raysOfB.areOthers = place == PatchPlace::Border;
+        raysOfB.samples = place == PatchPlace::Body
+          ? std::max(raysOfB.samples, std::min(moreAtBodies * raysOfB.samples, most))
+          : raysOfB.samples;
+      }
+      // The error falls as one over the number of rays, about.
+      constexpr double partOfOthers = 0.85; // they err, too, and some see nothing of an edge
+      const double part = raysOfB.areOthers ? partOfOthers
+        : isOfRays                          ? 1 - static_cast<double>(samplesOfA) / raysOfB.samples
+                                            : 1;
+      const double factor = (choice && choice->hasEdge ? factorAtEdges : 1) / part;
+      return compare(
+        { group, raysOfA }, { group, raysOfB }, factor, Edges::Count, monitor, all, choice);
     };
-    const RaySet raysOfA = raysOf(a);
-    RaySet raysOfB = raysOf(b);
-    const bool isOfRays = raysOfB.samples > raysOfA.samples;
-    const bool isOfAperture = setup_.light.pupilTilt > 0; // whose points are as many as the rays
-    if (isOfRays && !isOfAperture && !layout_.isWhole)
+    bool isDone = false;
+    if (place != PatchPlace::Body)
     {
-      constexpr int moreAtBodies = 4, most = 16; // what steps are compared with, too
-      raysOfB.areOthers = place == PatchPlace::Border;
-      raysOfB.samples = place == PatchPlace::Body
-        ? std::max(raysOfB.samples, std::min(moreAtBodies * raysOfB.samples, most))
-        : raysOfB.samples;
+      isDone = compareRays(a.samples, b.samples, {});
     }
-    // The error falls as one over the number of rays, about.
-    constexpr double partOfOthers = 0.85; // they err, too, and some see nothing of an edge
-    const double part = raysOfB.areOthers ? partOfOthers
-      : isOfRays ? 1 - static_cast<double>(raysOfA.samples) / raysOfB.samples
-                 : 1;
-    if (!compare({ group, raysOfA }, { group, raysOfB }, 1 / part, Edges::Count, monitor, all))
+    else if (a.samplesBesideEdges == 0)
+    {
+      isDone = compareRays(a.samplesAtBodies, b.samplesAtBodies, {});
+    }
+    else
+    {
+      const RaySet beside{ a.step, a.samplesBesideEdges };
+      isDone = compareRays(a.samplesAtBodies, b.samplesAtBodies, Choice{ beside, true }) &&
+        compareRays(a.samplesBesideEdges, b.samplesBesideEdges, Choice{ beside, false });
+    }
+    if (!isDone)
     {
       return {};
     }
   }
   return all;
+}
+
+template <class Real>
+bool Pilot<Real>::maySplitRays() const
+{
+  return !layout_.isWhole && EdgeTiles::arePossible(scene_, setup_.light, setup_.movedInFocus);
+}
+
+template <class Real>
+std::optional<double> Pilot<Real>::partOfEdges(
+  const PatchSettings& settings, const Monitor& monitor)
+{
+  Group& bodies = groups_[0][static_cast<std::size_t>(PatchPlace::Body)];
+  if (!maySplitRays())
+  {
+    return {};
+  }
+  const std::vector<PatchPixels>* exposed =
+    expose(bodies, { settings.step, settings.samplesBesideEdges }, monitor);
+  if (!exposed)
+  {
+    return {};
+  }
+  double pixels = 0; // of patches with edges
+  for (std::size_t patch = 0; patch < exposed->size(); ++patch)
+  {
+    const double weight = (*bodies.patches)[patch].weight;
+    pixels += (*exposed)[patch].hasEdge ? weight * Patch::edge * Patch::edge : 0;
+  }
+  // Rows or columns of tiles have a margin.
+  constexpr double ofEnds = 1.2;
+  const double raysPerPixel = ofEnds *
+    (1 + 2. * static_cast<double>(EdgeTiles::marginFor(setup_.movedInFocus)) / Patch::edge);
+  return pixels * raysPerPixel / (static_cast<double>(scene_.view.width) * scene_.view.height);
 }
 
 template <class Real>

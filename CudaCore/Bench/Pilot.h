@@ -18,6 +18,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -37,9 +38,10 @@ inline double adaptiveToleranceFor(double step, double tolerance)
 /// What patches are made with.
 struct PatchSettings
 {
-  double step;         ///< voxels
-  int samples;         ///< rays per pixel
-  int samplesAtBodies; ///< likewise, of patches there
+  double step;                ///< voxels
+  int samples;                ///< rays per pixel
+  int samplesAtBodies;        ///< likewise, of patches there
+  int samplesBesideEdges = 0; ///< likewise, of these where no edge of a body is; 0: as many
 };
 
 /// Images of patches of pixels, see PatchLayout. Rays are traced once for each setting.
@@ -91,8 +93,16 @@ public:
   /// Compares the images of two settings. Aborted or paused: empty. Where `b` has more rays than `a`, the error of these
   /// follows from the differences. Those of `b` at borders are others: a border along rows or columns of pixels can lie so
   /// that no ray of either would be behind it. At bodies there are more of them.
-  Differences compare(
-    Patches patches, const PatchSettings& a, const PatchSettings& b, const Monitor& monitor);
+  /// `factorAtEdges`: of the differences there, where rays beside edges are others.
+  Differences compare(Patches patches, const PatchSettings& a, const PatchSettings& b,
+    const Monitor& monitor, double factorAtEdges = 1);
+
+  /// Whether pixels where edges of bodies are may have other rays than the rest; see EdgeStage.
+  bool maySplitRays() const;
+
+  /// About how many rays a pass of the pixels where edges of bodies are has, by one of all pixels; see EdgeStage. Unknown
+  /// where edges may not have rays of their own, aborted, or paused.
+  std::optional<double> partOfEdges(const PatchSettings& settings, const Monitor& monitor);
 
   /// What a shift of the light by a pixel would change at edges of bodies. Aborted or paused: empty.
   Differences slopesAtEdges(Patches patches, const PatchSettings& settings, const Monitor& monitor);
@@ -171,9 +181,15 @@ private:
     Group& group;
     RaySet rays;
   };
+  /// Of a group's patches those with or without an edge of a body, by what these rays show.
+  struct Choice
+  {
+    RaySet by;
+    bool hasEdge;
+  };
   /// Adds the differences of a group's patches, or of those of two groups with the same patches. False if aborted or paused.
   bool compare(const Exposure& a, const Exposure& b, double factor, Edges edges,
-    const Monitor& monitor, Differences& differences);
+    const Monitor& monitor, Differences& differences, const std::optional<Choice>& choice = {});
 
   ViewSetup<Real> setup_;
   Scene scene_;

@@ -151,6 +151,28 @@ Aperture apertureOf(const Scene& scene, const Frame& frame, const ExitFaces& fac
   return aperture;
 }
 
+namespace
+{
+
+/// How far light is moved where it meets what is `distance` behind the data, pixels.
+double movedAt(double distance, const std::vector<MovedRay>& rays, const Scene& scene,
+  const Frame& frame, const Light& light)
+{
+  constexpr double between = 1.2; // what lies between the rays may be moved further
+  const double film = apparentDistance(distance, frame, light.faces.ratio);
+  const double magnification = magnificationAt(scene, frame, film, light.faces.ratio);
+  return magnification > 0 ? between * maximumShift(rays, film) / (magnification * frame.pixelSize)
+                           : 0;
+}
+
+} // namespace
+
+double movedInFocus(
+  const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame, const Light& light)
+{
+  return movedAt(focusDistance(frame, focusOffsetOf(scene, frame)), rays, scene, frame, light);
+}
+
 std::int64_t marginFor(
   const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame, const Light& light)
 {
@@ -158,18 +180,13 @@ std::int64_t marginFor(
   {
     return 2; // what the light of a pixel's mean depends on
   }
-  const double depth = frame.exit - frame.entry;
-  double largest = 0; // data units of the image
-  for (const double distance : { scene.screenDistance.value_or(depth),
-         focusDistance(frame, focusOffsetOf(scene, frame)), focusDistance(frame, 0) })
+  double largest = movedInFocus(rays, scene, frame, light);
+  for (const double distance :
+    { scene.screenDistance.value_or(frame.exit - frame.entry), focusDistance(frame, 0) })
   {
-    const double film = apparentDistance(distance, frame, light.faces.ratio);
-    const double magnification = magnificationAt(scene, frame, film, light.faces.ratio);
-    const double moved = maximumShift(rays, film);
-    largest = std::max(largest, magnification > 0 ? moved / magnification : 0);
+    largest = std::max(largest, movedAt(distance, rays, scene, frame, light));
   }
-  constexpr double between = 1.2; // what lies between the rays may be moved further
-  const double pixels = std::ceil(between * largest / frame.pixelSize) + 1;
+  const double pixels = std::ceil(largest) + 1;
   const auto most = static_cast<double>(maxMargin(scene.view));
   return static_cast<std::int64_t>(pixels < most ? pixels : most);
 }

@@ -52,6 +52,10 @@ Aperture apertureOf(const Scene& scene, const Frame& frame, const ExitFaces& fac
 std::int64_t marginFor(
   const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame, const Light& light);
 
+/// How far light is moved on the film of an image in focus, pixels.
+double movedInFocus(
+  const std::vector<MovedRay>& rays, const Scene& scene, const Frame& frame, const Light& light);
+
 /// See Scene::choosesScreen. No further than where 1 % of the light is moved by maxMargin(), but one depth at least. Where
 /// `rounding` of slopes, see noiseFloor, would be seen before, the light that changes most counts instead of 1 %.
 double screenDistanceFor(const std::vector<MovedNeighbours>& neighbours, const Scene& scene,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "Bench/CutoffMaker.h"
+#include "Bench/EdgeStage.h"
 #include "Bench/MediumCache.h"
 #include "Bench/RayCache.h"
 #include "Bench/TargetError.h"
@@ -54,6 +55,7 @@ struct Bench::Stages
   MediumCache media{ work };
   RayCache rays;
   RayCache waveRays; ///< those that waves are made of
+  EdgeRays edgeRays;
   CutoffMaker cutoffs;
   TargetCache targets;
 
@@ -87,6 +89,7 @@ private:
   {
     rays.clear();
     waveRays.clear();
+    edgeRays.clear();
     targets.clear();
   }
   /// Drops them where another medium is to be made.

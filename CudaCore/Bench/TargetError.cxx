@@ -93,6 +93,7 @@ public:
       spare();
     }
     settings_.accuracy = { aim_, errorNow(), 0, limitOf(ofSteps_, ofRays_, known_) };
+    takeFewerBesideEdges(std::max(most, ofRays_));
     return settings_;
   }
 
@@ -116,6 +117,30 @@ private:
       if (ofRays_ <= most)
       {
         break;
+      }
+    }
+  }
+
+  /// Takes fewer rays where no edges of bodies are, if with them the error of rays is within what is allowed.
+  void takeFewerBesideEdges(double most)
+  {
+    const int atEdges = settings_.samples;
+    for (const int samples : raysPerPixel)
+    {
+      constexpr double mostOfCost = 0.75; // more is not worth looking at it
+      const double part = samples < atEdges ? ladder_.partOfEdges(samples) : 1;
+      if (part <= 0 || samples + part * atEdges > mostOfCost * atEdges)
+      {
+        return;
+      }
+      const double error = ladder_.ofRaysBesideEdges(samples, atEdges);
+      if (error <= most)
+      {
+        settings_.samples = samples;
+        settings_.samplesAtEdges = atEdges;
+        settings_.accuracy.reached =
+          margin * sumOf(error, ofSteps_, known_.voxels, known_.rounding);
+        return;
       }
     }
   }
@@ -282,12 +307,15 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   Differences ofRays;
   if (!needsOneRay(pilot) && looksAtRays)
   {
+    const int samples = settings.samples, atEdges = settings.samplesAtEdges;
     const auto compare = [&](int fewer, int more)
     {
-      return pilot.compare(
-        Patches::ToVerify, { steps.longest, fewer, fewer }, { steps.longest, more, more }, monitor);
+      return atEdges > 0
+        ? pilot.compare(Patches::ToVerify, { steps.longest, fewer, atEdges, fewer },
+            { steps.longest, more, 2 * atEdges, more }, monitor)
+        : pilot.compare(Patches::ToVerify, { steps.longest, fewer, fewer },
+            { steps.longest, more, more }, monitor);
     };
-    const int samples = settings.samples;
     constexpr int few = 4;
     // Where the image is the patch, that would take longer than the image, and these rays are traced.
     const bool isTraced = samples > few && pilot.isWhole() && !scene.estimatesErrors;
@@ -353,9 +381,13 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
     settings = *before;
     settings.accuracy = {}; // of that image
     settings.step = std::min(settings.step, steps.longest);
+    if (settings.samplesAtEdges > 0 && !pilot.maySplitRays())
+    {
+      settings.samples = std::exchange(settings.samplesAtEdges, 0);
+    }
     verify(settings, pilot, steps, known, true, monitor);
-    const bool isCheapest =
-      settings.samples == raysPerPixel.front() && settings.step >= steps.longest;
+    const bool isCheapest = settings.samples == raysPerPixel.front() &&
+      settings.samplesAtEdges == 0 && settings.step >= steps.longest;
     if (isAborted() ||
       (settings.accuracy.isKept() && (isCheapest || settings.accuracy.reached > wasteful * target)))
     {
@@ -373,7 +405,8 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
     const AccurateSettings last = settings;
     settings = Choice<Real>(aim, target, ladder, known).cheapest();
     const bool canBeKept = settings.accuracy.reached <= target;
-    const bool isSame = tries > 0 && settings.step == last.step && settings.samples == last.samples;
+    const bool isSame = tries > 0 && settings.step == last.step &&
+      settings.samples == last.samples && settings.samplesAtEdges == last.samplesAtEdges;
     const bool isHopeless = !canBeKept && settings.accuracy.limit == ErrorSource::Steps;
     verify(settings, pilot, steps, known, !(isHopeless && pilot.isWhole()) || scene.estimatesErrors,
       monitor);

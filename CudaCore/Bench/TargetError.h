@@ -34,8 +34,9 @@ struct KnownErrors
 /// What keeps the target, or comes closest.
 struct AccurateSettings
 {
-  double step; ///< voxels
-  int samples; ///< rays per pixel
+  double step;            ///< voxels
+  int samples;            ///< rays per pixel
+  int samplesAtEdges = 0; ///< likewise, where edges of bodies are; 0: as many
   Accuracy accuracy{};
 };
 

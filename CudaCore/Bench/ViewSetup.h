@@ -26,6 +26,7 @@ struct ViewSetup
   RaySettings settings;
   RayTask<Real> task;
   std::int64_t margin;     ///< pixels around the image from which light may be bent into it
+  double movedInFocus;     ///< see there
   double exitRefractivity; ///< of what light leaves the data into
   DeflectionErrors errors;
   Projection projection; ///< of the film

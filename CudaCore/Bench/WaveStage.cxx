@@ -260,7 +260,9 @@ bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
   light.refractiveIndex = 1 + view_.exitRefractivity;
   light.resize(pass.columns, pass.rows);
   const int perRay = screen.raysPerPixel * screen.raysPerPixel;
-  const int passes = image.raysBlocked > 0 ? (scene.samplesPerPixel + perRay - 1) / perRay : 1;
+  const int passes = image.raysBlocked > 0
+    ? (std::max(scene.samplesPerPixel, scene.samplesAtEdges) + perRay - 1) / perRay
+    : 1;
   for (int number = 0; number < passes; ++number)
   {
     pass.offset = pixelOffset(number, scene.seed);

@@ -96,6 +96,7 @@ struct Image
   bool finished = true;
   int samples = 0;         ///< per pixel, that the image is of
   int samplesPerPixel = 0; ///< that the finished image is of
+  int samplesAtEdges = 0;  ///< likewise, where bodies' edges are; 0: as many as elsewhere
   double stepSize = 0;     ///< voxels
 };
 

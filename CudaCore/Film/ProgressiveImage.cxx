@@ -149,6 +149,15 @@ void ProgressiveImage::developCentres(Image& image) const
   }
 }
 
+PixelArray<float> ProgressiveImage::blockedFraction() const
+{
+  Image image;
+  image.width = settings_.width;
+  image.height = settings_.height;
+  developCentres(image);
+  return std::move(image.blockedFraction);
+}
+
 void ProgressiveImage::developUndisturbed(Image& image)
 {
   if (undisturbed_)

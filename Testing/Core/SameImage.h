@@ -36,6 +36,7 @@ inline void expectSameImage(const Image& a, const Image& b)
   EXPECT_EQ(a.raysBlocked, b.raysBlocked);
   EXPECT_EQ(a.momentumDrift, b.momentumDrift);
   EXPECT_EQ(a.samples, b.samples);
+  EXPECT_EQ(a.samplesAtEdges, b.samplesAtEdges);
 }
 
 } // namespace schlieren

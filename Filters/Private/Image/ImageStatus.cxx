@@ -16,13 +16,15 @@ namespace filters
 namespace
 {
 
-/// Returns a text such as "2 of 4 samples per pixel".
+/// Returns a text such as "2 of 4 samples per pixel", or "4 samples per pixel, 32 at edges of bodies".
 std::string samplesInWords(const schlieren::Image& image)
 {
   const std::string wanted = std::to_string(image.samplesPerPixel);
   const bool isWhole = image.samples == image.samplesPerPixel;
   return (isWhole ? wanted : std::to_string(image.samples) + " of " + wanted) +
-    (image.samplesPerPixel == 1 ? " sample per pixel" : " samples per pixel");
+    (image.samplesPerPixel == 1 ? " sample per pixel" : " samples per pixel") +
+    (image.samplesAtEdges > 0 ? ", " + std::to_string(image.samplesAtEdges) + " at edges of bodies"
+                              : "");
 }
 
 /// Returns a text such as ", about 3 min more" for the samples that are missing; empty if that is

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// More rays where edges of bodies are: light changes from one side of an edge to the other at once, which takes more rays per
+// pixel than gas does.
+#pragma once
+
+#include "Bench/Patches.h"
+#include "Bench/RayCache.h"
+#include "Bench/UnfinishedImage.h"
+#include "Bench/ViewSetup.h"
+#include "Bench/Watch.h"
+#include "Schlieren.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace schlieren
+{
+
+/// Where the pixels are that edges of bodies may cross: squares as large as a patch, those in a row or a column as one rectangle.
+struct EdgeTiles
+{
+  /// Pixels around a tile whose rays may light it, where light is moved by so many.
+  static std::int64_t marginFor(double moved)
+  {
+    constexpr double ofNeighbours =
+      1.5; // what a ray lights is half as wide, and depends on rays beside it
+    return static_cast<std::int64_t>(std::ceil(ofNeighbours + moved));
+  }
+
+  /// Whether edges may have rays of their own: of images in focus, whose light is moved by few pixels.
+  static bool arePossible(const Scene& scene, const Light& light, double moved);
+
+  /// Finds them by the fraction of rays that bodies stop in each pixel of a view, row by row: all or none of a square and the
+  /// pixels beside it, or an edge is there.
+  static PatchList in(const PixelArray<float>& blockedFraction, const View& view, double moved);
+};
+
+/// The rays of edges, which are cached until others are wanted.
+class EdgeRays
+{
+public:
+  /// Drops what is cached where it is not of these.
+  void prepare(const RaysKey& key, int samples, const PatchList& tiles);
+  void clear() { *this = {}; }
+
+private:
+  template <class Real>
+  friend class EdgeStage;
+
+  std::optional<RaysKey> key_;
+  int samples_ = 0;
+  PatchList tiles_;
+  std::deque<TracedPass> chunks_; ///< of consecutive tiles
+  TracedPass scratch_;            ///< the next one, which a pause may have interrupted
+};
+
+/// Traces Scene::samplesAtEdges rays per pixel in tiles of an image that has all of its passes, and replaces their pixels.
+template <class Real>
+class EdgeStage
+{
+public:
+  /// All stay with their owner.
+  EdgeStage(const ViewSetup<Real>& view, UnfinishedImage& request, const Watch& watch,
+    EdgeRays& rays, Work& work);
+
+  /// False if aborted or paused before all are traced.
+  bool trace(const RaysKey& key);
+  /// Writes their pixels into the finished image.
+  void paste(Image& image) const;
+
+private:
+  std::vector<Pass> passesOf(const Patch& tile) const;
+  std::int64_t raysOf(const Patch& tile) const;
+  /// The end of those that are traced at once from a tile on.
+  std::size_t endOfChunk(std::size_t first) const;
+  /// The rays of some tiles, cached or traced now; null if aborted or paused.
+  const TracedPass* raysOf(std::size_t chunk, std::size_t first, std::size_t end);
+  Monitor monitorOf(std::size_t first, std::size_t end) const;
+  void expose(const TracedPass& traced, std::size_t first, std::size_t end);
+
+  const ViewSetup<Real>& view_;
+  UnfinishedImage& request_;
+  const Watch& watch_;
+  EdgeRays& rays_;
+  Work& work_;
+  Scene scene_; ///< with the rays of edges
+};
+
+} // namespace schlieren
