@@ -3,7 +3,6 @@
 #include "MenuActions.h"
 
 #include "ImagesInViews.h"
-#include "PluginFile.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
@@ -20,7 +19,6 @@
 #include "vtkDataObject.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
-#include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
@@ -42,6 +40,15 @@ QByteArray quoted(const QString& text)
   QString escaped = text;
   escaped.replace('\\', "\\\\").replace('\'', "\\'").replace('\n', "\\n");
   return ("'" + escaped + "'").toUtf8();
+}
+
+/// Runs Python inside the window. Returns why it cannot; else empty.
+QString runPython(const QByteArray& code)
+{
+  QObject* python = pqApplicationCore::instance()->manager("PYTHON_MANAGER");
+  return python && QMetaObject::invokeMethod(python, "executeCode", Q_ARG(QByteArray, code))
+    ? QString()
+    : "This ParaView was built without Python, which this needs.";
 }
 
 /// Requests the arguments of a figure, and appends them as Python writes them. Returns false if cancelled.
@@ -118,11 +125,6 @@ bool menuActions::hasImage()
 
 QString menuActions::saveFigure()
 {
-  QObject* python = pqApplicationCore::instance()->manager("PYTHON_MANAGER");
-  if (!python)
-  {
-    return "This ParaView was built without Python, which draws figures.";
-  }
   pqFileDialog dialog(nullptr, pqCoreUtilities::mainWidget(), "Save Schlieren Figure", QString(),
     "PNG, pixel by pixel (*.png);;PDF (*.pdf);;SVG (*.svg)", false);
   dialog.setObjectName("SaveSchlierenFigure");
@@ -137,10 +139,7 @@ QString menuActions::saveFigure()
   {
     return QString();
   }
-  code += ")\n";
-  return QMetaObject::invokeMethod(python, "executeCode", Q_ARG(QByteArray, code))
-    ? QString()
-    : "This ParaView does not run Python, which draws figures.";
+  return runPython(code + ")\n");
 }
 
 QString menuActions::compareWithPhotograph()
@@ -214,35 +213,18 @@ void menuActions::copyK()
   }
 }
 
-QString menuActions::openExample()
+QString menuActions::openExample(const QString& name)
 {
   pqServer* server = pqActiveObjects::instance().activeServer();
   if (!server || server->isRemote())
   {
-    return "The example is a file of this computer, which the server does not read. Disconnect "
+    return "The examples are files of this computer, which the server does not read. Disconnect "
            "from the server first.";
   }
-  const QString file = QFileInfo(pluginFile()).canonicalPath() + "/ladenburg_jet_3d.vti";
-  if (!QFileInfo::exists(file))
-  {
-    return "The example '" + file + "' is not there. It is installed with the plugin.";
-  }
-  pqPipelineSource* jet =
-    pqLoadDataReaction::loadData(QStringList(file), "sources", "XMLImageDataReader", server);
-  if (!jet)
-  {
-    return "The example '" + file + "' could not be opened.";
-  }
-  jet->getSourceProxy()->UpdatePipeline();
-  jet->setModifiedState(pqProxy::UNMODIFIED);
-  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-  if (pqRenderView* view = imagesInViews::scene(jet->getOutputPort(0)))
-  {
-    pqActiveObjects::instance().setActiveView(view);
-    controller->Show(jet->getSourceProxy(), 0, view->getViewProxy());
-    view->resetCamera();
-    view->render();
-  }
-  pqActiveObjects::instance().setActiveSource(jet);
-  return QString();
+  const QString problem = runPython(
+    "import schlieren_examples\nschlieren_examples.open_in_window(" + quoted(name) + ")\n");
+  return !problem.isEmpty() ||
+      imagesInViews::isSchlieren(pqActiveObjects::instance().activeSource())
+    ? problem
+    : "The example could not be opened: see the messages.";
 }

@@ -25,7 +25,7 @@ double kOfPhotograph();
 /// Gives that k to the comparison's image.
 void copyK();
 
-/// Opens the jet that comes with the plugin, shows it, and selects it. Returns why it cannot; else empty.
-QString openExample();
+/// Opens an example of schlieren_examples, shows its flow, and selects its filter. Returns why it cannot; else empty.
+QString openExample(const QString& name);
 
 } // namespace menuActions

@@ -6,8 +6,14 @@
 #include "vtkPVPluginTracker.h"
 #include "vtkSMTrace.h"
 
+#include <QString>
+
 #include <cstring>
 
+namespace
+{
+
+/// Returns the file that the plugin was loaded from; empty: it is a part of the program.
 QString pluginFile()
 {
   vtkPVPluginTracker* plugins = vtkPVPluginTracker::GetInstance();
@@ -21,6 +27,8 @@ QString pluginFile()
   }
   return QString();
 }
+
+} // namespace
 
 void traceLoading(pqServer* server)
 {

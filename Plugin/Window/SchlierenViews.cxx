@@ -332,12 +332,13 @@ private:
   }
 
   /// Lets the 3-D view, whose camera the images have, look through the flow as a wind tunnel's parallel light does, unless
-  /// there are images of it already, whose projection the user may have chosen.
+  /// there are images of it already, whose projection the user may have chosen, or a filter with a perspective is the pattern.
   void useParallelLight()
   {
     vtkSMRenderViewProxy* proxy = this->Scene->getRenderViewProxy();
     const auto shown = this->Flow->getRepresentations(nullptr);
-    if (vtkSMPropertyHelper(proxy, "CameraParallelProjection").GetAsInt() != 0 ||
+    if ((this->Pattern && vtkSMPropertyHelper(this->Pattern, "ViewAngle").GetAsDouble() > 0) ||
+      vtkSMPropertyHelper(proxy, "CameraParallelProjection").GetAsInt() != 0 ||
       std::any_of(shown.begin(), shown.end(), imagesInViews::isDrawn))
     {
       return;
@@ -495,16 +496,16 @@ SchlierenViews::Result SchlierenViews::add(
   {
     return { false, true, problem };
   }
+  vtkSMProxy* drawn = drawnAsSchlieren(flow, pqActiveObjects::instance().activeView());
+  vtkSMProxy* pattern = selected ? selected->getProxy() : drawn ? benchOf(drawn) : nullptr;
   const std::vector<FlowArray> arrays = arraysOfFlow(flow);
   FlowDefaults defaults = completed(arrays, completion);
-  if (defaults.arrays.empty())
+  if (!pattern && defaults.arrays.empty())
   {
     return { false, true,
       "'" + flow->getSource()->getSMName() + "': " + QString::fromStdString(defaults.message),
       offerFor(arrays) };
   }
-  vtkSMProxy* drawn = drawnAsSchlieren(flow, pqActiveObjects::instance().activeView());
-  vtkSMProxy* pattern = selected ? selected->getProxy() : drawn ? benchOf(drawn) : nullptr;
   QApplication::setOverrideCursor(Qt::WaitCursor);
   const auto cursor = qScopeGuard([] { QApplication::restoreOverrideCursor(); });
   static const char* const names[] = { "Add Schlieren View", "Three Images",

@@ -180,9 +180,26 @@ void pqSchlierenToolBar::addMenu()
   copyK->setToolTip("Give the k that was found in the photograph to the image");
   QObject::connect(menu, &QMenu::aboutToShow, copyK,
     [copyK]() { copyK->setEnabled(menuActions::kOfPhotograph() > 0); });
-  this->Example = menu->addAction("&Example", [this]() { this->showExample(); });
-  this->Example->setObjectName("actionExample");
-  this->Example->setToolTip("Open an under-expanded air jet and show it as a schlieren image");
+  static const char* const examples[][3] = { // function of schlieren_examples, text, tool tip
+    { "jet", "Under-Expanded &Jet", "Air from a nozzle: knife edge" },
+    { "bow_shock", "&Bow Shock", "A sphere at Mach 2: shadowgraph" },
+    { "aerofoil", "Transonic &Aerofoil", "NACA 0012 at Mach 0.8: knife edge" },
+    { "plume", "&Plume", "Warm air before stripes: background-oriented schlieren" },
+    { "shock_bubble", "&Shock Meets a Bubble", "Helium in air, over time: knife edge" },
+    { "interferogram", "&Interferogram", "The jet before a tilted reference beam" },
+    { "mirage", "&Mirage", "A car on a hot road" },
+    { "tank", "&Tank of Salt Water", "Stripes behind salt that diffuses" }
+  };
+  this->Examples = menu->addMenu("&Examples");
+  this->Examples->setObjectName("menuExamples");
+  this->Examples->setToolTipsVisible(true);
+  for (const auto& [name, text, hint] : examples)
+  {
+    QAction* example =
+      this->Examples->addAction(text, [this, name = name]() { this->showExample(name); });
+    example->setObjectName(name);
+    example->setToolTip(hint);
+  }
   menu->addSeparator();
   QAction* status = menu->addAction("Show &Status in Views");
   status->setObjectName("actionStatus");
@@ -277,19 +294,24 @@ QMessageBox* pqSchlierenToolBar::message()
   return this->Message;
 }
 
-void pqSchlierenToolBar::showExample()
+void pqSchlierenToolBar::showExample(const char* name)
 {
   if (!this->HasSession)
   {
     return;
   }
-  const QString problem = menuActions::openExample();
-  if (problem.isEmpty())
+  const QString problem = menuActions::openExample(name);
+  if (!problem.isEmpty())
   {
-    this->add(SchlierenViews::Arrangement::OneImage);
+    this->showResult({ false, true, problem });
     return;
   }
-  this->showResult({ false, true, problem });
+  const QPointer<pqPipelineSource> filter = pqActiveObjects::instance().activeSource();
+  this->add(SchlierenViews::Arrangement::OneImage);
+  if (filter)
+  {
+    pqApplicationCore::instance()->getObjectBuilder()->destroy(filter); // the view has its settings
+  }
 }
 
 void pqSchlierenToolBar::makeRoom()
@@ -350,8 +372,8 @@ void pqSchlierenToolBar::updateActions()
   {
     action->setEnabled(hasSource && this->HasSession);
   }
-  if (this->Example)
+  if (this->Examples)
   {
-    this->Example->setEnabled(this->HasSession);
+    this->Examples->setEnabled(this->HasSession);
   }
 }

@@ -9,6 +9,7 @@
 #include "pqViewFrameActionsInterface.h"
 
 class QAction;
+class QMenu;
 class QMessageBox;
 class QPushButton;
 
@@ -41,12 +42,12 @@ private:
     const Completion& completion = {});
   /// Returns a button of the message.
   QPushButton* offer(const char* name, const QString& text);
-  void showExample();
+  void showExample(const char* name);
   void showResult(const SchlierenViews::Result& result);
   QMessageBox* message();
 
   QList<QAction*> Arrangements;
-  QAction* Example = nullptr;
+  QMenu* Examples = nullptr;
   bool HasSession = true; ///< which is not being reset
   QPointer<QMessageBox> Message;
   QList<QPointer<QPushButton>> Offers; ///< in Message

@@ -52,10 +52,10 @@ until(lambda: len(GetRenderViews()) == 1 and not displays())
 # The example, as soon as events are handled after a new session has been agreed to.
 import inside_window
 (reset,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
-(example,) = [one for one in widget("menuSchlieren").actions() if one.objectName() == "actionExample"]
+(example,) = [one for one in widget("menuExamples").actions() if one.objectName() == "jet"]
 inside_window.tried = []
 def try_example():
-    inside_window.tried.append(example.isEnabled())
+    inside_window.tried.append(widget("menuExamples").isEnabled())
     example.trigger()
 def agree():
     question = QApplication.activeModalWidget()

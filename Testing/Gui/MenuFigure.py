@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The menu's Example opens the jet and shows it as a schlieren image; Save Schlieren Figure saves what the active view
-shows, of a drawn flow and of a filter; without an image it says why."""
+"""The menu's Examples open a flow, here seen in perspective and by parallel light, and show it as an image; Save Schlieren
+Figure saves what the active view shows, of a drawn flow and of a filter; without an image it says why."""
 
 import json
 import os
@@ -32,9 +32,19 @@ figure = next(action for action in menu.actions() if action.objectName() == "act
 menu.aboutToShow.emit()
 assert not figure.isEnabled(), "There is no image"
 """)
-user.menu("menuSchlieren", "actionExample")
+user.menu("menuSchlieren/menuExamples", "mirage")
 user.python("""
-until(lambda: displays())
+until(lambda: displays(), 60)
+settle_views()
+(display,) = displays()
+view = next(view for view in GetRenderViews() if display in view.Representations)
+assert display.SchlierenBench.Cutoff == "Background Oriented" and not view.CameraParallelProjection
+assert {name for name, _ in GetSources()} == {"mirage.vti"}, GetSources()
+ResetSession()
+""")
+user.menu("menuSchlieren/menuExamples", "jet")
+user.python("""
+until(lambda: displays(), 60)
 settle_views()
 (display,) = displays()
 view = next(view for view in GetRenderViews() if display in view.Representations)
