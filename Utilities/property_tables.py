@@ -7,7 +7,7 @@ property_code.py), from Plugin/*.xml.
     Utilities/property_tables.py            # write them
     Utilities/property_tables.py --check    # fail where a file differs from them
 
-A table stands between <!-- table: GROUP --> and <!-- end -->; GROUP is the label of a property group, or its attribute table, or one of
+A table stands between <!-- table: GROUP --> and <!-- end -->, with what is too long for its cells below it; GROUP is the label of a property group, or its attribute table, or one of
 Inputs, Commands, Information and Others, the properties in no group. The rest of the page is written by hand.
 """
 
@@ -126,24 +126,44 @@ def unit_of(element):
     return ""
 
 
+def split(text, most=40):
+    """What a cell of a table holds, at most so many words, if it can be whole sentences, and what is left."""
+    for mark in ".;:":
+        pieces = re.split(rf"(?<=\{mark}) ", text)
+        count = len(pieces)
+        while count > 1 and sum(len(piece.split()) for piece in pieces[:count]) > most:
+            count -= 1
+        cell, rest = " ".join(pieces[:count]), " ".join(pieces[count:])
+        if len(cell.split()) <= most:
+            break
+    return re.sub("[;:]$", ".", cell), rest[:1].upper() + rest[1:]
+
+
 def table(group, properties):
-    """The rows of a group, in the order of the XML."""
+    """The rows of a group, in the order of the XML, and below them a list of what is too long for them."""
     members = [item for item in properties.values() if item.group == group]
     if not members:
         sys.exit(f"{PAGE}: there is no property in a group '{group}'.")
     labels = {item.label: item.name for item in properties.values() if " " in item.label}
     known = re.compile(r"\b(" + "|".join(sorted(labels, key=len, reverse=True)) + r")\b")
 
-    def meaning(item):
-        return known.sub(lambda found: f"`{labels[found.group(1)]}`", item.help).replace("|", "\\|")
+    def linked(text):
+        return known.sub(lambda found: f"`{labels[found.group(1)]}`", text).replace("|", "\\|")
 
-    if group in ("Inputs", "Commands", "Information"):
-        return ["| name | meaning |", "|---|---|"] + [f"| `{item.name}` | {meaning(item)} |" for item in members]
-    rows = ["| property | default | values | unit | meaning |", "|---|---|---|---|---|"]
+    plain = group in ("Inputs", "Commands", "Information")
+    columns = ("name", "meaning") if plain else ("property", "default", "values", "unit", "meaning")
+    rows, notes = [columns], []
     for item in members:
-        cells = (f"`{item.name}`", shown(item), range_of(item.element), unit_of(item.element), meaning(item))
-        rows.append("| " + " | ".join(cells) + " |")
-    return rows
+        meaning, rest = split(item.help)
+        between = [] if plain else [shown(item), range_of(item.element), unit_of(item.element)]
+        rows.append([f"`{item.name}`", *between, linked(meaning)])
+        if item.entries:
+            rest = re.sub(rf"(?<=\.) (?=({'|'.join(map(re.escape, item.entries))}): )", "\n  - ", rest)
+        if rest:
+            notes.append(f"- `{item.name}`: {linked(rest)}")
+    lines = ["| " + " | ".join(cells) + " |" for cells in rows]
+    lines.insert(1, "|" + "---|" * len(columns))
+    return lines + [""] * bool(notes) + notes
 
 
 def page(text, properties):
