@@ -4,7 +4,8 @@
 
     mpiexec -np 4 pvbatch --force-offscreen-rendering Examples/distributed.py
 
-It writes sphere.vti, jet.vti (all arrays) and sphere.png, jet.png: the same ones for any number of ranks.
+It writes sphere.vti, jet.vti (all arrays) and sphere.png, jet.png: the same ones for any number of ranks. A number behind
+it is the size of the images in pixels instead of 512.
 """
 
 import os
@@ -21,6 +22,7 @@ sys.path.insert(0, os.path.join(root, "Examples"))
 from load_schlieren import load_schlieren  # noqa: E402
 
 load_schlieren(globals())
+pixels = int(sys.argv[1]) if len(sys.argv) > 1 else 512
 
 # Each rank makes its layers of the mesh, as a parallel solver would.
 EXTENT = """
@@ -55,7 +57,7 @@ output.GetPointData().SetScalars(density)
 
 def show(name, flow, scale, direction):
     schlieren = Schlieren(Input=flow, Density=["POINTS", "rho"], ParallelScale=scale, ViewDirection=direction,
-                          ImageSize=[512, 512], KnifeEdgeAngle=90, Quality="Fine")
+                          ImageSize=[pixels, pixels], KnifeEdgeAngle=90, Quality="Fine")
     schlieren.UpdatePipeline()
     schlieren.UpdatePropertyInformation()
     if vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == 0:  # the others have no image

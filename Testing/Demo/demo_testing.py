@@ -11,6 +11,7 @@ import tempfile
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkOutputWindow
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 PVPYTHON = sys.argv[1]
@@ -33,6 +34,7 @@ def run_demo(*arguments):
 def run_here(*arguments):
     """As run_demo(), in this process, which has ParaView already."""
     kept = sys.argv, sys.stdout, sys.stderr, sys.__stdout__, sys.__stderr__
+    window = vtkOutputWindow.GetInstance()  # which pvpython's streams end in
     sys.argv = [SCRIPT, *arguments]
     with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
         sys.__stdout__, sys.__stderr__ = out, err  # which the demo prints to
@@ -46,6 +48,7 @@ def run_here(*arguments):
                 code = 1
         finally:
             sys.argv, sys.stdout, sys.stderr, sys.__stdout__, sys.__stderr__ = kept
+            vtkOutputWindow.SetInstance(window)
         simple.ResetSession()
         said = [stream.seek(0) or stream.read() for stream in (out, err)]
     print(*said, flush=True)
