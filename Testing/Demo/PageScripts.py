@@ -60,4 +60,17 @@ for bench, arrays in ((names["bos"], ("Intensity", "Background", "BackgroundDisp
 run(snippets("Documentation", "representation.md")[0], names, ("ImageResolution=[3840, 2160]", "ImageResolution=[480, 270]"))
 shown = image_array("jet.png")
 assert shown.std() > 15, f"The image is empty: {shown.std()}"
+
+# Of other pages each line is taken; what it does is tested elsewhere.
+names["schlieren"] = names["Schlieren"](Input=names["jet"], Density=["POINTS", "rho"], ImageSize=[48, 32])
+names.update(plane=names["jet"], servermanager=servermanager)
+run(snippets("Documentation", "window.md")[0], names, ("size=[1600, 900]", "size=[320, 180]"), ("dpi=300", "dpi=80"))
+for name in ("jet.pdf", "view.png", "flow.png"):
+    assert os.path.getsize(name) > 1000, name
+for page in ("quality", "flat_data", "cutoffs", "gases"):
+    names["schlieren"] = names["Schlieren"](Input=names["jet"], Density=["POINTS", "rho"], ImageSize=[48, 32])
+    for snippet in snippets("Documentation", f"{page}.md"):
+        run(snippet, names)
+    if page == "quality":
+        assert names["facts"].GetArray("ErrorReached").GetValue(0) < 0.004
 Delete(GetActiveView())
