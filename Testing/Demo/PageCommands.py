@@ -20,6 +20,7 @@ PAGES = ["README.md", *(f"Documentation/{page}.md" for page in ("tutorial", "exa
 # What runs the other commands.
 ELSEWHERE = {"apt install": "Utilities/Packaging/try-packages", "Utilities/test": ".ci/run",
              "python3 -m venv": "Testing/Demo/WebPage.py", "Utilities/with-display": "Testing/Demo/WebPage.py",
+             "pip wheel": "Testing/Core/PythonModule.py",
              "mpiexec -np 4 pvbatch --sym Examples/in_situ/": "Testing/Demo/InSitu.py",
              "Utilities/demo --help": "Testing/Demo/Mistakes.py", "Utilities/demo --all": "Testing/Demo/ContactSheet.py"}
 
@@ -32,7 +33,8 @@ def read(name):
 def commands(page):
     """Lines that are set as code, and code within a sentence that begins as a command does."""
     text = re.sub(r"^```.*?^```", "", page, flags=re.DOTALL | re.MULTILINE)
-    return re.findall(r"^    (\S.*)$", text, re.MULTILINE) + re.findall(r"`((?:python3|pvpython|mpiexec|Utilities/demo) [^`]+)`", text)
+    within = re.findall(r"`((?:python3|pvpython|mpiexec|Utilities/demo) [^`]+)`", text)
+    return re.findall(r"^    (\S.*)$", text, re.MULTILINE) + within
 
 
 os.makedirs("checkout", exist_ok=True)
