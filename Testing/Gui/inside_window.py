@@ -46,12 +46,15 @@ def process_events():
 
 
 def until(condition, seconds=300):
-    """Lets the window run until something is so."""
+    """Lets the window run until something is so, which is looked at twenty times a second: asking more often would take the
+    time of what is waited for."""
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, f"Still not so after {seconds} s"
-        if process_events() < 1e-3:
-            time.sleep(5e-2)  # asking again and again would take the time of what is waited for
+        turn = time.monotonic() + 5e-2
+        while time.monotonic() < turn:
+            if process_events() < 1e-3:
+                time.sleep(1e-2)
 
 
 def pause(seconds):
@@ -84,8 +87,17 @@ def settle(*filters):
 
 def displays():
     """What draws data as Schlieren."""
-    return [display for display in simple.GetRepresentations().values()
-            if getattr(display, "Representation", "") == "Schlieren" and display.Visibility == 1]
+    found, all_of_them = [], servermanager.vtkSMProxyIterator()
+    all_of_them.SetSession(servermanager.ActiveConnection.Session)
+    all_of_them.SetModeToOneGroup()
+    all_of_them.Begin("representations")
+    while not all_of_them.IsAtEnd():
+        proxy = all_of_them.GetProxy()
+        kind = proxy.GetProperty("Representation")
+        if kind and kind.GetElement(0) == "Schlieren" and proxy.GetProperty("Visibility").GetElement(0) == 1:
+            found.append(servermanager._getPyProxy(proxy))  # of all, it would take long  # pylint: disable=protected-access
+        all_of_them.Next()
+    return found
 
 
 def shown_at_all():
@@ -95,10 +107,12 @@ def shown_at_all():
 
 def settle_views():
     """Until all that is drawn as Schlieren is complete and nothing changes it any more."""
+    kept = []  # with references to them, they are described once
+
     def whole():
-        benches = [display.SchlierenBench for display in displays()]
+        kept[:] = [(display, display.SchlierenBench) for display in displays()]
         return all(finished(bench) and information(bench, "ImageCount") > 0
-                   and not information(bench, "Status").startswith("Preview") for bench in benches)
+                   and not information(bench, "Status").startswith("Preview") for _, bench in kept)
     until(whole)
     pause(0.5)
     until(whole)
