@@ -131,8 +131,8 @@ TEST(Extrema, ShocksMakeNone)
             const double front = std::clamp(behind / width + 0.5, 0., 1.);
             return front * (1 - 0.3 * std::max(behind, 0.));
           };
-          const Lattice lattice = { { 0.01, 0.01, 0.01 }, { 0.0195, 0.0195, 0.0195 },
-            { 51, 51, 51 } };
+          const Lattice lattice = { { 0.01, 0.01, 0.01 }, { 0.0295, 0.0295, 0.0295 },
+            { 34, 34, 34 } };
           for (const KnownMesh& mesh : meshesOf(8, by, shock))
           {
             const std::vector<double> values = sampled(mesh.data, lattice);

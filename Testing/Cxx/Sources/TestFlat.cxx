@@ -363,7 +363,8 @@ vtkSmartPointer<vtkStructuredGrid> farField(int axis, double unit, bool ofCells)
 
 std::string warningAbout(vtkDataObject* input, bool ofCells, double& depth)
 {
-  auto filter = bench(input, 33);
+  auto filter = bench(input, 9);
+  filter->SetMediumTolerance(1);
   filter->SetInputArrayToProcess(vtkRefractiveIndex::INDEX_ARRAY, 0, 0,
     ofCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
     "N");
@@ -386,22 +387,20 @@ TEST(Flat, AFarFieldIsAsDeepAsTheFlowInIt)
   {
     for (const bool ofCells : { false, true })
     {
-      for (const double unit : { 1., 25.4 })
-      {
-        SCOPED_TRACE(testing::Message() << axis << ofCells << unit);
-        const auto mesh = farField(axis, unit, ofCells);
-        double depth;
-        const std::string text = warningAbout(mesh, ofCells, depth);
-        EXPECT_NEAR(depth * unit, 2.5, 1e-3) << text;
-        EXPECT_NE(text.find("the flow in them is"), std::string::npos) << text;
-        // The order of cells does not matter.
-        vtkNew<vtkDataSetTriangleFilter> triangles;
-        triangles->SetInputData(mesh);
-        triangles->Update();
-        double ofOther;
-        warningAbout(triangles->GetOutput(), ofCells, ofOther);
-        EXPECT_EQ(ofOther, depth);
-      }
+      const double unit = ofCells == (axis == 1) ? 25.4 : 1;
+      SCOPED_TRACE(testing::Message() << axis << ofCells << unit);
+      const auto mesh = farField(axis, unit, ofCells);
+      double depth;
+      const std::string text = warningAbout(mesh, ofCells, depth);
+      EXPECT_NEAR(depth * unit, 2.5, 1e-3) << text;
+      EXPECT_NE(text.find("the flow in them is"), std::string::npos) << text;
+      // The order of cells does not matter.
+      vtkNew<vtkDataSetTriangleFilter> triangles;
+      triangles->SetInputData(mesh);
+      triangles->Update();
+      double ofOther;
+      warningAbout(triangles->GetOutput(), ofCells, ofOther);
+      EXPECT_EQ(ofOther, depth);
     }
   }
 }
