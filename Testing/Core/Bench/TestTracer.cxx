@@ -76,7 +76,7 @@ public:
 private:
   static Scene sceneOf(Cutoff cutoff)
   {
-    Scene scene = sceneOnCpu(52, 40, { -0.2, 0.4, -1 });
+    Scene scene = sceneOnCpu(40, 32, { -0.2, 0.4, -1 });
     scene.cutoff = cutoff;
     scene.wavelength = 1e-4;
     scene.screenDistance = 2;
@@ -141,7 +141,7 @@ TEST(Tracer, PausesWhereverItIs)
 TEST(Tracer, SaysWhatFailsWhileItLooksAtAView)
 {
   const BlobWithHole flow;
-  Scene scene = sceneOnCpu(52, 40, { -0.2, 0.4, -1 });
+  Scene scene = sceneOnCpu(40, 32, { -0.2, 0.4, -1 });
   scene.targetError = 1. / 256;
   OtherProcesses others(1);
   others.failing = 0;
