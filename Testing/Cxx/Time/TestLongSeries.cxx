@@ -74,7 +74,7 @@ void expectNoGrowth(const std::function<vtkSmartPointer<vtkDataObject>(double)>&
   const std::function<void(vtkSchlierenFilter*)>& set)
 {
   constexpr std::size_t inPart = 5 * MiB;
-  constexpr int steps = 41, warmedUp = 24, last = 40; // the latter of the same phase
+  constexpr int steps = 33, warmedUp = 16, last = 32; // the latter of the same phase
   vtkNew<Changing> source;
   source->make = make;
   for (int step = 0; step < steps; ++step)
