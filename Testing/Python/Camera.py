@@ -3,11 +3,16 @@
 """The camera's lens as scripts and views have it."""
 
 import math
+import os
+import sys
 
 import numpy as np
 from paraview import simple
 from plugin_testing import Schlieren, gaussian_column, image_array, output
 from representation_testing import GREY_LEVEL, filter_like, pixels_of, show
+
+sys.path.insert(0, os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Examples"))
+from bos_bench import bos  # noqa: E402
 
 column = gaussian_column(24)
 bench = Schlieren(Input=column, Density=["POINTS", "rho"], Cutoff="Background Oriented", BackgroundPattern="Stripes",
@@ -51,6 +56,12 @@ bench.LensFocalLength, bench.FNumber = 1500, 1
 assert np.abs(image_array(bench, "Background") - sharp).max() < 1e-6
 blurred = image_array(bench, "BackgroundDisplacement")
 assert np.abs(blurred).max() < 0.8 * np.abs(moved).max()
+# What the bench's data sheet says of it.
+sheet = bos((90, 60), 1.5 / (pupil + 5 - 1.5) / 30 * (1 + 5 / pupil), focal=1.5, f_number=1, to_flow=pupil, to_background=5)
+bench.UpdatePropertyInformation()
+assert bench.GetProperty("Sensitivity").GetData() == (
+    f"camera {pupil:.3g} m before the focal point, sees {sheet.width_flow:.3g} m by {sheet.height_flow:.3g} m, a pixel is "
+    f"{1e3 / sheet.pixels_per_radian:.3g} mrad, the flow is blurred over {1e3 * sheet.blur_flow:.3g} mm")
 bench.FocusDistance = pupil
 assert np.ptp(image_array(bench, "Background")[30]) < 0.9 * np.ptp(sharp[30])
 assert np.abs(image_array(bench, "BackgroundDisplacement") - moved).max() < 0.1 * np.abs(moved).max()

@@ -66,7 +66,7 @@ for item in properties.values():
             shown_with[item.name] = shown_with.get(item.name, set()) | listed
 for shown, names in (
         (WITH_K, "KMode KScale MirrorFocalLength SourceWidth"),
-        (WITH_K | WITH_FRINGES, "Sensitivity"),
+        (WITH_K | WITH_FRINGES | WITH_BACKGROUND, "Sensitivity"),
         (WITH_EDGE, "KnifeEdgeAngle CutoffOffset"),
         ({vtkSchlierenFilter.PHASE_CONTRAST}, "PhasePlateDiameter PhasePlateDelay PhasePlateTransmission"),
         (WITH_FRINGES | {vtkSchlierenFilter.PHASE_CONTRAST}, "Wavelength"), (WITH_FRINGES, "FringeSpacing WhiteLight"), (WITH_FRINGES | WITH_BACKGROUND, "FringeAngle"),

@@ -371,7 +371,9 @@ bool vtkSchlierenFilter::Show(
     (inside.Refractivity->Wedge.empty() ? "" : ", " + inside.Refractivity->Wedge) +
     (isKept ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
+  const std::string camera = cameraInWords(settings, scene, image);
   this->Sensitivity = sensitivityInWords(*this, image.kScale, isKept);
+  this->Sensitivity += (this->Sensitivity.empty() || camera.empty() ? "" : "; ") + camera;
   ++this->ImageCount;
   output->Initialize();
   histogram->Initialize();

@@ -184,6 +184,41 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
   return words;
 }
 
+std::string cameraInWords(
+  const SchlierenSettings& settings, const schlieren::Scene& scene, const schlieren::Image& image)
+{
+  const schlieren::Frame& frame = image.frame;
+  const schlieren::RecordedPlane plane = schlieren::techniqueOf(scene.cutoff).plane;
+  const bool hasPattern = plane == schlieren::RecordedPlane::Background;
+  const bool hasPupil = frame.pupil > 0;
+  if (!(hasPattern || hasPupil) || plane == schlieren::RecordedPlane::Screen)
+  {
+    return "";
+  }
+  const double depth = frame.exit - frame.entry;
+  const double toPattern = (hasPupil ? frame.focus - frame.entry : 0.5 * depth) +
+    scene.background.distance.value_or(depth); // from the flow
+  const auto inWords = [&](double length)
+  { return lengthInWords(settings.LengthScale * length, 3); };
+  std::string words = "camera ";
+  if (hasPupil)
+  {
+    words += inWords(frame.pupil) + " before the focal point, ";
+  }
+  words += "sees " + inWords(image.width * frame.pixelSize) + " by " +
+    inWords(image.height * frame.pixelSize);
+  if (hasPattern)
+  {
+    words += ", a pixel is " + textOf(1e3 * image.patternPixel / toPattern, 3) + " mrad";
+  }
+  // A thin lens (Raffel 2015, Experiments in Fluids 56, 60, equation 8); parallel light has a telecentric one.
+  const double inFocus = scene.lens.focusDistance.value_or(
+    hasPattern ? frame.pupil + toPattern : frame.pupil - scene.focusOffset);
+  const double blur = hasPupil ? scene.lens.aperture * std::abs(1 - frame.pupil / inFocus)
+                               : scene.lens.apertureRatio * toPattern;
+  return words + (blur > 0 ? ", the flow is blurred over " + inWords(blur) : "");
+}
+
 schlieren::LightSource lightSourceFrom(const SchlierenSettings& optics)
 {
   schlieren::LightSource source;

@@ -36,6 +36,11 @@ schlieren::PhasePlate phasePlateFrom(const SchlierenSettings& optics);
 /// that of an earlier image (`isKept`); empty for k = 0.
 std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool isKept = false);
 
+/// Returns where the camera of a perspective is, what it sees, and how much it blurs the flow; of background-oriented images
+/// the deflection that moves the pattern by a pixel, too. Empty for other images in parallel light, and for shadowgraphs.
+std::string cameraInWords(
+  const SchlierenSettings& settings, const schlieren::Scene& scene, const schlieren::Image& image);
+
 /// Returns that no bench sees deflections as small as full scale, where that is less than a microradian; else an empty text.
 std::string weaknessInWords(const SchlierenSettings& settings, double k);
 
