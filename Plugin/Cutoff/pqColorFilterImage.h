@@ -37,10 +37,10 @@ QImage paintable(const QImage& image);
 
 struct Brush
 {
-  QColor Color = Qt::black;
-  double Radius = 0.04; ///< fraction of the filter's side
-  bool Erases = false;  ///< restores what was underneath
-  bool Spares = false;  ///< leaves the middle as it is, where light goes that is not deflected
+  QColor Color = Qt::magenta; ///< stands out from white and from the wheel
+  double Radius = 0.04;       ///< fraction of the filter's side
+  bool Erases = false;        ///< restores what was underneath
+  bool Spares = false; ///< leaves the middle as it is, where light goes that is not deflected
 };
 
 /// Distance from the middle, of half the filter's side, within which light counts as not deflected.

@@ -38,7 +38,7 @@ namespace
 // Keys of texts in a PNG: the file's name, and the image underneath the paint.
 const QString nameKey = "Title", underneathKey = "Underneath", wheelName = "wheel";
 constexpr int pauseOfStroke = 40; // milliseconds
-constexpr int usualBrush = 8;     // diameter, per cent of the filter's side
+constexpr int usualBrush = 3;     // diameter, per cent of the filter's side
 
 QString strokeLabel() { return pqImageWidget::tr("Paint Color Filter"); }
 

@@ -39,6 +39,11 @@ np.savez(os.path.join(FOLDER, {name!r}), text=bench.ColorFilterImage,
 
 
 look("wheel")
+user.python("""
+assert widget("propertiesPanel", "ColorFilterImage", "BrushSize").value() == 3
+brush = widget("propertiesPanel", "ColorFilterImage", "Brush").property("chosenColor")
+assert brush.saturation() == 255 and brush.value() == 255, brush.name()
+""")
 user.check(WIDGET + "/Undo", "enabled", "false")
 user.event(f"{PROPERTIES}/{WIDGET}/Brush", "setChosenColor", ",".join(map(str, COLOR)))
 user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 12)
@@ -76,7 +81,7 @@ user.click(WIDGET + "/Clear")
 user.apply()
 look("cleared")
 
-# With the brush as it is in a new panel, across the middle, and by keys in the middle.
+# Across the middle, and by keys in the middle.
 user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 8)
 stroke((-0.5, 0), (0.5, 0))
 look("across")
