@@ -4,7 +4,6 @@
 
 #include "FlowOfPort.h"
 #include "HeldInput.h"
-#include "ImageDisplay.h"
 #include "ImagesInViews.h"
 #include "PatternSettings.h"
 #include "PluginFile.h"
@@ -12,26 +11,18 @@
 #include "ViewsBeside.h"
 #include "VolumeDisplay.h"
 #include "WholeFlow.h"
-#include "pqPhotographPoints.h"
 
 #include "pqActiveObjects.h"
-#include "pqApplicationCore.h"
 #include "pqDataRepresentation.h"
-#include "pqObjectBuilder.h"
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
 #include "pqRenderView.h"
 #include "pqServer.h"
 #include "pqUndoStack.h"
 #include "vtkCamera.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
-#include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
-#include "vtkPVDataSetAttributesInformation.h"
-#include "vtkPVRenderView.h"
-#include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRenderViewProxy.h"
@@ -42,12 +33,10 @@
 #include "vtkSchlierenFilter.h"
 
 #include <QApplication>
-#include <QPointer>
 #include <QScopeGuard>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <string>
 #include <utility>
@@ -63,20 +52,6 @@ using Filter = vtkSchlierenFilter;
 void setInt(vtkSMProxy* proxy, const char* name, int value)
 {
   vtkSMPropertyHelper(proxy, name).Set(value);
-}
-
-/// Adapts a view to the image of a filter.
-void flatten(vtkSMProxy* view)
-{
-  setInt(view, "InteractionMode", vtkPVRenderView::INTERACTION_MODE_2D);
-  setInt(view, "CameraParallelProjection", 1);
-  setInt(view, "OrientationAxesVisibility", 0);
-  setInt(view, "CenterAxesVisibility", 0);
-  setInt(view, "UseFXAA", 0); // FXAA would blur edges in the image
-  setInt(view, "UseColorPaletteForBackground", 0);
-  const double darkGrey[3] = { 0.2, 0.2, 0.2 };
-  vtkSMPropertyHelper(view, "Background").Set(darkGrey, 3);
-  view->UpdateVTKObjects();
 }
 
 /// Returns the proxy of the filter inside of a representation.
@@ -110,17 +85,16 @@ class Builder
 {
 public:
   /// `pattern`: the proxy whose settings are used; null: `defaults` for the flow.
-  explicit Builder(pqOutputPort* flow, vtkSMProxy* pattern, FlowDefaults defaults = {})
+  Builder(pqOutputPort* flow, vtkSMProxy* pattern, FlowDefaults defaults)
     : Flow(flow)
     , Pattern(pattern)
-    , Server(flow->getServer())
     , Defaults(std::move(defaults))
   {
   }
 
   SchlierenViews::Result add(Arrangement arrangement, const Cell& cell)
   {
-    this->findScene();
+    this->Scene = sceneBeside(this->Flow);
     const bool wasWhole = isWhole(this->Scene, aspectOf(this->Scene),
       vtkBoundingBox(this->Flow->getDataInformation()->GetBounds()));
     this->useParallelLight();
@@ -131,13 +105,17 @@ public:
         if (cell.layout && !cell.layout->GetView(cell.number))
         {
           noteLayout(cell.layout, cell.number);
-          this->Views = { addViewIn(this->Server, cell.layout, cell.number, "Schlieren View") };
+          if (pqRenderView* view =
+                addViewIn(this->Flow->getServer(), cell.layout, cell.number, "Schlieren View"))
+          {
+            this->Views = { view };
+          }
         }
         else
         {
           this->Views = addViewsBeside(this->Scene, { "Schlieren View" });
         }
-        if (this->isThere(1))
+        if (!this->Views.empty())
         {
           this->addImage(0, [](vtkSMProxy*) {});
         }
@@ -183,73 +161,6 @@ public:
     return { true, this->Defaults.isSure, QString::fromStdString(this->Defaults.message) };
   }
 
-  /// Shows a comparison, its image and its photograph in views of their own.
-  void compare(pqPipelineSource* comparison)
-  {
-    if (pqRenderView* view = viewWith(comparison))
-    {
-      this->Controller->Hide(comparison->getSourceProxy(), 0, view->getViewProxy());
-    }
-    this->Scene = viewWith(this->Flow->getSource());
-    if (!this->Scene)
-    {
-      this->findScene();
-    }
-    pqOutputPort* photograph =
-      qobject_cast<pqPipelineFilter*>(comparison)->getInputs("Photograph").front();
-    this->Views = addViewsBeside(
-      this->Scene, { comparison->getSMName(), "Points in Image", "Points in Photograph" });
-    if (!this->isThere(3))
-    {
-      return;
-    }
-    pqOutputPort* const ports[] = { comparison->getOutputPort(0), this->Flow, photograph };
-    for (int i = 0; i < 3; ++i)
-    {
-      vtkSMProxy* representation = this->showFlat(ports[i], this->Views[i]);
-      pqPipelineSource* source = ports[i]->getSource();
-      vtkPVArrayInformation* values =
-        ports[i]->getDataInformation()->GetPointDataInformation()->GetAttributeInformation(
-          vtkDataSetAttributes::SCALARS);
-      if (representation && ports[i] == this->Flow && imagesInViews::isSchlieren(source))
-      {
-        ImageDisplay::apply(representation, source->getProxy());
-      }
-      else if (representation && values)
-      {
-        ImageDisplay::applyToPhotograph(representation, values);
-      }
-    }
-    pqActiveObjects::instance().setActiveView(this->Views[0]);
-    new pqPhotographPoints(comparison, this->Views[1], this->Views[2]);
-  }
-
-  /// Shows the image of a filter in a view of its own, which it fills: that in which ParaView has
-  /// shown it, where nothing else is visible, or a new one.
-  void show(pqPipelineSource* filter)
-  {
-    pqRenderView* view = this->viewWith(filter);
-    if (!view || view->getNumberOfVisibleDataRepresentations() > 1)
-    {
-      if (view)
-      {
-        this->Controller->Hide(filter->getSourceProxy(), 0, view->getViewProxy());
-      }
-      this->findScene();
-      this->Views = addViewsBeside(this->Scene, { "Image of " + filter->getSMName() });
-      if (!this->isThere(1))
-      {
-        return;
-      }
-      view = this->Views[0];
-    }
-    if (vtkSMProxy* representation = this->showFlat(filter->getOutputPort(0), view))
-    {
-      ImageDisplay::apply(representation, filter->getProxy());
-    }
-    pqActiveObjects::instance().setActiveView(view);
-  }
-
   void render()
   {
     this->Scene->render();
@@ -260,77 +171,6 @@ public:
   }
 
 private:
-  /// Shows an image in a view that looks onto it. Returns its representation.
-  vtkSMProxy* showFlat(pqOutputPort* image, pqRenderView* view)
-  {
-    vtkSMRenderViewProxy* window = view->getRenderViewProxy();
-    {
-      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", window);
-      flatten(window);
-    }
-    vtkSMProxy* representation =
-      this->Controller->Show(image->getSource()->getSourceProxy(), image->getPortNumber(), window);
-    if (representation)
-    {
-      vtkSMPVRepresentationProxy::SetScalarBarVisibility(representation, window, false);
-      // Avoids the outline that ParaView shows without data.
-      vtkSMPropertyHelper type(representation, "Representation");
-      if (std::strcmp(type.GetAsString(), "Outline") == 0)
-      {
-        SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
-        type.Set("Slice");
-        representation->UpdateVTKObjects();
-      }
-    }
-    {
-      SM_SCOPED_TRACE(CallMethod).arg(window).arg("ResetCamera").arg(true);
-      window->ResetCamera(true); // fills the view
-    }
-    const auto redo = [id = ProxyById(window), setCamera = cameraSetter(window, window)]()
-    {
-      if (vtkSMProxy* again = id.get())
-      {
-        flatten(again);
-        setCamera();
-      }
-    };
-    addUndoStep([]() {}, redo);
-    return representation;
-  }
-
-  /// Returns the render view in which the image of a filter is visible; null if there is none.
-  static pqRenderView* viewWith(pqPipelineSource* filter)
-  {
-    for (pqDataRepresentation* shown : filter->getRepresentations(0, nullptr))
-    {
-      if (auto* view = qobject_cast<pqRenderView*>(shown->isVisible() ? shown->getView() : nullptr))
-      {
-        return view;
-      }
-    }
-    return nullptr;
-  }
-
-  /// Finds the 3-D view, or makes one that shows the flow.
-  void findScene()
-  {
-    this->Scene = imagesInViews::scene(this->Flow);
-    if (!this->Scene)
-    {
-      auto* builder = pqApplicationCore::instance()->getObjectBuilder();
-      this->Scene = qobject_cast<pqRenderView*>(builder->createView("RenderView", this->Server));
-      vtkSMViewLayoutProxy* layout = pqActiveObjects::instance().activeLayout();
-      this->Controller->AssignViewToLayout(this->Scene->getViewProxy(), layout, 0);
-      this->Controller->Show(this->Flow->getSourceProxy(), this->Flow->getPortNumber(),
-        this->Scene->getRenderViewProxy());
-      SM_SCOPED_TRACE(CallMethod)
-        .arg(this->Scene->getProxy())
-        .arg("ResetCamera")
-        .arg("comment", "reset view to fit data");
-      this->Scene->getRenderViewProxy()->ResetCamera();
-    }
-  }
-
   /// Lets the 3-D view, whose camera the images have, look through the flow as a wind tunnel's parallel light does, unless
   /// there are images of it already, whose projection the user may have chosen, or a filter with a perspective is the pattern.
   void useParallelLight()
@@ -356,19 +196,12 @@ private:
     addUndoStep(setBack, cameraSetter(proxy, proxy));
   }
 
-  /// Returns whether the session and so many new views are there.
-  bool isThere(std::size_t views) const
-  {
-    return this->Server && this->Views.size() == views &&
-      std::find(this->Views.begin(), this->Views.end(), nullptr) == this->Views.end();
-  }
-
   /// Draws the flow as Schlieren in a view for each value of a property.
   void addImages(
     const std::vector<QString>& names, const char* property, const std::vector<int>& values)
   {
     this->Views = addViewsBeside(this->Scene, names);
-    for (std::size_t i = 0; this->isThere(values.size()) && i < values.size(); ++i)
+    for (std::size_t i = 0; i < this->Views.size(); ++i)
     {
       this->addImage(i, [&](vtkSMProxy* bench) { setInt(bench, property, values[i]); });
     }
@@ -465,7 +298,6 @@ private:
 
   pqOutputPort* Flow;
   vtkSMProxy* Pattern;
-  QPointer<pqServer> Server;
   FlowDefaults Defaults;
   pqRenderView* Scene = nullptr;
   std::vector<pqRenderView*> Views; ///< new views
@@ -522,15 +354,4 @@ SchlierenViews::Result SchlierenViews::add(
     builder.render();
   }
   return result;
-}
-
-void SchlierenViews::show(pqPipelineSource* filter)
-{
-  const auto inputs = qobject_cast<pqPipelineFilter*>(filter)->getInputs("Input");
-  if (!inputs.empty())
-  {
-    const HeldInput input;
-    Builder builder(inputs.front(), nullptr);
-    imagesInViews::isComparison(filter) ? builder.compare(filter) : builder.show(filter);
-  }
 }

@@ -8,7 +8,6 @@
 
 #include <QString>
 
-class pqPipelineSource;
 class vtkSMViewLayoutProxy;
 
 namespace SchlierenViews
@@ -41,9 +40,5 @@ struct Result
 /// selected Schlieren filter (or that of a selected image), or the settings of the active view's
 /// representation. `cell`: for one image.
 Result add(Arrangement arrangement, const Cell& cell = {}, const Completion& completion = {});
-
-/// Shows the image of a Schlieren filter in grey in a flat view beside the 3-D view. Shows a comparison with a photograph in
-/// three flat views: itself, the image and the photograph, in which two points can be clicked.
-void show(pqPipelineSource* filter);
 
 } // namespace SchlierenViews

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewsBeside.h"
 
+#include "ImagesInViews.h"
 #include "UndoStep.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqObjectBuilder.h"
+#include "pqOutputPort.h"
 #include "pqRenderView.h"
 #include "pqServer.h"
 #include "vtkNew.h"
@@ -81,6 +83,26 @@ void keepInSight(
 }
 
 } // namespace
+
+pqRenderView* sceneBeside(pqOutputPort* flow)
+{
+  if (pqRenderView* there = imagesInViews::scene(flow))
+  {
+    return there;
+  }
+  auto* builder = pqApplicationCore::instance()->getObjectBuilder();
+  auto* made = qobject_cast<pqRenderView*>(builder->createView("RenderView", flow->getServer()));
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  controller->AssignViewToLayout(
+    made->getViewProxy(), pqActiveObjects::instance().activeLayout(), 0);
+  controller->Show(flow->getSourceProxy(), flow->getPortNumber(), made->getRenderViewProxy());
+  SM_SCOPED_TRACE(CallMethod)
+    .arg(made->getProxy())
+    .arg("ResetCamera")
+    .arg("comment", "reset view to fit data");
+  made->getRenderViewProxy()->ResetCamera();
+  return made;
+}
 
 pqRenderView* addViewIn(
   pqServer* server, vtkSMViewLayoutProxy* layout, int cell, const QString& name)
@@ -158,7 +180,7 @@ std::vector<pqRenderView*> addViewsBeside(pqRenderView* scene, const std::vector
   {
     views.push_back(addViewIn(scene->getServer(), layout, cells[i], names[i]));
   }
-  if (!isThere)
+  if (!isThere || std::find(views.begin(), views.end(), nullptr) != views.end())
   {
     return {};
   }

@@ -6,9 +6,13 @@
 
 #include <vector>
 
+class pqOutputPort;
 class pqRenderView;
 class pqServer;
 class vtkSMViewLayoutProxy;
+
+/// Finds the 3-D view that images of a flow belong to, or makes one that shows the flow.
+pqRenderView* sceneBeside(pqOutputPort* flow);
 
 /// Adds a render view in a cell of a layout. Returns null if the session has ended meanwhile.
 pqRenderView* addViewIn(

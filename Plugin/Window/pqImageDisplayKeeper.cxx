@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqImageDisplayKeeper.h"
 
+#include "FlatViews.h"
 #include "ImageDisplay.h"
 #include "ImagesInViews.h"
-#include "SchlierenViews.h"
 
 #include "pqApplicationCore.h"
 #include "pqDataRepresentation.h"
@@ -61,7 +61,7 @@ void pqImageDisplayKeeper::watch(pqPipelineSource* source)
         if (before == pqProxy::UNINITIALIZED && state == pqProxy::UNMODIFIED &&
           !(stack && (stack->getInUndo() || stack->getInRedo())))
         {
-          SchlierenViews::show(source); // where ParaView has shown it
+          showInFlatViews(source); // where ParaView has shown it
         }
       });
   }
