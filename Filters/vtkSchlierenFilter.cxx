@@ -439,7 +439,7 @@ void vtkSchlierenFilter::ForgetImage()
   inside.UnfinishedOf = 0;
   inside.Ready.reset();
   inside.DropShown();
-  this->KScaleUsed = 0;
+  this->KScaleUsed = this->AutomaticUsed = 0;
   this->Sensitivity.clear();
   this->Status.clear();
 }

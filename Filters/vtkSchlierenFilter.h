@@ -527,8 +527,8 @@ public:
   static double CutoffWhite(int cutoff);
 
   ///@{
-  /// The automatic k kept from an earlier image, the ambient refractivity, and the depth of a plane;
-  /// else 0. Setting them (as state files do) sets those of the next image, which are then kept; 0
+  /// The automatic k, or distance of a shadowgraph's screen, kept from an earlier image, the ambient refractivity, and the
+  /// depth of a plane; else 0. Setting them (as state files do) sets those of the next image, which are then kept; 0
   /// means automatic.
   void SetLockedK(double k);
   double GetLockedK() const;
@@ -553,6 +553,10 @@ public:
   /// Returns the k of the last image; 0 before the first, after errors, and without a cutoff.
   vtkGetMacro(KScaleUsed, double);
   ///@}
+
+  /// Returns what SetLockedK() keeps of the last image: its automatic k, or distance of a shadowgraph's screen, data units;
+  /// 0: neither.
+  vtkGetMacro(AutomaticUsed, double);
 
   /// Returns a text about the last image's sensitivity: k, the full-scale deflection and equivalent
   /// optics; of an interferogram, its wavelength. Empty where there is none.
@@ -745,8 +749,9 @@ private:
   bool RefineOnRank0();
   /// Returns whether a new image can begin between updates. `now`: GetTimeOfImage().
   bool CanBegin(vtkMTimeType now);
-  /// Return the automatic k and ambient refractivity kept from an earlier image; unset: none.
-  std::optional<double> KeptK();
+  /// Sets what is automatic in a scene, k or the distance of a screen, to that kept from an earlier image, if any.
+  void UseKept(schlieren::Scene& scene);
+  /// Returns the ambient refractivity kept from an earlier image; unset: none.
   std::optional<double> KeptAmbient();
   filters::ImageCircumstances CircumstancesOf(std::vector<double> medium, std::vector<double> rays);
   filters::ImageCircumstances CircumstancesOfRays();
@@ -765,6 +770,7 @@ private:
 
   vtkSmartPointer<vtkPiecewiseFunction> GradedFilter;
   double KScaleUsed = 0;
+  double AutomaticUsed = 0;
   std::string Sensitivity;
   vtkTypeInt64 ImageCount = 0;
   std::string Status;

@@ -78,7 +78,8 @@ bool imagesInViews::isDrawn(pqRepresentation* representation)
 bool imagesInViews::lacksKeptK(vtkSMProxy* bench)
 {
   const auto valueOf = [bench](const char* name) { return vtkSMPropertyHelper(bench, name); };
-  return vtkSchlierenFilter::CutoffHasK(valueOf("Cutoff").GetAsInt()) &&
+  const int cutoff = valueOf("Cutoff").GetAsInt();
+  return (vtkSchlierenFilter::CutoffHasK(cutoff) || vtkSchlierenFilter::CutoffHasScreen(cutoff)) &&
     valueOf("KMode").GetAsInt() == vtkSchlierenFilter::K_AUTOMATIC_KEPT &&
     !(valueOf("LockedK").GetAsDouble() > 0);
 }
@@ -89,10 +90,10 @@ double imagesInViews::shownK(pqRepresentation* representation)
   vtkSMProxy* proxy = representation->getProxy();
   vtkSMProxy* bench = benchOf(representation);
   proxy->UpdatePropertyInformation(proxy->GetProperty("SchlierenReduction"));
-  bench->UpdatePropertyInformation(bench->GetProperty("KScaleUsed"));
+  bench->UpdatePropertyInformation(bench->GetProperty("AutomaticUsed"));
   return vtkSMPropertyHelper(proxy, "SchlierenReduction").GetAsInt() > coarsest
     ? 0
-    : vtkSMPropertyHelper(bench, "KScaleUsed").GetAsDouble();
+    : vtkSMPropertyHelper(bench, "AutomaticUsed").GetAsDouble();
 }
 
 QList<vtkSMProxy*> imagesInViews::benchesIn(pqView* view)

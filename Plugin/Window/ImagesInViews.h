@@ -36,10 +36,10 @@ vtkSMProxy* benchOf(pqRepresentation* representation);
 /// Returns whether a representation is visible and draws its data as Schlieren.
 bool isDrawn(pqRepresentation* representation);
 
-/// Returns whether the image of such a filter has the automatic k that is kept, but has not been given it.
+/// Returns whether the image of such a filter has an automatic k, or distance of a screen, that is kept, but has not been given it.
 bool lacksKeptK(vtkSMProxy* bench);
 
-/// Returns the k of the image that a representation has drawn; 0: none, or one that was made without a view.
+/// Returns the automatic k, or distance of a screen, of the image that a representation has drawn; 0: none, or one that was made without a view.
 double shownK(pqRepresentation* representation);
 
 /// Lists the filters inside of the representations that a view draws as Schlieren.

@@ -44,7 +44,8 @@ void useKOf(vtkSMProxy* from, vtkSMProxy* to)
   if (valueOf(from, "Cutoff") == valueOf(to, "Cutoff") &&
     valueOf(to, "KMode") == vtkSchlierenFilter::K_AUTOMATIC_KEPT)
   {
-    from->UpdatePropertyInformation(from->GetProperty("KScaleUsed"));
-    vtkSMPropertyHelper(to, "LockedK").Set(vtkSMPropertyHelper(from, "KScaleUsed").GetAsDouble());
+    from->UpdatePropertyInformation(from->GetProperty("AutomaticUsed"));
+    vtkSMPropertyHelper(to, "LockedK")
+      .Set(vtkSMPropertyHelper(from, "AutomaticUsed").GetAsDouble());
   }
 }

@@ -219,6 +219,11 @@ private:
     {
       copySettings(this->Pattern, bench);
       set(bench);
+      if (vtkSMPropertyHelper(bench, "Cutoff").GetAsInt() !=
+        vtkSMPropertyHelper(this->Pattern, "Cutoff").GetAsInt())
+      {
+        vtkSMPropertyHelper(bench, "LockedK").Set(0.); // that of the pattern's cutoff
+      }
       useKOf(this->Pattern, bench);
     }
     else

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One k for all views of a flow: that which the first of them shows first. Other views, of other sizes, have it from their
 beginning, also where the first one is turned before its image is complete; so has a state that is saved meanwhile. The
-legend says that it is kept, and that a given one is fixed."""
+legend says that it is kept, and that a given one is fixed. So is the distance of shadowgraphs' screens one."""
 
 import os
 import re
@@ -49,6 +49,14 @@ bench.KMode = "Value"
 RenderAllViews()
 settle_views()
 assert f"k = {bench.KScale:.4g} (fixed)" in notes(bench), notes(bench)
+SetActiveView(by_name("Shadowgraph")[0])
+""")
+user.press("OneImage")  # as the active view's
+user.python(HELPERS + """
+settle_views()
+shadows = [display.SchlierenBench for display in displays() if display.SchlierenBench.Cutoff == "Shadowgraph"]
+assert len(shadows) == 2 and all("(kept)" in notes(bench)[0] for bench in shadows), [notes(bench) for bench in shadows]
+assert len({information(bench, "AutomaticUsed") for bench in shadows} | {bench.LockedK for bench in shadows}) == 1
 """)
 user.play(OPEN_JET)
 

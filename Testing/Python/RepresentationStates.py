@@ -26,42 +26,45 @@ def new_view():
 
 
 def k_of(bench):
+    """k, or the distance of a shadowgraph's screen."""
     bench.UpdatePropertyInformation()
-    return bench.GetProperty("KScaleUsed").GetData()
+    return bench.GetProperty("AutomaticUsed").GetData()
 
 
-# A state keeps the k of another time.
+# A state keeps what was automatic at another time.
+def check_kept(cutoff):
+    flow = simple.PVDReader(FileName=os.path.abspath("column.pvd"), registrationName="flow")
+    flow.UpdatePipeline()
+    view = new_view()
+    display = show(flow, view, Cutoff=cutoff)
+    simple.ResetCamera(view)
+    scene = simple.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    pixels_of(view, SIZE)
+    first = k_of(display.SchlierenBench)
+    scene.AnimationTime = 1
+    kept = pixels_of(view, SIZE)
+    assert k_of(display.SchlierenBench) == display.SchlierenBench.LockedK == first > 0
+    simple.SaveState("locked.pvsm")
+    script = smstate.get_state()
+    simple.Delete(view)
+    del view, display, scene
+
+    def check():
+        (found,) = simple.GetViews()
+        again = simple.GetDisplayProperties(simple.FindSource("flow"), found)
+        simple.GetAnimationScene().AnimationTime = 1  # scripts do not keep it
+        assert np.array_equal(pixels_of(found, SIZE), kept)
+        assert k_of(again.SchlierenBench) == again.SchlierenBench.LockedK == first
+        simple.Delete(found)
+
+    comes_back("locked.pvsm", script, check)
+    simple.ResetSession()
+
+
 write_series("column.pvd", TIMES, 16, column)
-flow = simple.PVDReader(FileName=os.path.abspath("column.pvd"), registrationName="flow")
-flow.UpdatePipeline()
-view = new_view()
-display = show(flow, view)
-simple.ResetCamera(view)
-scene = simple.GetAnimationScene()
-scene.UpdateAnimationUsingDataTimeSteps()
-pixels_of(view, SIZE)
-first = k_of(display.SchlierenBench)
-scene.AnimationTime = 1
-kept = pixels_of(view, SIZE)
-assert k_of(display.SchlierenBench) == first > 0
-assert display.SchlierenBench.LockedK == first, (display.SchlierenBench.LockedK, first)
-simple.SaveState("locked.pvsm")
-script = smstate.get_state()
-simple.Delete(view)
-del view, display, scene
-
-
-def check_kept():
-    (found,) = simple.GetViews()
-    again = simple.GetDisplayProperties(simple.FindSource("flow"), found)
-    simple.GetAnimationScene().AnimationTime = 1  # scripts do not keep it
-    assert np.array_equal(pixels_of(found, SIZE), kept)
-    assert k_of(again.SchlierenBench) == again.SchlierenBench.LockedK == first
-    simple.Delete(found)
-
-
-comes_back("locked.pvsm", script, check_kept)
-simple.ResetSession()
+for of in ("Knife Edge", "Shadowgraph"):
+    check_kept(of)
 
 # A body is black where light meets it, as in the filter's image, and as large as it is, give or take half a voxel.
 wavelet = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-16, 16]), ResultArrayName="rho", Function="RTData")

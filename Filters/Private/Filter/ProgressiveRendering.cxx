@@ -239,13 +239,21 @@ ImageCircumstances vtkSchlierenFilter::CircumstancesOfRays()
     settingsOfRays(*this));
 }
 
-std::optional<double> vtkSchlierenFilter::KeptK()
+void vtkSchlierenFilter::UseKept(schlieren::Scene& scene)
 {
-  if (!choosesK(*this))
+  std::optional<double> kept;
+  if (choosesK(*this) || choosesScreen(scene)) // else what is kept waits: the change may be undone
   {
-    return {}; // what is kept waits: the change may be undone
+    kept = this->Inside->LockFor(this->Cutoff).For(this->KMode, this->CircumstancesOfRays());
   }
-  return this->Inside->KLock.For(this->KMode, this->CircumstancesOfRays());
+  if (kept)
+  {
+    (choosesScreen(scene) ? scene.screenDistance : scene.kScale) = kept;
+  }
+  else if (this->KMode == K_AUTOMATIC_KEPT)
+  {
+    this->KScaleUsed = this->AutomaticUsed = 0; // those of an earlier image do not hold any more
+  }
 }
 
 std::optional<double> vtkSchlierenFilter::KeptAmbient()
@@ -273,18 +281,7 @@ schlieren::Image vtkSchlierenFilter::Begin(
     scene.lens.aperture = inside.Pupil.aperture;
     scene.lens.focusDistance = inside.Pupil.focusDistance;
   }
-  if (const std::optional<double> k = this->KeptK())
-  {
-    scene.kScale = k;
-  }
-  else if (this->KMode == K_AUTOMATIC_KEPT)
-  {
-    this->KScaleUsed = 0; // that of an earlier image does not hold any more
-  }
-  if (scene.choosesScreen && CutoffHasScreen(this->Cutoff))
-  {
-    scene.screenDistance = inside.ScreenLock.For(this->KMode, this->CircumstancesOfRays());
-  }
+  this->UseKept(scene);
   if (this->ColorByField)
   {
     const std::size_t fields = this->GetMediumSettings().Fields.size();
@@ -304,14 +301,12 @@ schlieren::Image vtkSchlierenFilter::Begin(
 void vtkSchlierenFilter::KeepFound(const schlieren::Image& image)
 {
   Internals& inside = *this->Inside;
-  if (!inside.Images.GetScene().kScale && image.kScale > 0)
-  {
-    inside.KLock.Found(image.kScale);
-  }
   const schlieren::Scene& scene = inside.Images.GetScene();
-  if (scene.choosesScreen && !scene.screenDistance && image.screenDistance > 0)
+  const bool hasScreen = choosesScreen(scene);
+  const double found = hasScreen ? image.screenDistance : image.kScale;
+  if (!(hasScreen ? scene.screenDistance : scene.kScale) && found > 0)
   {
-    inside.ScreenLock.Found(image.screenDistance);
+    inside.LockFor(this->Cutoff).Found(found);
   }
   if (inside.FindsAmbient)
   {
@@ -362,15 +357,17 @@ bool vtkSchlierenFilter::Show(
   {
     this->KeepFound(image);
   }
-  const bool isKept = choosesK(*this) && this->GetLockedK() > 0;
+  const bool isAutomatic = choosesK(*this) || choosesScreen(scene);
+  const bool isKept = isAutomatic && this->GetLockedK() > 0;
   // Waves are made of a finished image.
   const bool isStillOfRays =
     lightModelOf(*this) == schlieren::LightModel::Waves && (!isWhole || !image.finished);
   this->Status = std::string(isWhole ? "" : "Preview: ") + (isStillOfRays ? "rays as yet, " : "") +
     inside.Images.GetStatus(image) + (outside.empty() ? "" : ", " + outside) +
     (inside.Refractivity->Wedge.empty() ? "" : ", " + inside.Refractivity->Wedge) +
-    (isKept ? ", " + kInWords(image.kScale, isKept) : "");
+    (isKept && image.kScale > 0 ? ", " + kInWords(image.kScale, isKept) : "");
   this->KScaleUsed = image.kScale;
+  this->AutomaticUsed = isAutomatic ? std::max(image.kScale, image.screenDistance) : 0;
   const std::string camera = cameraInWords(settings, scene, image);
   this->Sensitivity = sensitivityInWords(*this, image.kScale, isKept);
   this->Sensitivity += (this->Sensitivity.empty() || camera.empty() ? "" : "; ") + camera;

@@ -112,6 +112,10 @@ struct vtkSchlierenFilter::Internals
 
   filters::SensitivityLock KLock;
   filters::SensitivityLock ScreenLock; // distance of a shadowgraph's screen
+  filters::SensitivityLock& LockFor(int cutoff)
+  {
+    return CutoffHasScreen(cutoff) ? this->ScreenLock : this->KLock;
+  }
   filters::SensitivityLock AmbientLock;
   filters::SensitivityLock DepthLock; // of a plane
   double KeptDepth = 0;               // what Refractivity is made with; 0: none

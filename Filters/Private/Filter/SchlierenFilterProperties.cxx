@@ -70,6 +70,7 @@ void vtkSchlierenFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LockedDepth: " << this->GetLockedDepth() << "\n";
   os << indent << "LockedK: " << this->GetLockedK() << "\n";
   os << indent << "KScaleUsed: " << this->KScaleUsed << "\n";
+  os << indent << "AutomaticUsed: " << this->AutomaticUsed << "\n";
   os << indent << "Sensitivity: " << this->Sensitivity << "\n";
   os << indent << "Finished: " << this->GetFinished() << "\n";
   os << indent << "ImageCount: " << this->ImageCount << "\n";
@@ -339,19 +340,21 @@ void vtkSchlierenFilter::SetLockedK(double k)
 {
   if (k != this->GetLockedK())
   {
-    this->Inside->KLock.Give(k > 0 ? std::make_optional(k) : std::nullopt);
+    this->Inside->LockFor(this->Cutoff).Give(k > 0 ? std::make_optional(k) : std::nullopt);
     this->Modified();
   }
 }
 
 void vtkSchlierenFilter::FitK()
 {
-  this->Inside->KLock.Drop();
-  this->Inside->ScreenLock.Drop();
+  this->Inside->LockFor(this->Cutoff).Drop();
   this->Modified();
 }
 
-double vtkSchlierenFilter::GetLockedK() const { return this->Inside->KLock.GetKept().value_or(0); }
+double vtkSchlierenFilter::GetLockedK() const
+{
+  return this->Inside->LockFor(this->Cutoff).GetKept().value_or(0);
+}
 
 void vtkSchlierenFilter::SetLockedAmbient(double ambient)
 {

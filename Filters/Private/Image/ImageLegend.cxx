@@ -89,7 +89,8 @@ std::vector<std::string> notesOn(const SchlierenSettings& settings, const schlie
   {
     const double metres = settings.LengthScale * image.screenDistance;
     notes.push_back("screen " + lengthInWords(metres, 3) + " behind the data" +
-      (scene.choosesScreen       ? " (automatic)"
+      (isKept                    ? " (kept)"
+          : scene.choosesScreen  ? " (automatic)"
           : scene.screenDistance ? ""
                                  : " (one depth)"));
   }

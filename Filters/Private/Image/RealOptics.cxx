@@ -92,6 +92,12 @@ bool choosesK(const SchlierenSettings& optics)
       optics.KMode == SchlierenSettings::K_AUTOMATIC_KEPT);
 }
 
+bool choosesScreen(const schlieren::Scene& scene)
+{
+  return scene.choosesScreen &&
+    schlieren::techniqueOf(scene.cutoff).plane == schlieren::RecordedPlane::Screen;
+}
+
 double kOfOptics(const SchlierenSettings& optics)
 {
   return optics.MirrorFocalLength > 0 && optics.SourceWidth > 0

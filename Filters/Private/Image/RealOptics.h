@@ -23,6 +23,9 @@ bool usesK(const SchlierenSettings& optics);
 /// Returns whether k is used and automatic.
 bool choosesK(const SchlierenSettings& optics);
 
+/// Returns whether there is a screen, at an automatic distance.
+bool choosesScreen(const schlieren::Scene& scene);
+
 /// Returns k of real optics, used or not; NaN without real optics.
 double kOfOptics(const SchlierenSettings& optics);
 

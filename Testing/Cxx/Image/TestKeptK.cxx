@@ -144,10 +144,16 @@ TEST_F(KeptK, StaysWhileAnImageHasNone)
   this->filter->SetKMode(Filter::K_AUTOMATIC);
   EXPECT_EQ(this->kAt(2), this->own[0]);
   EXPECT_TRUE(this->saysLocked());
-  this->filter->SetCutoff(Filter::SHADOWGRAPH);
+  this->filter->SetCutoff(Filter::SHADOWGRAPH); // which has a distance instead
   EXPECT_EQ(this->kAt(2), 0);
+  EXPECT_EQ(this->filter->GetLockedK(), 0);
+  const double distance = this->filter->GetAutomaticUsed();
+  EXPECT_GT(distance, 0);
   this->filter->SetCutoff(Filter::KNIFE_EDGE);
   EXPECT_EQ(this->kAt(2), this->own[0]);
+  this->filter->SetCutoff(Filter::SHADOWGRAPH);
+  this->kAt(1);
+  EXPECT_EQ(this->filter->GetLockedK(), distance);
 }
 
 TEST_F(KeptK, CanBeGiven)
