@@ -26,7 +26,7 @@ schlieren.ViewDirection = [0, 0, -1]
 schlieren.Cutoff = "Knife Edge"
 schlieren.KnifeEdgeAngle = 90  # bright: light is deflected upwards
 schlieren.ImageSize = [900, 480]
-schlieren.Quality = "Publication"  # the default, Interactive, is for looking around
+schlieren.Quality = "Publication"  # edges without steps
 schlieren.SamplesPerPixel = 4  # fewer than the preset has, to be quicker
 schlieren.UpdatePipeline()
 

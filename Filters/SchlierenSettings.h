@@ -45,13 +45,13 @@ struct ViewSettings
 /// some of them instead.
 struct AccuracySettings
 {
+  double TargetError = 0; // of ParaView's filter -1
   // members: PathModel, StepSize, SamplesPerPixel, Precision, MediumTolerance, TargetError
   int PathModel = 1;
   double StepSize = 2;
   int SamplesPerPixel = 1;
   int Precision = 0;
   double MediumTolerance = 0.003;
-  double TargetError = 0;
   // end
 
   template <class Use>
@@ -111,7 +111,7 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   int Cutoff = 0;
   double KnifeEdgeAngle = 0;
   double CutoffOffset = 0;
-  int KMode = 0;
+  int KMode = 1;
   double KScale = 1000;
   double MirrorFocalLength = 1;
   double SourceWidth = 1;

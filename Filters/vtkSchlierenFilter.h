@@ -227,7 +227,7 @@ public:
     K_BENCH = 3
   };
 
-  /// Where the sensitivity k comes from. Default: Automatic.
+  /// Where the sensitivity k comes from. Default: Automatic Kept.
   vtkSetClampMacro(KMode, int, K_AUTOMATIC, K_BENCH);
   vtkGetMacro(KMode, int);
 
@@ -428,11 +428,6 @@ public:
   vtkSetMacro(MediumTolerance, double);
   vtkGetMacro(MediumTolerance, double);
 
-  /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the
-  /// settings below; negative: what cannot be seen. Default: 0.
-  vtkSetMacro(TargetError, double);
-  vtkGetMacro(TargetError, double);
-
   /// Whether an image with a target error has the array ErrorEstimate, the error of each pixel in
   /// the unit of Target Error. Default: off.
   vtkSetMacro(ErrorEstimate, bool);
@@ -581,10 +576,15 @@ public:
   ///@{
   /// Preset of accuracy and speed, one of Qualities. Setting it sets the properties that
   /// GetQualitySetting() lists; CUSTOM sets none. Getting it returns the preset whose values the
-  /// properties have, or CUSTOM. Default: INTERACTIVE, whose values are the properties' defaults.
+  /// properties have, or CUSTOM. Default: INTERACTIVE; of ParaView's filter AUTOMATIC.
   virtual void SetQuality(int quality);
   virtual int GetQuality();
   ///@}
+
+  /// The error that 99 % of the pixels whose light crosses the data shall keep; 0: that of the other properties which Quality
+  /// sets; negative: what cannot be seen. Default: 0; of ParaView's filter -1.
+  vtkSetMacro(TargetError, double);
+  vtkGetMacro(TargetError, double);
 
   ///@{
   /// Return the names of the properties that Quality sets, from number 0 on, null after the last;

@@ -17,7 +17,7 @@ const std::vector<PresetSetting> defaults = {
   { "Cutoff", Filter::KNIFE_EDGE, nullptr },
   { "KnifeEdgeAngle", 0, nullptr },
   { "CutoffOffset", 0, nullptr },
-  { "KMode", Filter::K_AUTOMATIC, nullptr },
+  { "KMode", Filter::K_AUTOMATIC_KEPT, nullptr },
   { "MirrorFocalLength", 1, nullptr },
   { "SourceWidth", 1, nullptr },
   { "SourceLength", 10, nullptr },

@@ -11,12 +11,9 @@
 #include "vtkSMProperty.h"
 #include "vtkSMProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
-#include "vtkSchlierenFilter.h"
 
 #include <QMenu>
 #include <QToolButton>
-
-#include <cstring>
 
 namespace
 {
@@ -29,22 +26,6 @@ QMap<QString, QVariant> valuesOf(const BenchPreset& preset)
     values[setting.property] = setting.text ? QVariant(setting.text) : QVariant(setting.number);
   }
   return values;
-}
-
-/// Returns a preset whose automatic k is kept if that of the filter is.
-BenchPreset keepingK(vtkSMProxy* filter, BenchPreset preset)
-{
-  const int mode = vtkSMUncheckedPropertyHelper(filter, "KMode").GetAsInt();
-  for (PresetSetting& setting : preset.settings)
-  {
-    if (std::strcmp(setting.property, "KMode") == 0 &&
-      mode == vtkSchlierenFilter::K_AUTOMATIC_KEPT &&
-      setting.number == vtkSchlierenFilter::K_AUTOMATIC)
-    {
-      setting.number = mode;
-    }
-  }
-  return preset;
 }
 
 /// Applies a preset at once as one undo step, without other changes that wait for Apply.
@@ -106,10 +87,10 @@ pqPresetsDecorator::pqPresetsDecorator(vtkPVXMLElement* element, pqPropertyWidge
         filter->UpdatePropertyInformation(filter->GetProperty("ImageCount"));
         if (pqLiveEdit::isPossible(filter))
         {
-          applyPreset(filter, keepingK(filter, preset));
+          applyPreset(filter, preset);
           return;
         }
-        showPreset(filter, keepingK(filter, preset));
+        showPreset(filter, preset);
         // Enables Apply, because the panel observes only its widgets.
         Q_EMIT this->parentWidget()->changeAvailable();
         Q_EMIT this->parentWidget()->changeFinished();

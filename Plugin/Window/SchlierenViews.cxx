@@ -229,8 +229,6 @@ private:
     else
     {
       setFlowDefaults(bench, this->Defaults);
-      setInt(bench, "Quality", Filter::AUTOMATIC);
-      setInt(bench, "KMode", Filter::K_AUTOMATIC_KEPT);
       set(bench);
       this->useKOfOthers(bench);
     }

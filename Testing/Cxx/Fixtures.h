@@ -97,7 +97,7 @@ inline void traceEveryVoxel(vtkSchlierenFilter* filter, int samplesPerPixel)
   filter->SetSamplesPerPixel(samplesPerPixel);
 }
 
-/// A filter that takes the array "N" as the refractivity, in vacuum, one ray at each pixel's centre.
+/// A filter that takes the array "N" as the refractivity, in vacuum, one ray at each pixel's centre, and for each image a k of its own.
 inline vtkSmartPointer<vtkSchlierenFilter> bench(vtkDataObject* input, int pixels = 64)
 {
   auto filter = vtkSmartPointer<vtkSchlierenFilter>::New();
@@ -106,6 +106,7 @@ inline vtkSmartPointer<vtkSchlierenFilter> bench(vtkDataObject* input, int pixel
   filter->SetInputArrayToProcess(
     vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
   filter->SetAmbientRefractivity(0);
+  filter->SetKMode(vtkSchlierenFilter::K_AUTOMATIC);
   filter->SetImageSize(pixels, pixels);
   traceEveryVoxel(filter, 1);
   return filter;

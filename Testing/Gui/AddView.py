@@ -10,6 +10,7 @@ import re
 import numpy as np
 from views_testing import (FOLDER, OPEN_JET, TRACE_FIRST_STEP, ViewsSession, check_baseline, check_linked, drawn,
                            frame_view, load, play_trace, simple, values, views)
+from plugin_testing import MadeByUsers
 from representation_testing import GREY_LEVEL, filter_like, pixels_of
 
 SIZE = [360, 270]
@@ -79,7 +80,10 @@ def check_session(state):
     display = drawn(simple.FindSource("jet"), view)
     bench = display.SchlierenBench
     assert bench.Density == ["POINTS", "rho"] and bench.IndexModel == "Gladstone-Dale"
-    assert bench.KMode == "Automatic Kept" and bench.Quality == "Automatic"
+    alone = MadeByUsers(Input=simple.FindSource("jet"))  # as the filter begins, and every representation
+    for begun in (bench, alone, simple.GetRepresentation(simple.FindSource("jet"), scene).SchlierenBench):
+        assert begun.KMode == "Automatic Kept" and begun.Quality == "Automatic"
+    simple.Delete(alone)
     check_linked(state, scene, view)
     assert view.InteractionMode == "3D" and view.CenterAxesVisibility == 0
 

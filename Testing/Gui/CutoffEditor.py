@@ -18,7 +18,8 @@ PLANE = "SchlierenCutoff/Plane"
 SHIFT = 0x02000000
 TRACE, LOG = os.path.join(FOLDER, "trace.py"), os.path.join(FOLDER, "log.json")
 FOCAL_LENGTH = 1e-3 * K  # metres: of a source 1 mm wide k is K
-SETTINGS = {"ImageSize": [32, 32], "GladstoneDaleConstant": 2e-6, "MirrorFocalLength": FOCAL_LENGTH}
+SETTINGS = {"ImageSize": [32, 32], "GladstoneDaleConstant": 2e-6, "MirrorFocalLength": FOCAL_LENGTH,
+            "Quality": "Interactive"}
 
 user = Session()
 saved = {}

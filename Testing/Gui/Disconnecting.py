@@ -12,7 +12,7 @@ from filter_testing import saved
 from window_testing import FOLDER, ViewsSession
 
 K = 200
-SETTINGS = {"ImageSize": [96, 96], "GladstoneDaleConstant": 2e-6, "KMode": "Value", "KScale": K}
+SETTINGS = {"ImageSize": [96, 96], "GladstoneDaleConstant": 2e-6, "KMode": "Value", "KScale": K, "Quality": "Interactive"}
 SIDE = 280  # pixels of the cutoff plane, where all of it is from -0.005 to 0.005 both ways
 PLANE, PREVIEW = "SchlierenCutoff/Plane", "ColorFilterImage/Preview"
 SETTLE = """

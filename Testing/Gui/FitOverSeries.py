@@ -63,6 +63,7 @@ user.choose_filter("Schlieren")
 user.properties = PROPERTIES
 user.choose("ImageSize/LineEdit0", "64")
 user.choose("ImageSize/LineEdit1", "64")
+user.choose("Quality/ComboBox", "Interactive")  # that of the fit, too
 user.apply()
 user.python(HELPERS + """
 bench = FindSource("Schlieren1")

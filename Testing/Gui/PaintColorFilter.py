@@ -123,7 +123,7 @@ from paraview.simple import *
 flow = Calculator(Input=Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 flow.UpdatePipeline()
 bench = Schlieren(Input=flow, registrationName="bench", ImageSize=2 * [{PIXELS}], Cutoff="Color Filter",
-                  KMode="Value", KScale={K}, GladstoneDaleConstant=2e-6)
+                  Quality="Interactive", KMode="Value", KScale={K}, GladstoneDaleConstant=2e-6)
 bench.UpdatePipeline()
 view = GetActiveViewOrCreate("RenderView")
 Show(bench, view).MapScalars = 0

@@ -137,7 +137,7 @@ user.play(f"""
 from paraview.simple import *
 flow = XMLImageDataReader(FileName=[{FLOW!r}], registrationName="flow")
 flow.UpdatePipeline()
-bench = Schlieren(Input=flow, registrationName="bench")
+bench = Schlieren(Input=flow, registrationName="bench", Quality="Interactive", KMode="Automatic")
 bench.Density = ["POINTS", "rho"]
 bench.ImageSize = [32, 32]
 from paraview import smtrace

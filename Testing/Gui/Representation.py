@@ -96,6 +96,7 @@ from inside_window import information
 from paraview.simple import *
 flow = Calculator(Input=Wavelet(WholeExtent=3 * [-30, 30]), ResultArrayName="rho", Function="RTData", registrationName="flow")
 display = Show(flow)
+display.SchlierenBench.Quality, display.SchlierenBench.KMode = "Interactive", "Automatic"
 view = GetActiveView()
 view.CameraParallelProjection = 1
 ResetCamera()

@@ -25,7 +25,7 @@ for place, (name, cutoff) in enumerate((("bench", "Knife Edge"), ("shadows", "Sh
     AssignViewToLayout(view, layout, 2 if place == 0 else 6)
     SetActiveSource(flow)
     bench = Schlieren(Input=flow, registrationName=name, ImageSize={[SIZE, SIZE]}, Cutoff=cutoff,
-                      GladstoneDaleConstant=1e-6, Quality="Fine")
+                      GladstoneDaleConstant=1e-6, Quality="Fine", KMode="Automatic")
     shown = Show(bench, view)
     shown.SetRepresentationType("Slice")
     ColorBy(shown, ("POINTS", "Intensity"))

@@ -8,13 +8,13 @@ import sys
 import numpy as np
 from defaults_testing import check_defaults, property_tables
 from paraview.simple import AppendDatasets, Calculator, Clip, Sphere
-from plugin_testing import RefractiveIndex, Schlieren, gaussian_column, output, image_array
+from plugin_testing import MadeByUsers, RefractiveIndex, Schlieren, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkRefractiveIndex, vtkSchlierenFilter
 
 source = gaussian_column(32)
 
 refractivity = RefractiveIndex(source)
-bench = Schlieren(source)
+bench = MadeByUsers(source)
 
 # Proxies and classes have the XML's defaults.
 checked = (check_defaults(refractivity, vtkRefractiveIndex(), property_tables.FILES[:1]) +

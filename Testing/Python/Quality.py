@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 from paraview import simple, smstate, smtrace
-from plugin_testing import Schlieren, comes_back, gaussian_column, output, image_array
+from plugin_testing import MadeByUsers, Schlieren, comes_back, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkSchlierenFilter
 
 PRESETS = ("Interactive", "Fine", "Publication", "Reference", "Automatic")
@@ -58,7 +58,7 @@ for number, preset in enumerate(PRESETS):
         value = table[preset][name]
         assert documented[name][number] == (value if isinstance(value, str) else f"{value:.10g}"), \
             (preset, name, documented[name][number], value)
-check(Schlieren(source), "Interactive")
+check(MadeByUsers(source), "Automatic")
 
 # A preset first, then what shall differ from it.
 check(Schlieren(Input=source, Quality="Fine"), "Fine")

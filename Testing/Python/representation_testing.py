@@ -17,7 +17,7 @@ def show(flow, view, legend=False, **settings):
     display = simple.Show(flow, view)
     display.SetRepresentationType("Schlieren")
     display.SchlierenLegend = legend
-    simple.SetProperties(display.SchlierenBench, **settings)
+    simple.SetProperties(display.SchlierenBench, **{"Quality": "Interactive", "KMode": "Automatic", **settings})
     return display
 
 

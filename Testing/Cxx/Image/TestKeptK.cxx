@@ -56,7 +56,7 @@ protected:
 TEST_F(KeptK, IsNoneAtFirst)
 {
   vtkNew<Filter> fresh;
-  EXPECT_EQ(fresh->GetKMode(), Filter::K_AUTOMATIC);
+  EXPECT_EQ(fresh->GetKMode(), Filter::K_AUTOMATIC_KEPT);
   EXPECT_EQ(fresh->GetLockedK(), 0);
 }
 
