@@ -13,7 +13,6 @@
 #include "Medium/Index/IndexModels.h"
 #include "Medium/Samples/Ambient.h"
 #include "Medium/Samples/Field.h"
-#include "Medium/Samples/FieldGradients.h"
 #include "Medium/Samples/MediumSource.h"
 #include "Medium/Samples/Prefilter.h"
 #include "Medium/Samples/Solids.h"
@@ -158,9 +157,6 @@ struct Scene
   ExitInto exitInto = ExitInto::Surroundings; ///< what light enters behind the data
   double exitRefractivity = airRefractivity;  ///< n - 1, of ExitInto::Custom
 
-  /// Red, green and blue, 0 ... 1, of each of Field::gradients.
-  std::vector<std::array<float, 3>> fieldColors;
-
   /// Waves are for Cutoff::Shadowgraph, and of collimated light for KnifeEdge, BrightField, DarkField, GradedFilter,
   /// PhaseContrast and Interferogram without white light: the light of each pixel is then that of a wave, for which there is one
   /// ray in each pixel. All else of the image remains that of rays.
@@ -190,8 +186,8 @@ struct Scene
   /// For Integrator::Adaptive: the local error allowed in a step, relative to what the medium's steepest
   /// gradient would bend over the same length. 1e-12 ... 1.
   double adaptiveTolerance = 1e-5;
-  /// Error of the deflection, of a strong one (full scale, about), that the voxels of a Field's source may make, and of what rays gather
-  /// of its fields, of the full colour; 0: they are as fine as the data. 0 ... 1.
+  /// Error of the deflection, of a strong one (full scale, about), that the voxels of a Field's source may make;
+  /// 0: they are as fine as the data. 0 ... 1.
   double mediumTolerance = 0.01;
   /// Bytes that the voxels of a Field's source may take. Where they do not do, the tolerance is not met:
   /// see Image::medium.
@@ -283,7 +279,7 @@ public:
   /// Resumes the image that the monitor paused in the last call, which any other call cancels: the
   /// same image, to the last bit, that render would have made without a pause. Each call makes some progress,
   /// however soon it is paused again: what is not cut into pieces is the medium, a pass on the GPU, and the
-  /// development of an image. What Field::gradients points to must still be there. Throws Error.
+  /// development of an image. Throws Error.
   Image resume(const Monitor& monitor = {});
   bool isUnfinished() const; ///< whether there is an image that was paused
   void cancel();             ///< forgets it

@@ -136,8 +136,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   double PhasePlateDiameter = 0;
   double PhasePlateDelay = 0.25;
   double PhasePlateTransmission = 1;
-  bool ColorByField = false;
-  std::vector<double> FieldColors;
   double SmoothingRadius = 0;
   bool ErrorEstimate = false;
   int MediumMemory = 1024;
@@ -188,8 +186,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
     use("PhasePlateDiameter", &S::PhasePlateDiameter);
     use("PhasePlateDelay", &S::PhasePlateDelay);
     use("PhasePlateTransmission", &S::PhasePlateTransmission);
-    use("ColorByField", &S::ColorByField);
-    use("FieldColors", &S::FieldColors);
     use("SmoothingRadius", &S::SmoothingRadius);
     use("ErrorEstimate", &S::ErrorEstimate);
     use("MediumMemory", &S::MediumMemory);

@@ -169,8 +169,8 @@ public:
   vtkSetMacro(Wavelength, double);
   vtkGetMacro(Wavelength, double);
 
-  /// The names of the arrays to map through Transfer Functions and to tint an image by, any number,
-  /// all of points or all of cells. Default: none.
+  /// The names of the arrays to map through Transfer Functions, any number, all of points or all of
+  /// cells. Default: none.
   void AddField(const char* text)
   {
     this->Fields.emplace_back(text ? text : "");

@@ -191,7 +191,7 @@ void vtkRefractiveIndex::Append(vtkDataObject* input, vtkDataObject* output)
     piece.data = data;
     pieces.push_back(std::move(piece));
   }
-  const ChoiceOverRanks choice = chooseOverRanks(ranks, maker, pieces, false, false);
+  const ChoiceOverRanks choice = chooseOverRanks(ranks, maker, pieces, false);
   if (choice.label.empty())
   {
     maker.choose(input); // says why there are no data

@@ -273,7 +273,7 @@ int vtkSchlierenFilter::RequestInformation(
   outInfo->Set(vtkDataObject::ORIGIN(), origin, 3);
   outInfo->Set(vtkDataObject::SPACING(), spacing, 3);
   outInfo->Set(vtkDataObject::DIRECTION(), unturned, 9);
-  const bool isColored = this->ColorByField || this->HasOwnColor();
+  const bool isColored = this->HasOwnColor();
   vtkDataObject::SetActiveAttribute(outInfo, vtkDataObject::FIELD_ASSOCIATION_POINTS,
     isColored ? "Color" : "Intensity", vtkDataSetAttributes::SCALARS);
   vtkDataObject::SetPointDataActiveScalarInfo(
@@ -401,10 +401,6 @@ void vtkSchlierenFilter::MakeImage(double maxCells, vtkInformationVector* output
     inside.DropShown(); // there will be a better image, which wants the memory
   }
   const bool isThere = continues || this->UpdateRefractivity(input, bodies);
-  if (isThere && !continues)
-  {
-    this->UpdateFieldGradients(input);
-  }
   if (isThere && this->Render(output, histogram, continues))
   {
     this->ShowLast(outputs);

@@ -14,8 +14,7 @@
  * Vectors have a third component, 0:
  * - `Intensity` (float, active scalars): see Cutoff; the luminance of a coloured image;
  * - `Color` (3 unsigned chars, then the active scalars), of coloured images: in sRGB with
- *   COLOR_FILTER, WhiteLight or a background's PICTURE; else, with ColorByField, the tinted
- *   intensity as linear bytes: 255 is 1, of a shadowgraph 2;
+ *   COLOR_FILTER, WhiteLight or a background's PICTURE;
  * - `Deflection` (3 floats): direction cosines along u and v of the emerging light; light bends
  *   towards higher index;
  * - `OpticalPathDifference` (double): metres, relative to undisturbed light;
@@ -373,24 +372,6 @@ public:
   vtkSetClampMacro(PhasePlateTransmission, double, 0, 1);
   vtkGetMacro(PhasePlateTransmission, double);
 
-  /// Tint the image: light takes on the colours of the Fields whose gradients it crosses. Default:
-  /// off.
-  vtkSetMacro(ColorByField, bool);
-  vtkGetMacro(ColorByField, bool);
-  vtkBooleanMacro(ColorByField, bool);
-
-  /// Red, green and blue, 0 to 1, of each of the Fields. Default: none.
-  void AddFieldColor(double value)
-  {
-    this->FieldColors.emplace_back(value);
-    this->Modified();
-  }
-  void ClearFieldColors()
-  {
-    this->FieldColors.clear();
-    this->Modified();
-  }
-
   /// Values of PathModel.
   enum PathModels
   {
@@ -423,8 +404,7 @@ public:
   vtkGetMacro(SmoothingRadius, double);
 
   /// Of meshes: the error of the deflection that the size of voxels may cause, relative to a strong
-  /// one, as k shows it at full scale; with Color By Field also that of a colour's strength; 0:
-  /// voxels are as fine as the mesh. Default: 0.003.
+  /// one, as k shows it at full scale; 0: voxels are as fine as the mesh. Default: 0.003.
   vtkSetMacro(MediumTolerance, double);
   vtkGetMacro(MediumTolerance, double);
 
@@ -728,8 +708,6 @@ private:
   /// Makes the ranks work for this filter's refractivity, which another filter may have used.
   /// Returns false where they cannot.
   bool UseOwnRanks();
-  /// Finds the gradients of the fields that tint, if needed.
-  void UpdateFieldGradients(vtkDataObject* input);
   /// Return the newest time of all properties but Refine(), and of these and upstream.
   vtkMTimeType GetTimeOfProperties();
   vtkMTimeType GetTimeOfImage();

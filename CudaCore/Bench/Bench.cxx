@@ -75,14 +75,13 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
   ViewKey key{ frame, scene.view.width, scene.view.height, settings.kernel,
     LightKey::of(scene, frame, filmDistance(scene, frame, light.faces), light.faces),
     onDevices.changes };
-  const Tracer<Real> tracer(
-    onDevices, request.device, processes, scene.threads, field.gradients.version);
+  const Tracer<Real> tracer(onDevices, request.device, processes, scene.threads);
   const auto coarseTask = [&]
   {
     RaySettings coarse = settings;
     coarse.stepVoxels = longestStep;
     coarse.adaptiveTolerance = std::max(settings.adaptiveTolerance, usualTolerance);
-    return makeTask<Real>(medium, {}, light, coarse);
+    return makeTask(medium, light, coarse);
   };
   const auto look = [&] { return lookAtLight(tracer, coarseTask(), scene.view); };
   if (scene.choosesScreen && !scene.screenDistance &&
@@ -101,9 +100,8 @@ std::optional<ViewSetup<Real>> Bench::Stages::setUp(
   const bool bends = settings.kernel.path != PathModel::Straight;
   const double ofVoxels = medium.tree ? medium.tree->statistics().deflectionError : 0;
   return ViewSetup<Real>{ onDevices, tracer, key, light, settings,
-    makeTask<Real>(medium, medium.gradientsOf(field), light, settings),
-    marginFor(moved, scene, frame, light), movedInFocus(moved, scene, frame, light),
-    exitRefractivity,
+    makeTask(medium, light, settings), marginFor(moved, scene, frame, light),
+    movedInFocus(moved, scene, frame, light), exitRefractivity,
     { light.faces.ratio * noiseFloor(medium, field, light), light.faces.ratio * ofVoxels },
     projectionOf(scene, frame, light, bends ? (1 + exitRefractivity) * field.lengthScale : 0),
     pixelPlacesOf(frame, scene.view, light) };
@@ -208,11 +206,7 @@ Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
   {
     return abortedImage();
   }
-  RaysKey key{ view->key, view->settings, request.scene.seed, request.device, {} };
-  if (request.field.gradients.count > 0)
-  {
-    key.gradients = request.field.gradients.version;
-  }
+  const RaysKey key{ view->key, view->settings, request.scene.seed, request.device };
   work.raySets += rays.prepare(key, view->margin) ? 1 : 0;
   const bool hasAllPasses = PassLoop<Real>(*view, request, watch, rays, cutoffs, work).run();
   if (watch.isAborted())

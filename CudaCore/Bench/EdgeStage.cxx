@@ -35,8 +35,7 @@ bool EdgeTiles::arePossible(const Scene& scene, const Light& light, double moved
 {
   constexpr double mostMoved = 2.5;
   return moved <= mostMoved && techniqueOf(scene.cutoff).plane == RecordedPlane::Focus &&
-    !isOfCamera(scene.cutoff) && !(light.pupilTilt > 0) && scene.smoothingRadius <= 0 &&
-    scene.fieldColors.empty();
+    !isOfCamera(scene.cutoff) && !(light.pupilTilt > 0) && scene.smoothingRadius <= 0;
 }
 
 PatchList EdgeTiles::in(const PixelArray<float>& blockedFraction, const View& view, double moved)
@@ -220,7 +219,7 @@ const TracedPass* EdgeStage<Real>::raysOf(std::size_t chunk, std::size_t first, 
   TracedPass& traced = rays_.scratch_;
   if (traced.tilesDone == 0)
   {
-    traced.resize(passes, 0);
+    traced.resize(passes);
   }
   const auto start = std::chrono::steady_clock::now();
   const bool isTraced = view_.tracer.trace(view_.task, passes, traced, monitorOf(first, end));

@@ -53,7 +53,7 @@ bool PassLoop<Real>::addPass()
   aimPass(pass_, number, scene, view_.task.light);
   const double tracedBefore = request_.traceSeconds;
   const TracedPass* traced = rays_.raysOf(number, pass_, request_.device,
-    request_.field.gradients.count, request_.keepsRays ? scene.memoryBudget : 0,
+    request_.keepsRays ? scene.memoryBudget : 0,
     [&](TracedPass& place, bool isWantedOnHost) { return trace(place, isWantedOnHost, monitor); });
   const bool hasTraced = request_.traceSeconds > tracedBefore;
   if (traced == nullptr || watch_.isAborted() || (hasTraced && watch_.isPaused()))
@@ -61,11 +61,11 @@ bool PassLoop<Real>::addPass()
     return false;
   }
   request_.momentumDrift = std::max(request_.momentumDrift, traced->worstDrift);
-  const TracedRays rays{ pass_, traced->exits.data(), traced->gathered.data() };
+  const TracedRays rays{ pass_, traced->exits.data() };
   rays_.request(*traced, rays, number, scene, view_.errors);
   if (!image.isBegun())
   {
-    begin(rays);
+    begin();
   }
   monitor.progress = {};
   return image.add(*traced, pass_, rays_.holds(*traced) ? Rays::Stay : Rays::Go, monitor) &&
@@ -94,7 +94,7 @@ bool PassLoop<Real>::completeUndisturbed(const Monitor& monitor)
 }
 
 template <class Real>
-void PassLoop<Real>::begin(const TracedRays& rays)
+void PassLoop<Real>::begin()
 {
   const Scene& scene = request_.scene;
   if (techniqueOf(scene.cutoff).hasK())
@@ -105,11 +105,9 @@ void PassLoop<Real>::begin(const TracedRays& rays)
   }
   const View& view = scene.view;
   const std::int64_t margin = view_.margin;
-  request_.image->begin(
-    { cutoffs_.cutoffOf(scene, request_.kScale, view_.pixels), view_.projection, margin,
-      (view.width + 2 * margin) * (view.height + 2 * margin) *
-        passesToHold(scene.samplesPerPixel) },
-    rays_.tintOf(rays, request_.field, scene));
+  request_.image->begin({ cutoffs_.cutoffOf(scene, request_.kScale, view_.pixels), view_.projection,
+    margin,
+    (view.width + 2 * margin) * (view.height + 2 * margin) * passesToHold(scene.samplesPerPixel) });
 }
 
 template <class Real>

@@ -33,7 +33,7 @@ private:
   /// Makes what a camera sees without the flow have as many passes, where it may be shown before the end.
   bool completeUndisturbed(const Monitor& monitor);
   /// Makes the cutoff, by what the rays of the first pass have shown.
-  void begin(const TracedRays& rays);
+  void begin();
 
   /// Traces a pass, or resumes it. False if aborted or paused.
   bool trace(TracedPass& traced, bool isWantedOnHost, const Monitor& monitor);

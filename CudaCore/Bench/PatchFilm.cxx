@@ -104,7 +104,7 @@ PatchFilm::PatchFilm(const Patch& patch, const Scene& scene, const Cutoffs& cuto
   , film_(settings_)
 {
   const std::int64_t rays = (patch.columns + 2 * patch.margin) * (patch.rows + 2 * patch.margin);
-  film_.begin({ cutoff, projection_, patch.margin, rays * passesToHold(samples) }, {});
+  film_.begin({ cutoff, projection_, patch.margin, rays * passesToHold(samples) });
   // What lands on a patch from elsewhere counts as a whole.
   const bool isOfPlace = patch.fromColumn == patch.column && patch.fromRow == patch.row;
   const auto pixels = static_cast<std::size_t>(patch.columns * patch.rows);

@@ -41,7 +41,7 @@ RayTask<Real> Pilot<Real>::taskFor(double step, const Medium<Real>& medium) cons
   RaySettings settings = setup_.settings;
   settings.stepVoxels = step;
   settings.adaptiveTolerance = adaptiveToleranceFor(step, settings.adaptiveTolerance);
-  return makeTask<Real>(medium, {}, setup_.light, settings);
+  return makeTask(medium, setup_.light, settings);
 }
 
 template <class Real>
@@ -98,7 +98,7 @@ bool Pilot<Real>::trace(Group& group, const PassNumber& first, const Monitor& mo
   TracedPass& together = group.underWay;
   if (together.tilesDone == 0 || group.keysUnderWay != keys)
   {
-    together.resize(passes, 0);
+    together.resize(passes);
     group.keysUnderWay = keys;
   }
   if (group.isOfFiner && !makeFiner(monitor))

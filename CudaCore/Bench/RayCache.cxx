@@ -10,12 +10,8 @@
 namespace schlieren
 {
 
-bool RayCache::prepare(RaysKey key, std::int64_t margin)
+bool RayCache::prepare(const RaysKey& key, std::int64_t margin)
 {
-  if (key_ && !key.gradients)
-  {
-    key.gradients = key_->gradients; // more was gathered than is requested
-  }
   if (key_ && key_->tie() == key.tie() && margin_ >= margin)
   {
     return false;
@@ -25,7 +21,6 @@ bool RayCache::prepare(RaysKey key, std::int64_t margin)
   inScratch_ = -1;
   strong_.reset();
   histogram_.reset();
-  tint_.reset();
   key_ = key;
   margin_ = margin;
   return true;
@@ -41,10 +36,10 @@ const std::vector<MovedRay>& RayCache::movedIn(
   return moved_->second;
 }
 
-void RayCache::prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields)
+void RayCache::prepareScratch(std::int64_t number, const Pass& pass, Device device)
 {
   const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
-  if (inScratch_ == number && scratch_.gathered.size() == rays * static_cast<std::size_t>(fields))
+  if (inScratch_ == number)
   {
     return;
   }
@@ -62,30 +57,25 @@ void RayCache::prepareScratch(std::int64_t number, const Pass& pass, Device devi
   }
   if (device == Device::Cpu)
   {
-    scratch_.resize(pass, fields);
+    scratch_.resize(pass);
   }
   inScratch_ = number;
   isScratchTraced_ = false;
 }
 
-const TracedPass* RayCache::raysOf(std::int64_t number, const Pass& pass, Device device, int fields,
+const TracedPass* RayCache::raysOf(std::int64_t number, const Pass& pass, Device device,
   std::size_t memoryBudget, const Trace& trace)
 {
   const auto index = static_cast<std::size_t>(number);
   if (index < passes_.size())
   {
-    if (fields == 0 || !passes_[index].gathered.empty())
-    {
-      return &passes_[index];
-    }
-    passes_.resize(index); // traced while nothing was tinted
-    tint_.reset();
+    return &passes_[index];
   }
-  prepareScratch(number, pass, device, fields);
+  prepareScratch(number, pass, device);
   if (!isScratchTraced_)
   {
     // All passes of an image in one place.
-    const bool isWantedOnHost = fields > 0 || (!passes_.empty() && !passes_.front().onDevice);
+    const bool isWantedOnHost = !passes_.empty() && !passes_.front().onDevice;
     isScratchTraced_ = trace(scratch_, isWantedOnHost);
   }
   if (!isScratchTraced_)
@@ -130,20 +120,6 @@ void RayCache::request(const TracedPass& traced, const TracedRays& rays, std::in
                               : schlieren::strongDeflection(
                                   rays, scene.view.width, scene.view.height, errors, scene.threads);
   }
-}
-
-std::optional<Tint> RayCache::tintOf(const TracedRays& rays, const Field& field, const Scene& scene)
-{
-  if (field.gradients.count == 0)
-  {
-    return {};
-  }
-  if (!tint_)
-  {
-    tint_ = tintReference(
-      rays, scene.fieldColors.size(), scene.view.width, scene.view.height, scene.threads);
-  }
-  return Tint{ scene.fieldColors, *tint_ };
 }
 
 void RayCache::finish()

@@ -5,7 +5,6 @@
 #include "Bench/StageSettings.h"
 #include "Optics/AutomaticK.h"
 #include "Optics/DeflectionHistogram.h"
-#include "Optics/Tint.h"
 #include "Rays/TracedPass.h"
 #include "Rays/TracedRays.h"
 #include "Schlieren.h"
@@ -102,13 +101,12 @@ struct RaysKey
   RaySettings settings;
   std::uint32_t seed;
   Device device;
-  std::optional<std::uint64_t> gradients; ///< version of those that were gathered
 
   auto tie() const
   {
     return std::tuple_cat(view.tie(),
-      std::tie(settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, seed, device,
-        gradients));
+      std::tie(
+        settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, seed, device));
   }
 };
 
@@ -119,7 +117,7 @@ class RayCache
 public:
   /// Drops what is cached where it is not that of `key`, or has less around the image than `margin`.
   /// Returns whether it was.
-  bool prepare(RaysKey key, std::int64_t margin);
+  bool prepare(const RaysKey& key, std::int64_t margin);
   std::int64_t margin() const { return margin_; } ///< of the rays that are cached
   /// Whether rays of this view are cached, whatever they were traced with.
   bool areOf(const Frame& frame, const View& view) const
@@ -135,8 +133,8 @@ public:
   /// Traces a pass, or resumes it. False if aborted or paused. `isWantedOnHost`: or else where it was traced.
   using Trace = std::function<bool(TracedPass& traced, bool isWantedOnHost)>;
 
-  /// The rays of a pass, cached or traced now; null if aborted or paused. `fields`: whose gradients they gather.
-  const TracedPass* raysOf(std::int64_t number, const Pass& pass, Device device, int fields,
+  /// The rays of a pass, cached or traced now; null if aborted or paused.
+  const TracedPass* raysOf(std::int64_t number, const Pass& pass, Device device,
     std::size_t memoryBudget, const Trace& trace);
   /// Whether these rays stay where they are when the next pass is requested.
   bool holds(const TracedPass& traced) const { return &traced != &scratch_; }
@@ -148,9 +146,6 @@ public:
   double strongDeflection() const { return *strong_; }
   Histogram histogram() const { return histogram_->histogram(); }
 
-  /// How fields tint the image, by the rays of its first pass.
-  std::optional<Tint> tintOf(const TracedRays& rays, const Field& field, const Scene& scene);
-
   /// Gives back the memory that only served to make more rays.
   void finish();
   /// All of it, for rays in another medium or on another device.
@@ -158,7 +153,7 @@ public:
 
 private:
   /// Makes scratch_ the place for the rays of a pass, where it is not that already.
-  void prepareScratch(std::int64_t number, const Pass& pass, Device device, int fields);
+  void prepareScratch(std::int64_t number, const Pass& pass, Device device);
 
   std::optional<std::pair<ViewKey, std::vector<MovedRay>>> moved_; ///< in the last view
   std::optional<RaysKey> key_;
@@ -170,7 +165,6 @@ private:
   bool isScratchTraced_ = false;                 ///< all of it
   std::optional<double> strong_;                 ///< deflection, once automatic k has requested it
   std::optional<DeflectionHistogram> histogram_; ///< likewise
-  std::optional<double> tint_; ///< the reference of what they have gathered, likewise
 };
 
 } // namespace schlieren

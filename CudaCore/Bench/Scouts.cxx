@@ -79,7 +79,7 @@ Scouts::Scouts(RayTask<Real> task, const ViewSetup<Real>& setup, const Scene& sc
   view_.path = view_.crossed > 0 ? highest - lowest : 0;
   view_.steepestPath =
     exceededBy(mayExceed, slopes) * setup.settings.lengthScale / projection.perDataUnit;
-  view_.strongDeflection = strongDeflection({ pass, traced.exits.data(), nullptr },
+  view_.strongDeflection = strongDeflection({ pass, traced.exits.data() },
     static_cast<int>(pass.columns), static_cast<int>(pass.rows), setup.errors, scene.threads);
 }
 

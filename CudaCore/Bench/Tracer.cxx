@@ -11,7 +11,6 @@ template <class Real>
 bool Tracer<Real>::trace(const RayTask<Real>& task, const Passes& passes, TracedPass& traced,
   const Monitor& monitor, bool isWantedOnHost) const
 {
-  const TaskVersions versions{ gradients_ };
   if (device_ == Device::Cuda)
   {
     using Exits = typename CudaTracer<Real>::Exits;
@@ -19,11 +18,11 @@ bool Tracer<Real>::trace(const RayTask<Real>& task, const Passes& passes, Traced
     CudaTracer<Real>& tracer = medium_->cudaTracer();
     return processes_ && ProcessTracer<Real>::haveCuda(*processes_)
       ? medium_->processTracer().traceOnCuda(
-          tracer, exits, task, passes, versions, *processes_, traced, monitor)
-      : tracer.trace(task, passes, versions, exits, traced, monitor);
+          tracer, exits, task, passes, *processes_, traced, monitor)
+      : tracer.trace(task, passes, exits, traced, monitor);
   }
   return processes_
-    ? medium_->processTracer().trace(task, passes, versions, *processes_, traced, threads_, monitor)
+    ? medium_->processTracer().trace(task, passes, *processes_, traced, threads_, monitor)
     : traceOnCpu(task, passes, traced, threads_, monitor);
 }
 

@@ -7,8 +7,6 @@
 #include "Rays/TracedPass.h"
 #include "Types.h"
 
-#include <cstdint>
-
 namespace schlieren
 {
 
@@ -18,22 +16,17 @@ template <class Real>
 class Tracer
 {
 public:
-  /// `medium` and `processes` stay with their owner; null: there are no others. `gradients`: version of those of the fields.
-  Tracer(MediumOnDevices<Real>& medium, Device device, Processes* processes, int threads,
-    std::uint64_t gradients)
+  /// `medium` and `processes` stay with their owner; null: there are no others.
+  Tracer(MediumOnDevices<Real>& medium, Device device, Processes* processes, int threads)
     : medium_(&medium)
     , device_(device)
     , processes_(processes)
     , threads_(threads)
-    , gradients_(gradients)
   {
   }
 
   /// The same of another medium, with this rank alone.
-  Tracer in(MediumOnDevices<Real>& medium) const
-  {
-    return { medium, device_, nullptr, threads_, gradients_ };
-  }
+  Tracer in(MediumOnDevices<Real>& medium) const { return { medium, device_, nullptr, threads_ }; }
 
   /// Traces passes, or resumes them. False if aborted or paused: the same call then does the rest. Where they are traced by
   /// CPUs, `traced` has their size. `isWantedOnHost`: or else where it was traced. Throws DeviceError.
@@ -44,7 +37,7 @@ public:
   TracedPass trace(const RayTask<Real>& task, const Passes& passes) const
   {
     TracedPass traced;
-    traced.resize(passes, 0);
+    traced.resize(passes);
     trace(task, passes, traced, {});
     return traced;
   }
@@ -54,7 +47,6 @@ private:
   Device device_;
   Processes* processes_;
   int threads_;
-  std::uint64_t gradients_;
 };
 
 } // namespace schlieren

@@ -227,27 +227,6 @@ void validateLight(const Scene& scene, const Frame& frame)
     "or ParallelScale, so that it is no more than 45.");
 }
 
-void validateColors(const Field& field, const Scene& scene)
-{
-  const FieldGradients& gradients = field.gradients;
-  if (gradients.count == 0)
-  {
-    return;
-  }
-  require(field.source ? gradients.count == field.source->fields()
-                       : gradients.count > 0 && gradients.values != nullptr,
-    "Field gradients need values, or a source with as many fields.");
-  require(scene.fieldColors.size() == static_cast<std::size_t>(gradients.count), "There are ",
-    scene.fieldColors.size(), " FieldColors for ", gradients.count,
-    " fields. Give each field one.");
-  for (const std::array<float, 3>& color : scene.fieldColors)
-  {
-    require(std::all_of(color.begin(), color.end(), [](float c) { return c >= 0 && c <= 1; }),
-      "FieldColors holds a value that is not between 0 and 1. Give red, green and blue as "
-      "contributions of 1.");
-  }
-}
-
 } // namespace
 
 void validate(const Field& field, const Scene& scene)
@@ -257,11 +236,10 @@ void validate(const Field& field, const Scene& scene)
     field.lengthScale,
     ", but it is the length of one data unit in metres. Set it to a positive number.");
   validateScene(scene);
-  validateColors(field, scene);
   const Frame frame = frameOf(field.grid, scene.view); // which throws where the view is bad
   validateLight(scene, frame);
   const std::string problem =
-    scene.lightModel == LightModel::Waves ? problemOfWaves(field, scene, frame) : "";
+    scene.lightModel == LightModel::Waves ? problemOfWaves(scene, frame) : "";
   require(problem.empty(), problem);
 }
 

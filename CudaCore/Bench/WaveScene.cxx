@@ -51,7 +51,7 @@ LightSource sourceOfWaves(const Scene& scene)
   return scene.cutoff == Cutoff::KnifeEdge ? LightSource{} : scene.source;
 }
 
-std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& frame)
+std::string problemOfWaves(const Scene& scene, const Frame& frame)
 {
   if (!isOfWaves(scene.cutoff))
   {
@@ -99,19 +99,13 @@ std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& 
       "to Refracted," +
       orRays(scene);
   }
-  if (field.gradients.count > 0)
-  {
-    return thatWaves(scene) +
-      ", but the image is tinted by fields, which colour rays. Set ColorByField to off," +
-      orRays(scene);
-  }
   return "";
 }
 
 std::int64_t pixelsOfFresnelMargin(
   const Field& field, const Scene& scene, const Frame& frame, const ExitFaces& faces)
 {
-  if (scene.lightModel == LightModel::Rays || !problemOfWaves(field, scene, frame).empty())
+  if (scene.lightModel == LightModel::Rays || !problemOfWaves(scene, frame).empty())
   {
     return 0;
   }

@@ -22,7 +22,7 @@ std::string orRays(const Scene& scene);
 LightSource sourceOfWaves(const Scene& scene);
 
 /// Why no waves can be made of a scene, and what to do; empty where they can.
-std::string problemOfWaves(const Field& field, const Scene& scene, const Frame& frame);
+std::string problemOfWaves(const Scene& scene, const Frame& frame);
 
 /// Pixels around an image from which waves may carry light into it besides what is bent; 0 of LightModel::Rays.
 std::int64_t pixelsOfFresnelMargin(

@@ -106,7 +106,7 @@ bool WaveStage<Real>::areWanted(Image& image) const
   {
     return false;
   }
-  std::string problem = problemOfWaves(request_.field, scene, frame_);
+  std::string problem = problemOfWaves(scene, frame_);
   if (problem.empty() && faces_.ratio != 1 && (frame_.pupil > 0 || scene.source.distance))
   {
     problem = thatWaves(scene) +
@@ -203,7 +203,7 @@ const TracedPass* WaveStage<Real>::tracePass(
   };
   constexpr std::size_t partOfBudget = 4; // the rest is for the image's own rays
   return rays_.raysOf(
-    number, pass, request_.device, 0, request_.scene.memoryBudget / partOfBudget, trace);
+    number, pass, request_.device, request_.scene.memoryBudget / partOfBudget, trace);
 }
 
 /// Before they are traced.
@@ -236,11 +236,11 @@ bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
   const Light ofRays = lightOf(scene, field.grid, frame, faces_);
   const Medium<Real>& medium = view_.medium.medium;
   const RaySettings settings = settingsOf(scene, field.lengthScale, medium.steepest.perVoxel);
-  const RayTask<Real> task = makeTask<Real>(medium, {}, ofRays, settings);
+  const RayTask<Real> task = makeTask(medium, ofRays, settings);
   const std::int64_t border = borderOf(image, screen) * screen.raysPerPixel;
   const RaysKey key{ { frame, scene.view.width, scene.view.height, settings.kernel,
                        LightKey::of(scene, frame, 0, faces_), view_.medium.changes },
-    settings, scene.seed, request_.device, {} };
+    settings, scene.seed, request_.device };
   work_.raySets += rays_.prepare(key, border) ? 1 : 0;
   // Rays of a wider margin will do.
   const std::int64_t around = rays_.margin() - rays_.margin() % screen.raysPerPixel;

@@ -18,7 +18,7 @@ namespace schlieren
 class CudaFilm
 {
 public:
-  /// Has as many planes as `films`, of their size and fixed-point scale. Nothing may tint them. `raysPerBand`: so many
+  /// Has as many planes as `films`, of their size and fixed-point scale. `raysPerBand`: so many
   /// are shaded, then deposited on the film, at a time, or some rows where these are more.
   explicit CudaFilm(const Films& films, std::int64_t raysPerBand = std::int64_t{ 1 } << 20);
   ~CudaFilm();

@@ -165,7 +165,5 @@ template RayCounts depositRows<1>(
   std::int64_t, std::int64_t, const std::vector<TracedRays>&, const RowShader<1>&, Films&);
 template RayCounts depositRows<3>(
   std::int64_t, std::int64_t, const std::vector<TracedRays>&, const RowShader<3>&, Films&);
-template RayCounts depositRows<4>(
-  std::int64_t, std::int64_t, const std::vector<TracedRays>&, const RowShader<4>&, Films&);
 
 } // namespace schlieren

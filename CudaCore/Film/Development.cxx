@@ -16,10 +16,9 @@
 namespace schlieren
 {
 
-Films filmsOf(const FilmSettings& settings, const Cutoffs& cutoff, std::optional<Tint> tint,
-  std::int64_t maxRays)
+Films filmsOf(const FilmSettings& settings, const Cutoffs& cutoff, std::int64_t maxRays)
 {
-  return { channelsOf(cutoff), std::move(tint), settings.width, settings.height, maxRays };
+  return { channelsOf(cutoff), settings.width, settings.height, maxRays };
 }
 
 void develop(const Films& films, std::int64_t passes, int threads, Image& image)
@@ -49,7 +48,7 @@ bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
     { 0, 0 } };
   if (!films_)
   {
-    films_ = filmsOf(settings_, exposure_.cutoff, {}, exposure_.maxRays);
+    films_ = filmsOf(settings_, exposure_.cutoff, exposure_.maxRays);
     const auto rays = static_cast<std::size_t>(pass.columns * pass.rows);
     if (device == Device::Cuda)
     {
@@ -75,8 +74,8 @@ bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
   }
   else
   {
-    exposeFrom(nextRow_, { { pass, exits_.data(), nullptr } }, exposure_.cutoff,
-      exposure_.projection, margin, settings_.threads, *films_, monitor);
+    exposeFrom(nextRow_, { { pass, exits_.data() } }, exposure_.cutoff, exposure_.projection,
+      margin, settings_.threads, *films_, monitor);
   }
   passes_ += nextRow_ == 0 ? 1 : 0;
   return nextRow_ == 0;

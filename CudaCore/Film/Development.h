@@ -6,7 +6,6 @@
 #include "Film/Exposure.h"
 #include "Film/Image.h"
 #include "Optics/Cutoffs.h"
-#include "Optics/Tint.h"
 #include "Rays/CudaPass.h"
 #include "Rays/RayExit.h"
 #include "Types.h"
@@ -30,8 +29,7 @@ struct FilmSettings
 };
 
 /// The films that an image needs.
-Films filmsOf(const FilmSettings& settings, const Cutoffs& cutoff, std::optional<Tint> tint,
-  std::int64_t maxRays);
+Films filmsOf(const FilmSettings& settings, const Cutoffs& cutoff, std::int64_t maxRays);
 
 /// Makes of the films of some passes the image: its light, intensity and colour.
 void develop(const Films& films, std::int64_t passes, int threads, Image& image);

@@ -32,11 +32,9 @@ RayCounts exposeRows(std::int64_t begin, std::int64_t end, const std::vector<Tra
 
 } // namespace
 
-Films::Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t maxRays)
-  : tintOfRays(std::move(tint))
+Films::Films(int channels, int width, int height, std::int64_t maxRays)
 {
-  const int count = channels == 1 && tintOfRays ? 4 : channels;
-  for (int plane = 0; plane < count; ++plane)
+  for (int plane = 0; plane < channels; ++plane)
   {
     planes.emplace_back(width, height, maxRays);
   }
@@ -45,7 +43,7 @@ Films::Films(int channels, std::optional<Tint> tint, int width, int height, std:
 LightBalance Films::balance(double raysPerPixel) const
 {
   LightBalance all;
-  for (std::size_t plane = 0; plane < (planes.size() == 3 ? 3 : 1); ++plane)
+  for (std::size_t plane = 0; plane < planes.size(); ++plane)
   {
     const Film& film = planes[plane];
     const double weight = (planes.size() == 3 ? luminance[plane] : 1) /
@@ -81,8 +79,7 @@ PixelArray<float> Films::developColor(double raysPerPixel, int threads) const
   PixelArray<float> image(3 * planes[0].pixels());
   for (std::size_t channel = 0; channel < 3; ++channel)
   {
-    const Film& film = planes[planes.size() - 3 + channel];
-    const PixelArray<float> light = film.develop(raysPerPixel, threads);
+    const PixelArray<float> light = planes[channel].develop(raysPerPixel, threads);
     for (std::size_t pixel = 0; pixel < light.size(); ++pixel)
     {
       image[3 * pixel + channel] = light[pixel];
@@ -117,9 +114,7 @@ RayCounts exposeFrom(std::int64_t& firstRow, const std::vector<TracedRays>& pass
     firstRow, rows, rowsPerPiece, threads,
     [&](std::int64_t begin, std::int64_t end)
     {
-      const auto work = films.planes.size() == 1 ? exposeRows<1>
-        : films.planes.size() == 3               ? exposeRows<3>
-                                                 : exposeRows<4>;
+      const auto work = films.planes.size() == 1 ? exposeRows<1> : exposeRows<3>;
       const RayCounts countsHere = work(begin, end, passes, cutoff, projection, margin, films);
       const std::lock_guard<std::mutex> guard(countsLock);
       counts.add(countsHere);

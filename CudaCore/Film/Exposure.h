@@ -6,23 +6,20 @@
 #include "Film/PixelArray.h"
 #include "Film/Shading.h"
 #include "Optics/Cutoffs.h"
-#include "Optics/Tint.h"
 #include "Rays/TracedRays.h"
 #include "Types.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace schlieren
 {
 
-/// The films of an image: of one for light, or of three for linear red, green and blue. Where fields tint a
-/// image of one, three more hold its colours.
+/// The films of an image: of one for light, or of three for linear red, green and blue.
 struct Films
 {
-  /// `channels` of the cutoff, 1 or 3. `tint`: unset where nothing tints.
-  Films(int channels, std::optional<Tint> tint, int width, int height, std::int64_t maxRays);
+  /// `channels` of the cutoff, 1 or 3.
+  Films(int channels, int width, int height, std::int64_t maxRays);
 
   bool isColored() const { return planes.size() > 1; }
 
@@ -33,7 +30,6 @@ struct Films
   /// Three values per pixel.
   PixelArray<float> developColor(double raysPerPixel, int threads) const;
 
-  std::optional<Tint> tintOfRays;
   std::vector<Film> planes;
 };
 

@@ -13,10 +13,10 @@ ProgressiveImage::ProgressiveImage(const FilmSettings& settings)
 {
 }
 
-void ProgressiveImage::begin(const Exposure& exposure, std::optional<Tint> tint)
+void ProgressiveImage::begin(const Exposure& exposure)
 {
   exposure_ = exposure;
-  films_ = filmsOf(settings_, exposure.cutoff, std::move(tint), exposure.maxRays);
+  films_ = filmsOf(settings_, exposure.cutoff, exposure.maxRays);
   if (exposure.projection.pupilTilt > 0)
   {
     centres_.wantAll();
@@ -49,7 +49,7 @@ bool ProgressiveImage::add(
     ++passes_;
     return true;
   }
-  waiting_.push_back({ pass, traced.exits.data(), traced.gathered.data() });
+  waiting_.push_back({ pass, traced.exits.data() });
   if (rays == Rays::Go || isLast || monitor.paused || nextRow_ > 0)
   {
     counts_.add(exposeFrom(nextRow_, waiting_, exposure_.cutoff, exposure_.projection,
@@ -77,8 +77,7 @@ ProgressiveImage::SoFar& ProgressiveImage::filmSoFar()
 {
   if (!soFar_)
   {
-    soFar_.emplace(
-      SoFar{ filmsOf(settings_, exposure_.cutoff, films_->tintOfRays, exposure_.maxRays) });
+    soFar_.emplace(SoFar{ filmsOf(settings_, exposure_.cutoff, exposure_.maxRays) });
   }
   return *soFar_;
 }

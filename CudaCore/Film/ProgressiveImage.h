@@ -35,7 +35,7 @@ public:
   ProgressiveImage& operator=(const ProgressiveImage&) = delete;
 
   /// What the first pass has to be traced for.
-  void begin(const Exposure& exposure, std::optional<Tint> tint);
+  void begin(const Exposure& exposure);
   bool isBegun() const { return films_.has_value(); }
   const Cutoffs& cutoff() const { return exposure_.cutoff; } ///< once begun
 

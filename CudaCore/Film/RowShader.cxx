@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Film/RowShader.h"
 
-#include <array>
-#include <cstddef>
 #include <type_traits>
 #include <variant>
 
@@ -13,7 +11,7 @@ namespace schlieren
 namespace
 {
 
-template <int planes, bool isTinted, class CutoffKind>
+template <int planes, class CutoffKind>
 class ShaderOf : public RowShader<planes>
 {
 public:
@@ -23,7 +21,6 @@ public:
         std::is_same_v<CutoffKind, FringePhase>)
     , cutoff_(cutoff)
     , projection_(projection)
-    , tint_(isTinted ? &*films.tintOfRays : nullptr)
     , margin_(margin)
     , width_(static_cast<double>(films.planes[0].width()))
     , height_(static_cast<double>(films.planes[0].height()))
@@ -46,16 +43,9 @@ public:
       {
         counts.addShaded(exit, cutoff_);
       }
-      const FilmRay<CutoffKind::channels> ray = schlieren::shade(
+      const FilmRay<planes> ray = schlieren::shade(
         exit, startColumn + static_cast<double>(i), startRow, pass.pass.tilt, projection_, cutoff_);
-      if constexpr (isTinted)
-      {
-        rays[i] = tinted(ray, pass.gathered, first + i);
-      }
-      else
-      {
-        rays[i] = ray;
-      }
+      rays[i] = ray;
       const double x = ray.x, y = ray.y;
       if (ray.arrives && x > -1 && x < width_ + 1 && y > -1 && y < height_ + 1)
       {
@@ -66,28 +56,8 @@ public:
   }
 
 private:
-  /// Appends the colours to the light.
-  FilmRay<planes> tinted(
-    const FilmRay<CutoffKind::channels>& ray, const float* gathered, std::int64_t number) const
-  {
-    FilmRay<planes> colored{ ray.x, ray.y, {}, ray.arrives, ray.crossed };
-    if (ray.arrives)
-    {
-      const std::array<double, 3> color =
-        tint_->of(gathered + static_cast<std::size_t>(number) * tint_->colors.size());
-      colored.light[0] = ray.light[0];
-      for (std::size_t plane = 0; plane < 3; ++plane)
-      {
-        colored.light[planes - 3 + plane] =
-          ray.light[CutoffKind::channels == 1 ? 0 : plane] * color[plane];
-      }
-    }
-    return colored;
-  }
-
   CutoffKind cutoff_;
   const Projection& projection_;
-  const Tint* tint_;
   std::int64_t margin_;
   double width_, height_;
 };
@@ -102,22 +72,14 @@ std::unique_ptr<const RowShader<planes>> rowShader(
     [&](const auto& kind) -> std::unique_ptr<const RowShader<planes>>
     {
       using Kind = std::decay_t<decltype(kind)>;
-      // Three films of a cutoff that has as many channels, or one: four if tinted.
-      if constexpr (planes == (Kind::channels == 1 ? 4 : 3))
-      {
-        if (films.tintOfRays)
-        {
-          return std::make_unique<ShaderOf<planes, true, Kind>>(kind, projection, films, margin);
-        }
-      }
       if constexpr (planes == 1 && std::is_same_v<Kind, Interferogram>)
       {
-        return std::make_unique<ShaderOf<planes, false, FringePhase>>(
+        return std::make_unique<ShaderOf<planes, FringePhase>>(
           FringePhase{ kind }, projection, films, margin);
       }
       else if constexpr (planes == Kind::channels)
       {
-        return std::make_unique<ShaderOf<planes, false, Kind>>(kind, projection, films, margin);
+        return std::make_unique<ShaderOf<planes, Kind>>(kind, projection, films, margin);
       }
       return nullptr;
     },
@@ -127,8 +89,6 @@ std::unique_ptr<const RowShader<planes>> rowShader(
 template std::unique_ptr<const RowShader<1>> rowShader<1>(
   const Cutoffs&, const Projection&, const Films&, std::int64_t);
 template std::unique_ptr<const RowShader<3>> rowShader<3>(
-  const Cutoffs&, const Projection&, const Films&, std::int64_t);
-template std::unique_ptr<const RowShader<4>> rowShader<4>(
   const Cutoffs&, const Projection&, const Films&, std::int64_t);
 
 } // namespace schlieren

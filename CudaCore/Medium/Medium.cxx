@@ -93,13 +93,6 @@ MediumView<Real> Medium<Real>::view() const
   return view;
 }
 
-template <class Real>
-FieldGradientsView Medium<Real>::gradientsOf(const Field& field) const
-{
-  return tree && field.gradients.count > 0 ? tree->gradients()
-                                           : FieldGradientsView::of(field.grid, field.gradients);
-}
-
 template Medium<float> buildTree(const Field&, const TreeSettings&);
 template Medium<double> buildTree(const Field&, const TreeSettings&);
 template bool refine(Medium<float>&, const Column&, const Monitor&, Unneeded);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Medium/Samples/Field.h"
-#include "Medium/Samples/FieldGradients.h"
 #include "Medium/Samples/Interpolation.h"
 #include "Medium/Samples/Prefilter.h"
 #include "Medium/Samples/SteepestPlace.h"
@@ -34,7 +33,6 @@ struct Medium
   SteepestPlace steepest{};      ///< box by box of 8 voxels an edge; of a tree, brick by brick
 
   MediumView<Real> view() const;
-  FieldGradientsView gradientsOf(const Field& field) const; ///< that rays gather
 };
 
 /// Builds the medium. Solids are where `field.valid` is 0 or a sample is not finite; they, and transparent

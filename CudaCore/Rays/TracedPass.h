@@ -9,17 +9,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace schlieren
 {
 
-/// The rays of passes, one after the other, and what each has gathered of each field's gradient: its integral
-/// over the ray, a number without unit. Nothing where the view has no fields.
+/// The rays of passes, one after the other.
 struct TracedPass
 {
   RayExits exits;
-  std::vector<float> gathered;
   std::unique_ptr<CudaPass> onDevice; ///< the rays, if they stay there; `exits` is empty then
   std::int64_t crossed = 0;           ///< rays that met the grid
   double worstDrift = 0;              ///< of | |p| / n - 1 | where rays leave the grid
@@ -33,17 +30,15 @@ struct TracedPass
   }
 
   /// Makes room on the host.
-  void resize(const Passes& passes, int fields)
+  void resize(const Passes& passes)
   {
     onDevice.reset();
     tilesDone = 0;
     exits.resize(passes.rays());
-    gathered.assign(passes.rays() * static_cast<std::size_t>(fields), 0);
   }
   std::size_t bytes() const
   {
-    const std::size_t rays = exits.size() + (onDevice ? onDevice->size() : 0);
-    return rays * sizeof(RayExit) + gathered.size() * sizeof(float);
+    return (exits.size() + (onDevice ? onDevice->size() : 0)) * sizeof(RayExit);
   }
 };
 

@@ -13,8 +13,7 @@ namespace schlieren
 struct TracedRays
 {
   Pass pass;
-  const RayExit* exits;  ///< row by row
-  const float* gathered; ///< of the gradient of each field, ray by ray; null where nothing tints
+  const RayExit* exits; ///< row by row
 
   std::int64_t rayOf(std::int64_t column, std::int64_t row) const
   {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqFieldsWidget.h"
 
-#include "pqColorChooserButton.h"
 #include "pqPropertyWidgetDecorator.h"
 #include "pqProxyWidget.h"
 #include "pqTransferFunctionWidget.h"
@@ -17,7 +16,6 @@
 #include "vtkSMProxy.h"
 #include "vtkSMProxyProperty.h"
 #include "vtkSMTrace.h"
-#include "vtkSMUncheckedPropertyHelper.h"
 
 #include <QBoxLayout>
 #include <QComboBox>
@@ -30,7 +28,6 @@
 #include <QToolButton>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace
@@ -40,19 +37,8 @@ enum Column
 {
   ARRAY,
   FROM,
-  TO,
-  COLOR
+  TO
 };
-
-/// Returns the filter's default colour.
-QColor colorOf(int row) { return QColor::fromHsvF(std::fmod(row * 0.61803398875, 1), 1, 1); }
-
-void setColor(QVariantList& colors, int row, const QColor& color)
-{
-  colors[3 * row] = color.redF();
-  colors[3 * row + 1] = color.greenF();
-  colors[3 * row + 2] = color.blueF();
-}
 
 void complete(QVariantList& list, int count)
 {
@@ -95,21 +81,17 @@ QLineEdit* newLimitEdit(const QString& text)
 pqFieldsWidget::pqFieldsWidget(
   vtkSMProxy* smproxy, vtkSMPropertyGroup* smgroup, QWidget* parentObject)
   : pqPropertyWidget(smproxy, parentObject)
-  , Table(new QTableWidget(0, COLOR + 1, this))
+  , Table(new QTableWidget(0, TO + 1, this))
   , Title(new QLabel(this))
   , Editor(new pqTransferFunctionWidget(this))
   , Functions(vtkSMProxyProperty::SafeDownCast(smproxy->GetProperty("TransferFunctions")))
 {
-  const bool hasColors = smproxy->GetProperty("FieldColors") != nullptr;
   this->setShowLabel(false);
   this->Table->setObjectName("Table");
-  this->Table->setHorizontalHeaderLabels({ tr("Array"), tr("From"), tr("To"), QString() });
+  this->Table->setHorizontalHeaderLabels({ tr("Array"), tr("From"), tr("To") });
   QHeaderView* header = this->Table->horizontalHeader();
   header->setMinimumSectionSize(24);
   header->setSectionResizeMode(QHeaderView::Stretch);
-  header->setSectionResizeMode(COLOR, QHeaderView::Fixed);
-  this->Table->setColumnWidth(COLOR, this->Table->verticalHeader()->defaultSectionSize());
-  this->Table->setColumnHidden(COLOR, !hasColors);
   this->Table->verticalHeader()->hide();
   this->Table->setSelectionBehavior(QAbstractItemView::SelectRows);
   this->Table->setSelectionMode(QAbstractItemView::SingleSelection);
@@ -149,26 +131,14 @@ pqFieldsWidget::pqFieldsWidget(
   this->addPropertyLink(this, "fields", SIGNAL(fieldsChanged()), smproxy->GetProperty("Fields"));
   this->addPropertyLink(
     this, "ranges", SIGNAL(rangesChanged()), smproxy->GetProperty("FieldRanges"));
-  if (hasColors)
-  {
-    this->addPropertyLink(
-      this, "colors", SIGNAL(colorsChanged()), smproxy->GetProperty("FieldColors"));
-  }
-  for (const unsigned long event :
-    { vtkCommand::ModifiedEvent, vtkCommand::UncheckedPropertyModifiedEvent })
-  {
-    this->Connection->Connect(
-      smproxy->GetProperty("IndexModel"), event, this, SLOT(showFunction()));
-  }
   this->Connection->Connect(
     this->Functions.property(), vtkCommand::ModifiedEvent, this, SLOT(readFunctions()));
   this->readFunctions();
 
-  // Shows all of it where its properties would be shown: for the index model, which comes first, or the colours.
-  vtkPVXMLElement* shown =
-    smproxy->GetProperty("Fields")->GetHints()->FindNestedElementByName("PropertyWidgetDecorator");
+  // Shows all of it where its properties would be shown.
   pqPropertyWidgetDecorator::create(
-    hasColors ? shown : shown->GetNestedElement(0)->GetNestedElement(0), this);
+    smproxy->GetProperty("Fields")->GetHints()->FindNestedElementByName("PropertyWidgetDecorator"),
+    this);
 }
 
 pqFieldsWidget::~pqFieldsWidget() = default;
@@ -176,12 +146,6 @@ pqFieldsWidget::~pqFieldsWidget() = default;
 void pqFieldsWidget::completeLists()
 {
   complete(this->Ranges, 2 * this->rows());
-  const int known = this->Colors.size() / 3;
-  complete(this->Colors, 3 * this->rows());
-  for (int row = known; row < this->rows(); ++row)
-  {
-    setColor(this->Colors, row, colorOf(row));
-  }
   this->Functions.complete(this->rows());
 }
 
@@ -190,7 +154,6 @@ void pqFieldsWidget::emitChanges()
   this->completeLists();
   Q_EMIT this->fieldsChanged();
   Q_EMIT this->rangesChanged();
-  Q_EMIT this->colorsChanged();
 }
 
 void pqFieldsWidget::setList(QVariantList& list, const QVariantList& values)
@@ -224,7 +187,6 @@ void pqFieldsWidget::removeRow()
   this->completeLists();
   this->Fields.removeAt(row);
   this->Ranges = this->Ranges.mid(0, 2 * row) + this->Ranges.mid(2 * row + 2);
-  this->Colors = this->Colors.mid(0, 3 * row) + this->Colors.mid(3 * row + 3);
   this->Functions.remove(row);
   this->showRows();
   this->emitChanges();
@@ -290,22 +252,6 @@ void pqFieldsWidget::showRows()
       QObject::connect(
         edit, &QLineEdit::editingFinished, this, [this, row]() { this->rangeEdited(row); });
     }
-
-    auto* color = new pqColorChooserButton(nullptr);
-    color->setShowAlphaChannel(false);
-    color->setToolTip(tr("The field's colour, for Color By Field"));
-    color->setChosenColor(this->Colors.size() >= 3 * (row + 1)
-        ? QColor::fromRgbF(this->Colors[3 * row].toDouble(), this->Colors[3 * row + 1].toDouble(),
-            this->Colors[3 * row + 2].toDouble())
-        : colorOf(row));
-    this->setCell(row, COLOR, color, "Color");
-    QObject::connect(color, &pqColorChooserButton::chosenColorChanged, this,
-      [this, row](const QColor& picked)
-      {
-        this->completeLists();
-        setColor(this->Colors, row, picked);
-        this->emitChanges();
-      });
   }
   this->Table->setFixedHeight(this->Table->horizontalHeader()->sizeHint().height() +
     qBound(fewest, this->rows(), most) * this->Table->verticalHeader()->defaultSectionSize() +
@@ -346,12 +292,7 @@ void pqFieldsWidget::showFunction()
       function ? vtkPiecewiseFunction::SafeDownCast(function->GetClientSideObject()) : nullptr,
       true);
   }
-  // Hides the editor for Color By Field alone, which uses the fields without functions.
-  constexpr int transferFunctions = 5;
-  const bool used =
-    vtkSMUncheckedPropertyHelper(this->proxy(), "IndexModel").GetAsInt() == transferFunctions;
-  this->Editor->setVisible(used && function);
-  this->Title->setVisible(used || row < 0);
+  this->Editor->setVisible(function);
   this->Title->setText(row < 0
       ? tr("Add a field to begin.")
       : tr("Contribution of the refractivity over %1, from the low to the high end of its range:")

@@ -15,17 +15,15 @@ class QTableWidget;
 class vtkEventQtSlotConnect;
 class vtkSMPropertyGroup;
 
-/// Edits the fields of transfer functions, one in a row: the array, its range (empty: that of the
-/// data) and, for filters with FieldColors, its colour; below the table, with the index model
-/// Transfer Functions, ParaView's editor shows the function of the selected row. The properties are
-/// Fields, FieldRanges, FieldColors and TransferFunctions. Moving a point changes the function at
-/// once and the image with Apply. Shown for the index model Transfer Functions and for ColorByField.
+/// Edits the fields of transfer functions, one in a row: the array and its range (empty: that of the
+/// data); below the table, ParaView's editor shows the function of the selected row. The properties
+/// are Fields, FieldRanges and TransferFunctions. Moving a point changes the function at once and
+/// the image with Apply. Shown for the index model Transfer Functions.
 class pqFieldsWidget : public pqPropertyWidget
 {
   Q_OBJECT
   Q_PROPERTY(QList<QVariant> fields READ fields WRITE setFields NOTIFY fieldsChanged)
   Q_PROPERTY(QList<QVariant> ranges READ ranges WRITE setRanges NOTIFY rangesChanged)
-  Q_PROPERTY(QList<QVariant> colors READ colors WRITE setColors NOTIFY colorsChanged)
 
 public:
   pqFieldsWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent = nullptr);
@@ -33,11 +31,9 @@ public:
 
   const QVariantList& fields() const { return this->Fields; }
   const QVariantList& ranges() const { return this->Ranges; }
-  const QVariantList& colors() const { return this->Colors; }
 
   void setFields(const QVariantList& values) { this->setList(this->Fields, values); }
   void setRanges(const QVariantList& values) { this->setList(this->Ranges, values); }
-  void setColors(const QVariantList& values) { this->setList(this->Colors, values); }
 
   void apply() override;
   void reset() override;
@@ -45,7 +41,6 @@ public:
 Q_SIGNALS:
   void fieldsChanged();
   void rangesChanged();
-  void colorsChanged();
 
 protected:
   /// Selects the row of a cell that gets the focus.
@@ -67,7 +62,7 @@ private:
   void setCell(int row, int column, QWidget* widget, const QString& name);
   void rangeEdited(int row);
 
-  QVariantList Fields, Ranges, Colors;
+  QVariantList Fields, Ranges;
   vtkSMProxy* Shown = nullptr; // the one of Functions in the editor
   QTableWidget* Table;
   QLabel* Title;

@@ -100,10 +100,10 @@ void march(benchmark::State& state, const RaySettings& settings)
   View view;
   view.viewDirection = directionOf(state.range(6));
   const Light light = collimatedLight(blob().grid, frameOf(blob().grid, view));
-  const RayTask<Real> task = makeTask<Real>(medium, FieldGradientsView{}, light, settings);
+  const RayTask<Real> task = makeTask<Real>(medium, light, settings);
   const Pass pass{ 0, 0, view.width, view.height, { 0, 0 } };
   TracedPass traced;
-  traced.resize(pass, 0);
+  traced.resize(pass);
   for (auto _ : state)
   {
     traceOnCpu(task, pass, traced, static_cast<int>(state.range(5)), {}, simd);

@@ -168,7 +168,7 @@ inline SampledField<float> blobField(std::int64_t points = 24)
   return { cube(points, 1), blobAt };
 }
 
-/// A blob with a hole that blocks light, and the gradients of two fields that tint.
+/// A blob with a hole that blocks light.
 struct BlobWithHole : SampledField<float>
 {
   BlobWithHole()
@@ -178,23 +178,9 @@ struct BlobWithHole : SampledField<float>
           return x * x + y * y + z * z < 0.03 ? std::numeric_limits<double>::quiet_NaN()
                                               : blobAt(x, y, z);
         })
-    , gradients(2 * samples.size())
   {
-    for (std::size_t i = 0; i < gradients.size(); ++i)
-    {
-      gradients[i] = static_cast<float>(i % 7);
-    }
     field.ambient = 1e-5;
   }
-
-  Field tinted() const
-  {
-    Field with = field;
-    with.gradients = { 2, gradients.data(), field.version };
-    return with;
-  }
-
-  std::vector<float> gradients;
 };
 
 /// The means over pixels of light that rays in their centres have, as the film has them: bilinear between rays that have a

@@ -105,17 +105,13 @@ private:
   std::vector<std::unique_ptr<RayWorker>> workers_;
 };
 
-/// Balls, with two fields.
-inline Field ballsWithFields()
+inline Field fieldOfBalls()
 {
-  const auto balls = std::make_shared<BallsSource>(threeBalls(3e-4));
-  const auto source = std::make_shared<SourceWithFields>(balls,
-    std::vector<FieldFormula>{ ballField({ 0.1, 0, 0 }, 0.3), ballField({ -0.2, 0.3, 0 }, 0.1) });
+  const auto source = std::make_shared<BallsSource>(threeBalls(3e-4));
   Field field;
   field.source = source;
   field.grid = coarsestGrid(*source);
   field.version = 1;
-  field.gradients.count = 2;
   return field;
 }
 

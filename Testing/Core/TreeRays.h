@@ -83,13 +83,13 @@ inline void expectPacksToDoWhatOneDoes(const Field& field)
       const double allowed = integrator == Integrator::Leapfrog ? 2e-9 : 3e-5;
       RaySettings rays;
       rays.kernel = { PathModel::Refracted, integrator, interpolation };
-      const RayTask<float> task = makeTask<float>(medium, FieldGradientsView{}, light, rays);
+      const RayTask<float> task = makeTask<float>(medium, light, rays);
       const Pass pass{ 0, 0, 37, 29, { 0.25, -0.125 } };
       std::vector<TracedPass> traced(all.size());
       double largest = 0;
       for (std::size_t n = 0; n < all.size(); ++n)
       {
-        traced[n].resize(pass, 0);
+        traced[n].resize(pass);
         ASSERT_TRUE(traceOnCpu(task, pass, traced[n], 2, {}, all[n]));
         for (std::size_t i = 0; i < traced[n].exits.size(); ++i)
         {

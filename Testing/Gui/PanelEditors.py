@@ -81,7 +81,6 @@ user.click(FIELDS + "/Add")
 user.choose(FIELD + "/Field1", "Y_He")
 user.type(FIELD + "/From1", "0.1")
 user.type(FIELD + "/To1", "0.4")
-user.event(f"{PROPERTIES}/{FIELD}/Color1", "setChosenColor", "0,255,0")
 user.apply()
 user.save_state("fields.pvsm")
 CURVE = f"{PROPERTIES}/{FIELDS}/TransferFunction/1QVTKWidget0"
@@ -91,13 +90,10 @@ for event, x, y, buttons in (("mousePress", 0.5, 0.3, 1), ("mouseMove", 0.6, 0.2
 user.apply()
 user.save_state("curve.pvsm")
 
-# The colours of fields go with any model, their functions with one.
+# Fields go with one model.
 user.check(FIELDS + "/TransferFunction", "visible", "true")
 user.choose("IndexModel/ComboBox", "Gladstone-Dale")
 user.check(FIELDS, "visible", "false")
-user.event(f"{PROPERTIES}/ColorByField/CheckBox", "set_boolean", "true")
-user.check(FIELDS, "visible", "true")
-user.check(FIELDS + "/TransferFunction", "visible", "false")
 user.reset()
 user.check(FIELDS + "/TransferFunction", "visible", "true")
 
@@ -118,14 +114,13 @@ smtrace.stop_trace()
 user.click(FIELDS + "/Add")
 user.delete()
 
-# Refractive Index has the editor too, but no colours.
+# Refractive Index has the editor, too.
 user.python("""
 SetActiveSource(RefractiveIndex(Input=FindSource("flow"), registrationName="grid"))
 """)
 user.choose("IndexModel/ComboBox", "Transfer Functions")
 user.click(FIELDS + "/Add")
 user.choose(FIELD + "/Field0", "temperature")
-user.check(FIELD + "/Color0", "visible", "false")
 user.apply()
 user.python(f"""
 grid = FindSource("grid")
@@ -188,7 +183,6 @@ assert np.ptp(shown) > 0 and np.array_equal(shown, scripted(
 bench = bench_of("fields.pvsm")
 assert values(bench, "Fields") == ["temperature", "Y_He"]
 assert values(bench, "FieldRanges") == [0, 0, 0.1, 0.4]
-assert len(bench.FieldColors) == 6 and values(bench, "FieldColors")[3:] == [0, 1, 0]
 assert functions(bench) == [LINE, LINE], functions(bench)
 straight = image_array(bench, "OpticalPathDifference")
 
@@ -230,7 +224,7 @@ assert np.array_equal(image_array(bench, "OpticalPathDifference"), shown)
 
 bench = bench_of("removed.pvsm")
 assert values(bench, "Fields") == ["temperature"] and functions(bench) == [LINE]
-assert len(bench.FieldRanges) == 2 and len(bench.FieldColors) == 3
+assert len(bench.FieldRanges) == 2
 with open(os.path.join(FOLDER, "removed.pvsm"), encoding="utf-8") as file:
     text = file.read()
 assert "SchlierenField1." in text and "SchlierenField2." not in text  # nobody needs it

@@ -14,18 +14,6 @@ namespace schlieren
 
 class MediumSource;
 
-/// The gradients of the fields by whose colours an image is to be tinted; nothing by default. The array
-/// belongs to the caller, as those of Field do. Where Field has a source, it is the source that knows the fields:
-/// `count` of them, and `values` is null.
-struct FieldGradients
-{
-  int count = 0; ///< fields
-  /// |grad f| of each field, `count` values for each point of the grid, in units of 1 / smallest spacing
-  /// (see gradientMagnitudes).
-  const float* values = nullptr;
-  std::uint64_t version = 0; ///< the same version, the same data
-};
-
 /// Marks in Field::valid what has no data but lets light pass.
 constexpr unsigned char transparent = 2;
 
@@ -46,7 +34,6 @@ struct Field
   const unsigned char* valid = nullptr;
   std::optional<double> ambient; ///< N outside; unset: see ambientOf(), at the domain's boundary
   double lengthScale = 1;        ///< metres per data unit
-  FieldGradients gradients;      ///< of the fields that Scene::fieldColors belong to
   /// Changes whenever anything that the arrays hold has changed: the same version, the same data.
   std::uint64_t version = 0;
 };

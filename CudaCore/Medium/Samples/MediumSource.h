@@ -89,29 +89,11 @@ public:
   /// Ranks that have the data together and make bricks of them; null: this one has all. Each has a source that answers
   /// for what has been prepared, and contentOf(bounds()) at any time.
   virtual const BrickMakers* makers() const { return nullptr; }
-  /// Until the next call, contentOf() and rangeOfField() answer for these boxes. All ranks call it, with the same boxes,
+  /// Until the next call, contentOf() answers for these boxes. All ranks call it, with the same boxes,
   /// as the next one.
   virtual void prepareContents(const std::vector<Box>& /*boxes*/) const {}
   /// The same of sample() and every nth lattice: on rank 0 of n the first one, and so on.
   virtual void prepareSamples(const std::vector<Lattice>& /*lattices*/) const {}
-
-  /// Further fields, whose gradients rays may gather.
-  virtual int fields() const { return 0; }
-
-  /// The range of all values of a field in a box, as Content says it of N.
-  struct FieldRange
-  {
-    double lowest, highest; ///< lowest > highest: the field has none
-  };
-  virtual FieldRange rangeOfField(int /*field*/, const Box& /*box*/) const { return { 1, 0 }; }
-
-  /// Does what sample() does, and writes the fields' values at the same points, field after field; NaN where a field
-  /// has none.
-  virtual void sampleWithFields(const Lattice& lattice, double* refractivity, Place* places,
-    float* distances, double* /*values*/) const
-  {
-    sample(lattice, refractivity, places, distances);
-  }
 };
 
 } // namespace schlieren

@@ -169,7 +169,6 @@ void BrickMaker<Real>::makeOf(const BrickRequest& request, Outline& outline,
   const std::function<BrickSamples(int margin)>& samplesWith) const
 {
   const NodePlace& place = request.place;
-  const Negligible& negligible = request.negligible;
   const MediumSource::Content& content = outline.content;
   Brick<Real>& brick = outline.brick;
   BrickSamples samples = samplesWith(marginOf(outline.hasEdges));
@@ -190,18 +189,11 @@ void BrickMaker<Real>::makeOf(const BrickRequest& request, Outline& outline,
     brick.kind = brick.kind == Leaf<Real>::Samples ? Leaf<Real>::Constant : brick.kind;
     return;
   }
-  if (outline.hasFields)
-  {
-    const auto& spacing = rules_.grid.spacing;
-    brick.fields =
-      fieldBrickOf(source_, outline.box, samples.fields, samples.isGas, content.cellSize, apron_,
-        *std::min_element(spacing.begin(), spacing.end()), negligible.gathered);
-  }
   findErrors(place, content, samples, hasEdge && !samples.isGas.empty(), facts);
   facts.difference = samples.highest - samples.lowest;
   facts.range = deflectionByRange * facts.difference;
   const bool isGas = brick.kind == Leaf<Real>::Samples || brick.kind == Leaf<Real>::Mixed;
-  if (facts.range <= negligible.deflection)
+  if (facts.range <= request.negligible)
   {
     facts.neglected = std::max(facts.neglected, facts.range);
     facts.largestNu = std::max(std::abs(samples.lowest), std::abs(samples.highest));

@@ -7,7 +7,6 @@
 #include "Medium/Samples/Interpolation.h"
 #include "Medium/Samples/Leaves.h"
 #include "Medium/Samples/MediumSource.h"
-#include "Medium/Tree/FieldBrick.h"
 #include "Medium/Tree/LineErrors.h"
 #include "Types.h"
 
@@ -79,29 +78,20 @@ struct Brick
   std::vector<Real> samples;              ///< empty: all are 0
   std::vector<std::int16_t> gasDistances; ///< of Leaf::Mixed, laid out like samples
   BrickFacts facts;
-  FieldBrick fields;
 
   /// Writes it for another rank of the same program on the same kind of processor.
   std::vector<char> toBytes() const;
-  /// Throws Error where they are not those of a brick with so many samples and fields.
-  static Brick fromBytes(
-    const std::vector<char>& bytes, std::size_t samplesPerBrick, std::size_t fieldCount);
+  /// Throws Error where they are not those of a brick with so many samples.
+  static Brick fromBytes(const std::vector<char>& bytes, std::size_t samplesPerBrick);
 };
 
 struct BrickSamples;
-
-/// What needs no samples.
-struct Negligible
-{
-  double deflection;
-  double gathered = 0; ///< of the fields' gradients, by a ray
-};
 
 /// A brick that is to be made.
 struct BrickRequest
 {
   NodePlace place;
-  Negligible negligible;
+  double negligible; ///< what needs no samples, as a deflection
   /// Whether it is to be divided, and its children again, where it has walls that are not flat and finer than its
   /// voxels. Then it needs no samples.
   bool dividesAtWalls = false;

@@ -22,7 +22,6 @@ struct Head
   typename Leaf<Real>::Kind kind;
   Real offset;
   BrickFacts facts;
-  FieldFacts ofFields;
 };
 
 } // namespace
@@ -30,26 +29,24 @@ struct Head
 template <class Real>
 std::vector<char> Brick<Real>::toBytes() const
 {
-  const Head<Real> head{ kind, offset, facts, fields.facts };
+  const Head<Real> head{ kind, offset, facts };
   static_assert(std::is_trivially_copyable_v<Head<Real>>);
   std::vector<char> bytes(sizeof(head));
   std::memcpy(bytes.data(), &head, sizeof(head));
   appendCounted(samples, bytes);
   appendCounted(gasDistances, bytes);
-  appendCounted(fields.gradients, bytes);
   return bytes;
 }
 
 template <class Real>
-Brick<Real> Brick<Real>::fromBytes(
-  const std::vector<char>& bytes, std::size_t samplesPerBrick, std::size_t fieldCount)
+Brick<Real> Brick<Real>::fromBytes(const std::vector<char>& bytes, std::size_t samplesPerBrick)
 {
   Brick brick;
   Head<Real> head;
   const char* next = bytes.data();
   std::size_t left = bytes.size();
-  const auto isOf = [samplesPerBrick](const auto& values, std::size_t perSample)
-  { return values.empty() || values.size() == samplesPerBrick * perSample; };
+  const auto isOf = [samplesPerBrick](const auto& values)
+  { return values.empty() || values.size() == samplesPerBrick; };
   bool isWhole = left >= sizeof(head);
   if (isWhole)
   {
@@ -57,9 +54,8 @@ Brick<Real> Brick<Real>::fromBytes(
     next += sizeof(head);
     left -= sizeof(head);
     isWhole = takeCounted(next, left, brick.samples) &&
-      takeCounted(next, left, brick.gasDistances) &&
-      takeCounted(next, left, brick.fields.gradients) && left == 0 && isOf(brick.samples, 1) &&
-      isOf(brick.gasDistances, 1) && isOf(brick.fields.gradients, fieldCount);
+      takeCounted(next, left, brick.gasDistances) && left == 0 && isOf(brick.samples) &&
+      isOf(brick.gasDistances);
   }
   if (!isWhole)
   {
@@ -69,7 +65,6 @@ Brick<Real> Brick<Real>::fromBytes(
   brick.kind = head.kind;
   brick.offset = head.offset;
   brick.facts = head.facts;
-  brick.fields.facts = head.ofFields;
   return brick;
 }
 

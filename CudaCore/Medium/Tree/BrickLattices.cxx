@@ -29,8 +29,7 @@ bool areSiblings(const BrickRequest& a, const BrickRequest& b, bool isOfLayer)
 
 } // namespace
 
-/// Points beyond a node: the apron's coefficients, and central differences of fields, depend on the next ones. Beside
-/// edges values continue along lines of three.
+/// Points beyond a node: the apron's coefficients depend on the next ones. Beside edges values continue along lines of three.
 template <class Real>
 int BrickMaker<Real>::marginOf(bool hasEdges) const
 {
@@ -82,7 +81,7 @@ std::vector<typename BrickMaker<Real>::Sampled> BrickMaker<Real>::sampledOf(
   for (std::size_t begin = 0, end = 0; begin < requests.size(); begin = end)
   {
     std::vector<Sampled> alone;
-    Sampled together{ requests[begin].place, { 1, 1, 1 }, false, false, {} };
+    Sampled together{ requests[begin].place, { 1, 1, 1 }, false, {} };
     std::array<std::int32_t, 3> last{};
     std::int64_t points = 0;
     do
@@ -92,7 +91,7 @@ std::vector<typename BrickMaker<Real>::Sampled> BrickMaker<Real>::sampledOf(
       if (outline.isSampled)
       {
         const std::array<std::int32_t, 3> one{ 1, 1, 1 };
-        alone.push_back({ place, one, outline.hasEdges, outline.hasFields, { end } });
+        alone.push_back({ place, one, outline.hasEdges, { end } });
         points += latticeOf(place, one, outline.hasEdges).size();
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
@@ -103,7 +102,6 @@ std::vector<typename BrickMaker<Real>::Sampled> BrickMaker<Real>::sampledOf(
           together.nodes[axis] = last[axis] - low + 1;
         }
         together.hasEdges = together.hasEdges || outline.hasEdges;
-        together.hasFields = together.hasFields || outline.hasFields;
         together.bricks.push_back(end);
       }
       ++end;
@@ -130,16 +128,7 @@ typename BrickMaker<Real>::Values BrickMaker<Real>::valuesAt(const Sampled& samp
   values.places.resize(points);
   values.distances.resize(sampled.hasEdges ? points : 0);
   float* const distances = sampled.hasEdges ? values.distances.data() : nullptr;
-  if (sampled.hasFields)
-  {
-    values.fields.resize(static_cast<std::size_t>(source_.fields()) * points);
-    source_.sampleWithFields(
-      values.lattice, values.nu.data(), values.places.data(), distances, values.fields.data());
-  }
-  else
-  {
-    source_.sample(values.lattice, values.nu.data(), values.places.data(), distances);
-  }
+  source_.sample(values.lattice, values.nu.data(), values.places.data(), distances);
   for (double& value : values.nu)
   {
     value = nuOf(value);
@@ -175,17 +164,14 @@ BrickSamples BrickMaker<Real>::samplesOf(const Values& values, const Sampled& sa
     const auto height = static_cast<std::size_t>(values.lattice.points[1]);
     const auto n = static_cast<std::size_t>(samples.n);
     const auto layers = static_cast<std::size_t>(samples.layers);
-    to.reserve(all.size() / values.nu.size() * n * n * layers);
-    for (std::size_t array = 0; array < all.size(); array += values.nu.size())
+    to.reserve(n * n * layers);
+    for (std::size_t k = from[2]; k < from[2] + layers; ++k)
     {
-      for (std::size_t k = from[2]; k < from[2] + layers; ++k)
+      for (std::size_t j = from[1]; j < from[1] + n; ++j)
       {
-        for (std::size_t j = from[1]; j < from[1] + n; ++j)
-        {
-          const auto row =
-            all.begin() + static_cast<std::ptrdiff_t>(array + (k * height + j) * width + from[0]);
-          to.insert(to.end(), row, row + samples.n);
-        }
+        const auto row =
+          all.begin() + static_cast<std::ptrdiff_t>((k * height + j) * width + from[0]);
+        to.insert(to.end(), row, row + samples.n);
       }
     }
   };
@@ -194,14 +180,6 @@ BrickSamples BrickMaker<Real>::samplesOf(const Values& values, const Sampled& sa
   if (outline.hasEdges)
   {
     cut(values.distances, samples.distances);
-  }
-  if (outline.hasFields)
-  {
-    samples.fields.voxel = values.lattice.spacing;
-    samples.fields.n = samples.n;
-    samples.fields.shape = shape_;
-    samples.fields.margin = samples.margin;
-    cut(values.fields, samples.fields.values);
   }
   return samples;
 }

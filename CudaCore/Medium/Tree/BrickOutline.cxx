@@ -32,7 +32,7 @@ template <class Real>
 typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(const BrickRequest& request) const
 {
   const NodePlace& place = request.place;
-  Outline outline{ boxWithApron(place), {}, 0, 0, false, false, false, {} };
+  Outline outline{ boxWithApron(place), {}, 0, 0, false, false, {} };
   Brick<Real>& brick = outline.brick;
   outline.content = source_.contentOf(outline.box);
   const MediumSource::Content& content = outline.content;
@@ -44,15 +44,12 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(const BrickReques
   }
   outline.lowest = hasData ? nuOf(content.lowest) : 0;
   outline.highest = hasData ? nuOf(content.highest) : 0;
-  const double gathered = hasData ? largestGathered(source_, outline.box) : 0;
-  const Negligible allowed = place.level < 0 ? Negligible{ 0 } : request.negligible;
-  outline.hasFields = gathered > allowed.gathered;
-  brick.fields.facts.neglected = outline.hasFields ? 0 : gathered;
-  if (!content.hasWall && !outline.hasFields)
+  const double allowed = place.level < 0 ? 0 : request.negligible;
+  if (!content.hasWall)
   {
     const double low = content.hasWindow ? std::min(outline.lowest, 0.) : outline.lowest;
     const double high = content.hasWindow ? std::max(outline.highest, 0.) : outline.highest;
-    if (deflectionByRange * (high - low) <= allowed.deflection)
+    if (deflectionByRange * (high - low) <= allowed)
     {
       brick.facts.neglected = deflectionByRange * (high - low);
       brick.facts.difference = high - low;
@@ -62,7 +59,7 @@ typename BrickMaker<Real>::Outline BrickMaker<Real>::outlineOf(const BrickReques
     }
   }
   const bool isDivided = request.dividesAtWalls && content.hasWall && !content.hasWindow &&
-    !content.areWallsFlat && !outline.hasFields && !areEdgesFine(place.level, content);
+    !content.areWallsFlat && !areEdgesFine(place.level, content);
   if (place.level < 0 || isDivided)
   {
     brick.facts.isTooLarge = true;
@@ -82,8 +79,7 @@ std::vector<Brick<Real>> BrickMaker<Real>::makeTogether(
   {
     for (const std::vector<char>& bytes : makers->make(rules_, requests))
     {
-      made.push_back(Brick<Real>::fromBytes(bytes, static_cast<std::size_t>(samplesPerBrick()),
-        static_cast<std::size_t>(source_.fields())));
+      made.push_back(Brick<Real>::fromBytes(bytes, static_cast<std::size_t>(samplesPerBrick())));
     }
   }
   return made;

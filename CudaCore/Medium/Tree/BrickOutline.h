@@ -19,7 +19,7 @@ struct BrickMaker<Real>::Outline
   Box box; ///< with its apron
   MediumSource::Content content;
   double lowest, highest; ///< nu of its data
-  bool hasEdges, hasFields;
+  bool hasEdges;
   bool isSampled;    ///< false: `brick` is all there is to it
   Brick<Real> brick; ///< as yet
 };
@@ -30,7 +30,7 @@ struct BrickMaker<Real>::Sampled
 {
   NodePlace first;                   ///< the node where the lattice begins
   std::array<std::int32_t, 3> nodes; ///< along each axis
-  bool hasEdges, hasFields;          ///< any of them
+  bool hasEdges;                     ///< any of them
   std::vector<std::size_t> bricks;   ///< which requests
 };
 
@@ -42,7 +42,6 @@ struct BrickMaker<Real>::Values
   std::vector<double> nu;
   std::vector<Place> places;
   std::vector<float> distances; ///< empty: no edges
-  std::vector<double> fields;   ///< field after field; empty: none
 };
 
 } // namespace schlieren

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -27,12 +26,11 @@ constexpr double maxOfSums = 2;
 
 constexpr int brickEdge = BrickMaker<float>::edge;
 
-/// What a leaf with one value for all may add to a ray's deflection, to its optical path and to what it gathers, at
-/// most.
+/// What a leaf with one value for all may add to a ray's deflection and to its optical path, at most.
 struct Neglected
 {
   std::int32_t leaf;
-  float deflection, opticalPath, gathered;
+  float deflection, opticalPath;
 };
 
 /// The error of a leaf with samples, of a ray's deflection: errors of any sign add up by their squares.
@@ -46,8 +44,7 @@ struct Bend
 {
   double deflection = 0;
   double opticalPath = 0; // nu times data units
-  double gathered = 0;
-  double error = 0; // sum of squares
+  double error = 0;       // sum of squares
   bool isBlocked = false;
   std::vector<Neglected> neglected;
   std::vector<Wrong> wrong;
@@ -59,7 +56,7 @@ struct LeafSegment
   std::array<double, 3> local, along; ///< from where, local coordinates; and these by data unit
   double pathLength;                  ///< data units
   double perIndex;                    ///< of the leaf
-  std::int32_t steps, leaf, brick;
+  std::int32_t steps, brick;
   std::int32_t map; ///< -1: it has none
 };
 
@@ -85,10 +82,8 @@ std::int16_t gasDistanceAt(
   return distances[at];
 }
 
-/// Adds to `gathered`, of each field, what a ray gathers.
 template <class Scheme, class Real>
-LeafSums sumUp(
-  const LeavesView<Real>& medium, const LeafSegment& segment, std::vector<float>& gathered)
+LeafSums sumUp(const LeavesView<Real>& medium, const LeafSegment& segment)
 {
   const BrickLayout& layout = medium.layout;
   LeafSums sums;
@@ -111,11 +106,6 @@ LeafSums sumUp(
     }
     const Vec3<Real> here{ static_cast<Real>(place[0]), static_cast<Real>(place[1]),
       static_cast<Real>(place[2]) };
-    if (!gathered.empty())
-    {
-      gatherGradients(medium.gradients, segment.leaf, here, static_cast<Real>(step / layout.unit),
-        gathered.data());
-    }
     const Sample<Real> sample = interpolateBrick<Scheme>(brick, layout.apron, layout.shape, here);
     sums.opticalPath += static_cast<double>(sample.value) * step;
     sums.gradient += step * (segment.perIndex * static_cast<Vec3<double>>(sample.gradient));
@@ -128,7 +118,6 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
 {
   Vec3<double> gradient{ 0, 0, 0 }; // summed up, nu by index times data units
   Bend bend;
-  std::vector<float> sums(static_cast<std::size_t>(medium.gradients.count), 0.f);
   const auto& spacing = medium.grid.spacing;
   double s = ray.entry;
   const auto at = [&](double where, int axis)
@@ -175,24 +164,20 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
     {
       bend.wrong.push_back({ found, squared(error) });
     }
-    const double ofFields =
-      medium.fieldDifferences != nullptr ? static_cast<double>(medium.fieldDifferences[found]) : 0;
-    if ((difference > 0 || ofFields > 0) && pathLength > 0)
+    if (difference > 0 && pathLength > 0)
     {
       // A slope that makes this difference over the leaf's smallest edge; the value is in the middle.
       const double edge = edgeOf(*shortest);
       bend.neglected.push_back({ found, static_cast<float>(difference * pathLength / edge),
-        static_cast<float>(0.5 * difference * pathLength),
-        static_cast<float>(ofFields * pathLength / edge) });
+        static_cast<float>(0.5 * difference * pathLength) });
       bend.error += squared(difference * pathLength / edge);
     }
     if (leaf.kind != Leaf<Real>::Constant && pathLength > 0)
     {
       const LeafSums ofLeaf = sumUp<Scheme>(medium,
         LeafSegment{ local, along, pathLength, leaf.perIndex,
-          std::max(1, static_cast<int>(std::ceil(pathLength * fastest))), found, leaf.brick,
-          leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 },
-        sums);
+          std::max(1, static_cast<int>(std::ceil(pathLength * fastest))), leaf.brick,
+          leaf.kind == Leaf<Real>::Mixed ? leaf.map : -1 });
       bend.opticalPath += ofLeaf.opticalPath;
       gradient += ofLeaf.gradient;
       bend.isBlocked = ofLeaf.isBlocked;
@@ -202,7 +187,6 @@ Bend trace(const LeavesView<Real>& medium, const Column& column, const StraightR
   const Vec3<double> sum{ gradient.x / spacing[0], gradient.y / spacing[1],
     gradient.z / spacing[2] };
   bend.deflection = std::hypot(dot(sum, column.u), dot(sum, column.v));
-  bend.gathered = std::accumulate(sums.begin(), sums.end(), 0.);
   return bend;
 }
 
@@ -258,11 +242,11 @@ double keptByMost(const std::vector<double>& deviations)
   return high;
 }
 
-/// What 99 % do not exceed, but no less than a part of the most: where a view of a far field shows hardly any flow, its
+/// What 99 % do not exceed, but no less than a tenth of the most: where a view of a far field shows hardly any flow, its
 /// noise is not to be resolved.
-double fullScaleOf(std::vector<double> values, double most, double leastPart)
+double fullScaleOf(std::vector<double> values, double most)
 {
-  constexpr double fraction = 0.99;
+  constexpr double fraction = 0.99, leastPart = 0.1;
   if (values.empty())
   {
     return most;
@@ -274,18 +258,6 @@ double fullScaleOf(std::vector<double> values, double most, double leastPart)
 }
 
 } // namespace
-
-FieldGradientsView gradientsIn(
-  const BrickLayout& layout, const float* gradients, const std::int32_t* bricks)
-{
-  const std::int64_t row = std::int64_t{ brickEdge } + 2 * layout.apron;
-  const bool isLayer = layout.shape == BrickShape::Layer;
-  const std::int64_t plane = isLayer ? 0 : row * row;
-  constexpr std::int64_t last = brickEdge - 1;
-  const std::int64_t first = layout.fields * layout.apron * (plane + row + 1);
-  return { layout.fields > 0 ? gradients + first : nullptr, layout.fields, row, plane,
-    { last, last, isLayer ? depthOfLayers : last }, bricks, layout.samplesPerBrick };
-}
 
 template <class Real>
 RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
@@ -343,7 +315,7 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
   RayFindings findings;
   findings.deflection = least.deflection;
   findings.opticalPath = least.opticalPath;
-  std::vector<double> gathered, deflections, deviations;
+  std::vector<double> deflections, deviations;
   for (std::size_t n = 0; n < bends.size(); ++n)
   {
     const Bend& bend = bends[n];
@@ -353,19 +325,14 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
       findings.opticalPath = std::max(findings.opticalPath, std::abs(bend.opticalPath));
       if (n < ofLattice)
       {
-        gathered.push_back(bend.gathered);
         deflections.push_back(bend.deflection);
         deviations.push_back(std::sqrt(bend.error));
       }
     }
   }
   findings.error = keptByMost(deviations);
-  const double mostGathered =
-    gathered.empty() ? 0 : *std::max_element(gathered.begin(), gathered.end());
-  findings.gathered =
-    std::max(least.gathered, fullScaleOf(std::move(gathered), mostGathered, 0.01));
   findings.strong =
-    std::max(least.strong, fullScaleOf(std::move(deflections), findings.deflection, 0.1));
+    std::max(least.strong, fullScaleOf(std::move(deflections), findings.deflection));
   findings.strong =
     column.fullScale > 0 ? std::min(findings.strong, column.fullScale) : findings.strong;
   for (const Bend& bend : bends)
@@ -376,13 +343,11 @@ RayFindings lookAlongRays(const LeavesView<Real>& medium, const Column& column,
       addLargest<&Neglected::deflection>(bend.neglected, allowed, findings.coarse);
       addLargest<&Neglected::opticalPath>(
         bend.neglected, tolerance * findings.opticalPath, findings.coarse);
-      addLargest<&Neglected::gathered>(
-        bend.neglected, tolerance * findings.gathered, findings.coarseInFields);
       addLargest<&Wrong::square>(
         bend.wrong, maxOfSums * allowed * maxOfSums * allowed, findings.wrong);
     }
   }
-  for (auto* leaves : { &findings.coarse, &findings.coarseInFields, &findings.wrong })
+  for (auto* leaves : { &findings.coarse, &findings.wrong })
   {
     std::sort(leaves->begin(), leaves->end());
     leaves->erase(std::unique(leaves->begin(), leaves->end()), leaves->end());

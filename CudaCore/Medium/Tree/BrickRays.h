@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Straight rays through the leaves of a tree: how much light may be bent, and what it may gather of fields, before any
-// image is made.
+// Straight rays through the leaves of a tree: how much light may be bent, before any image is made.
 #pragma once
 
-#include "Medium/Samples/FieldGradients.h"
 #include "Medium/Samples/Leaves.h"
 #include "Types.h"
 
@@ -60,16 +58,10 @@ struct BrickLayout
   std::int32_t apron;
   BrickShape shape;
   Interpolation interpolation;
-  std::int32_t fields = 0; ///< whose gradients are in bricks of their own
-  double unit = 1;         ///< of length, of these; data units
 
   /// The axes along which there is more than one sample.
   int axes() const { return shape == BrickShape::Layer ? 2 : 3; }
 };
-
-/// `gradients`: bricks of such a layout; `bricks`: of each leaf.
-FieldGradientsView gradientsIn(
-  const BrickLayout& layout, const float* gradients, const std::int32_t* bricks);
 
 /// All that rays see of a tree.
 template <class Real>
@@ -84,9 +76,6 @@ struct LeavesView
   const float* typical; ///< the same of most rays
   const Real* samples;
   const std::int16_t* gasDistances;
-  FieldGradientsView gradients;
-  const float*
-    fieldDifferences; ///< of each leaf, as `differences`, of all fields; null: there are none
   BrickLayout layout;
 };
 
@@ -99,17 +88,12 @@ struct RayFindings
   /// the largest, as automatic k has it; or Column::fullScale, where that is less.
   double strong = 0;
   double opticalPath = 0; ///< the largest; nu times data units
-  /// Gathered of all fields by the lattice's rays: what 99 % do not exceed; or, where less have gathered anything, the
-  /// most.
-  double gathered = 0;
   /// The error that 99 % of all deflections keep: along a ray, what is typical of leaves and what leaves with one value
   /// neglect, each with any sign, add up by their squares to the standard deviation of its error.
   double error = 0;
   /// Leaves with one value for all that need samples: what such leaves neglect adds up along a ray to more than
   /// `tolerance` of a strong deflection or of the largest optical path. Those that contribute most, so that half of it is gone.
   std::vector<std::int32_t> coarse;
-  std::vector<std::int32_t>
-    coarseInFields; ///< the same of leaves without gradients, and of `gathered`
   /// Leaves whose samples are too far apart, as errors along a ray add up. Those that contribute most.
   std::vector<std::int32_t> wrong;
 };

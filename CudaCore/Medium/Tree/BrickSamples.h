@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Medium/Samples/MediumSource.h"
-#include "Medium/Tree/FieldBrick.h"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +27,6 @@ struct BrickSamples
   std::vector<unsigned char> isGas; ///< empty: all are
   double lowest = std::numeric_limits<double>::infinity(); ///< nu of the gas
   double highest = -std::numeric_limits<double>::infinity();
-  FieldSamples fields; ///< empty: not wanted
 
   std::size_t index(int i, int j, int k) const
   {

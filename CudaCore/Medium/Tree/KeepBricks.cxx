@@ -19,14 +19,8 @@ void MediumTree<Real>::keep(std::int32_t at, const Brick<Real>& brick)
   node.kind = brick.kind;
   node.offset = brick.offset;
   node.facts = brick.facts;
-  const std::vector<float>& gradients = brick.fields.gradients;
   node.brick = brick.samples.empty() ? 0 : samples_.add(brick.samples);
   node.map = brick.gasDistances.empty() ? -1 : maps_.add(brick.gasDistances);
-  if (!nodeFields_.empty())
-  {
-    nodeFields_[static_cast<std::size_t>(at)] = { gradients.empty() ? 0 : gradients_.add(gradients),
-      false, brick.fields.facts };
-  }
 }
 
 template <class Real>
@@ -51,16 +45,6 @@ void MediumTree<Real>::removeMap(std::int32_t at)
   }
 }
 
-template <class Real>
-void MediumTree<Real>::removeGradients(std::int32_t at)
-{
-  if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
-  {
-    gradients_.remove(brick);
-    nodeFields_[static_cast<std::size_t>(at)].brick = 0;
-  }
-}
-
 /// Takes a node's samples from it.
 template <class Real>
 void MediumTree<Real>::forget(std::int32_t at)
@@ -68,11 +52,6 @@ void MediumTree<Real>::forget(std::int32_t at)
   Node& node = nodes_[static_cast<std::size_t>(at)];
   removeSamples(at);
   removeMap(at);
-  removeGradients(at);
-  if (!nodeFields_.empty())
-  {
-    nodeFields_[static_cast<std::size_t>(at)] = {};
-  }
   const NodePlace place = node.place;
   const std::int32_t children = node.children;
   node = { place, children };
@@ -86,22 +65,14 @@ void MediumTree<Real>::forgetNegligible(const View& view)
   {
     Node& node = nodes_[static_cast<std::size_t>(at)];
     BrickFacts& facts = node.facts;
-    const Negligible negligible = view.negligible(node.place.level);
-    if (const NodeFields fields = fieldsOf(at);
-        fields.brick > 0 && fields.facts.range <= negligible.gathered)
-    {
-      nodeFields_[static_cast<std::size_t>(at)].facts.neglected =
-        std::max(fields.facts.neglected, fields.facts.range);
-      removeGradients(at);
-    }
-    if (node.map >= 0 && !facts.hasWallEdge && facts.besideWindow <= negligible.deflection &&
-      fieldsOf(at).brick == 0)
+    const double negligible = view.negligible(node.place.level);
+    if (node.map >= 0 && !facts.hasWallEdge && facts.besideWindow <= negligible)
     {
       facts.neglected = std::max(facts.neglected, facts.besideWindow);
       removeMap(at);
       node.kind = Leaf<Real>::Samples;
     }
-    if (node.brick > 0 && node.kind == Leaf<Real>::Samples && facts.range <= negligible.deflection)
+    if (node.brick > 0 && node.kind == Leaf<Real>::Samples && facts.range <= negligible)
     {
       facts.neglected = std::max(facts.neglected, facts.range);
       removeSamples(at);

@@ -43,7 +43,7 @@ void MediumTree<Real>::findBricks(const View& view)
     const Task& task = work_.tasks[work_.tasksBegun++];
     const Node& node = nodes_[static_cast<std::size_t>(task.node)];
     const NodePlace& place = node.place;
-    const Negligible negligible = view.negligibleTo(node, fieldsOf(task.node), task.divides);
+    const double negligible = view.negligibleTo(node, task.divides);
     work_.groups.push_back(requests.size());
     for (std::int32_t child = 0; child < (task.divides ? childCount() : 1); ++child)
     {

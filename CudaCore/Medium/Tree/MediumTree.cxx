@@ -55,9 +55,6 @@ MediumTree<Real>::MediumTree(
   , samples_({ static_cast<std::size_t>(maker_.samplesPerBrick()), 1,
       PaddedVolume<Real>::readTogether, settings.memory })
   , maps_({ static_cast<std::size_t>(maker_.samplesPerBrick()) })
-  , gradients_(
-      { static_cast<std::size_t>(maker_.samplesPerBrick() * std::max(1, source_->fields())),
-        source_->fields() > 0 ? std::size_t{ 1 } : 0 })
 {
   static_assert(brickEdge == BrickMaker<Real>::edge);
   const MediumSource::Content content = contentOfAll(*source_, ambient);
@@ -71,7 +68,6 @@ template <class Real>
 void MediumTree<Real>::makeRoots()
 {
   nodes_.clear();
-  nodeFields_.clear();
   for (std::int32_t k = 0; k < rootCells_[2]; ++k)
   {
     for (std::int32_t j = 0; j < rootCells_[1]; ++j)
@@ -84,7 +80,6 @@ void MediumTree<Real>::makeRoots()
   }
   samples_.clear();
   maps_.clear();
-  gradients_.clear();
   isMeasured_ = false;
 }
 
@@ -92,7 +87,6 @@ template <class Real>
 void MediumTree<Real>::addNode(const NodePlace& place)
 {
   nodes_.push_back({ place });
-  nodeFields_.resize(source_->fields() > 0 ? nodes_.size() : 0);
 }
 
 /// Cuts off what of the node is outside of the domain.
@@ -115,12 +109,6 @@ Box MediumTree<Real>::indexBoxOf(const NodePlace& place) const
 }
 
 template <class Real>
-typename MediumTree<Real>::NodeFields MediumTree<Real>::fieldsOf(std::int32_t node) const
-{
-  return nodeFields_.empty() ? NodeFields{} : nodeFields_[static_cast<std::size_t>(node)];
-}
-
-template <class Real>
 LeafFinder MediumTree<Real>::finder() const
 {
   const double perIndex = std::ldexp(1. / brickEdge, -coarserLevels_);
@@ -129,35 +117,24 @@ LeafFinder MediumTree<Real>::finder() const
 }
 
 template <class Real>
-FieldGradientsView MediumTree<Real>::gradients() const
-{
-  return gradientsIn(layout(), gradients_.values().data(), gradientBricks_.data());
-}
-
-template <class Real>
 std::size_t MediumTree<Real>::bytesUsed() const
 {
-  return samples_.bytesUsed() + maps_.bytesUsed() + gradients_.bytesUsed() +
-    nodes_.size() * sizeof(Node) + nodeFields_.size() * sizeof(NodeFields) +
+  return samples_.bytesUsed() + maps_.bytesUsed() + nodes_.size() * sizeof(Node) +
     leaves_.size() * (sizeof(Leaf<Real>) + 2 * sizeof(std::int32_t));
 }
 
 template <class Real>
 BrickLayout MediumTree<Real>::layout() const
 {
-  return { samplesPerBrick(), apron(), shape(), settings_.interpolation, source_->fields(),
-    *std::min_element(grid_.spacing.begin(), grid_.spacing.end()) };
+  return { samplesPerBrick(), apron(), shape(), settings_.interpolation };
 }
 
 template <class Real>
 Leaf<Real> MediumTree<Real>::leafOf(std::int32_t at) const
 {
   const Node& node = nodes_[static_cast<std::size_t>(at)];
-  const bool hasGradients = fieldsOf(at).brick > 0;
   Leaf<Real> leaf{ {}, std::ldexp(1., node.place.level), node.offset, node.brick, node.map,
     node.kind };
-  // In one step no gradients would be gathered.
-  leaf.kind = leaf.kind == Leaf<Real>::Constant && hasGradients ? Leaf<Real>::Samples : leaf.kind;
   for (std::size_t axis = 0; axis < maker_.axes(); ++axis)
   {
     leaf.first[axis] =
@@ -182,11 +159,6 @@ void MediumTree<Real>::numberLeaves()
   leaves_.resize(leafNodes_.size());
   std::transform(leafNodes_.begin(), leafNodes_.end(), leaves_.begin(),
     [this](std::int32_t at) { return leafOf(at); });
-  gradientBricks_.resize(nodeFields_.empty() ? 0 : leafNodes_.size());
-  for (std::size_t leaf = 0; leaf < gradientBricks_.size(); ++leaf)
-  {
-    gradientBricks_[leaf] = fieldsOf(leafNodes_[leaf]).brick;
-  }
 }
 
 template <class Real>
@@ -215,10 +187,7 @@ template <class Real>
 void MediumTree<Real>::arrange()
 {
   const auto roots = std::ptrdiff_t{ rootCells_[0] } * rootCells_[1] * rootCells_[2];
-  const bool hasFields = !nodeFields_.empty();
   std::vector<Node> arranged(nodes_.begin(), nodes_.begin() + roots);
-  std::vector<NodeFields> fields(
-    nodeFields_.begin(), nodeFields_.begin() + (hasFields ? roots : 0));
   for (std::size_t n = 0; n < arranged.size(); ++n)
   {
     if (const std::int32_t children = arranged[n].children; children >= 0)
@@ -227,20 +196,14 @@ void MediumTree<Real>::arrange()
       for (std::int32_t child = 0; child < childCount(); ++child)
       {
         arranged.push_back(nodes_[static_cast<std::size_t>(children + child)]);
-        if (hasFields)
-        {
-          fields.push_back(nodeFields_[static_cast<std::size_t>(children + child)]);
-        }
       }
     }
   }
   nodes_ = std::move(arranged);
-  nodeFields_ = std::move(fields);
   numberLeaves();
 
   std::vector<std::int32_t> bricks{ 0 };
   std::vector<std::int32_t> maps;
-  std::vector<std::int32_t> gradients(hasFields ? 1 : 0, 0);
   for (const std::int32_t at : leafNodes_)
   {
     Node& node = nodes_[static_cast<std::size_t>(at)];
@@ -254,16 +217,9 @@ void MediumTree<Real>::arrange()
       maps.push_back(node.map);
       node.map = static_cast<std::int32_t>(maps.size()) - 1;
     }
-    if (const std::int32_t brick = fieldsOf(at).brick; brick > 0)
-    {
-      gradients.push_back(brick);
-      nodeFields_[static_cast<std::size_t>(at)].brick =
-        static_cast<std::int32_t>(gradients.size()) - 1;
-    }
   }
   samples_.arrange(bricks);
   maps_.arrange(maps);
-  gradients_.arrange(gradients);
   isArranged_ = true;
   numberLeaves();
 }
@@ -280,7 +236,6 @@ void MediumTree<Real>::summarize()
   for (const std::int32_t at : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(at)];
-    const NodeFields fields = fieldsOf(at);
     const int level = node.place.level;
     const BrickFacts& facts = node.facts;
     largestNu_ = std::max(largestNu_, facts.largestNu);
@@ -289,13 +244,13 @@ void MediumTree<Real>::summarize()
     slope_.z = std::max(slope_.z, std::ldexp(facts.slope[2], level));
     steepest_.include(
       { length(Vec3<double>{ facts.slope[0], facts.slope[1], facts.slope[2] }), facts.steepestAt });
-    if (node.brick > 0 || fields.brick > 0)
+    if (node.brick > 0)
     {
       ++statistics_.bricks;
       statistics_.coarsestLevel = std::min(statistics_.coarsestLevel, level);
       statistics_.finestLevel = std::max(statistics_.finestLevel, level);
     }
-    statistics_.constantLeaves += node.kind == Leaf<Real>::Constant && fields.brick == 0 ? 1 : 0;
+    statistics_.constantLeaves += node.kind == Leaf<Real>::Constant ? 1 : 0;
   }
   statistics_.coarsestLevel = std::min(statistics_.coarsestLevel, statistics_.finestLevel);
   const std::array<double, 3> voxel = maker_.voxelOf(statistics_.finestLevel);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Medium/Samples/FieldGradients.h"
 #include "Medium/Samples/Leaves.h"
 #include "Medium/Samples/MediumSource.h"
 #include "Medium/Samples/SteepestPlace.h"
@@ -45,9 +44,6 @@ enum class Unneeded
 /// tolerance of a strong deflection. That is found from the tree as it is, after each level, of straight rays on a lattice
 /// over the view, and of those through the steepest places of the steepest leaves, that no wall stops: see
 /// RayFindings::strong. At first it is smaller than it should be, if anything, because coarse voxels are smooth.
-///
-/// Where the source has fields, leaves have their gradients, too, at the same places as nu, and the tolerance holds for
-/// what rays gather of them: of what 99 % of the same rays do not exceed, which is the full colour of a tint.
 template <class Real>
 class MediumTree
 {
@@ -84,14 +80,6 @@ public:
   /// One for each sample of the maps of Leaf::Mixed, laid out like the samples: the distance to where gas ends, in
   /// 1/8192 of a voxel, positive in gas; the lowest bit is what is outside: 0 a wall, 1 a window.
   const std::vector<std::int16_t>& gasDistances() const { return maps_.values(); }
-  /// The gradients of the source's fields, laid out like the samples but with bricks of their own, `count` values for
-  /// each sample. Leaves with gradients are never Leaf::Constant.
-  FieldGradientsView gradients() const;
-  const std::vector<float>& gradientValues() const { return gradients_.values(); }
-  const std::vector<std::int32_t>& gradientBricks() const
-  {
-    return gradientBricks_;
-  } ///< of the leaves
 
   // What is known of it.
   double largestNu() const { return largestNu_; }
@@ -113,16 +101,9 @@ private:
     bool isWrong = false;       ///< its error is too large beside those of others along a ray
     typename Leaf<Real>::Kind kind = Leaf<Real>::Constant;
     Real offset = 0;
-    std::int32_t brick = 0; ///< its number, as that of the map and of NodeFields
+    std::int32_t brick = 0; ///< its number, as that of the map
     std::int32_t map = -1;
     BrickFacts facts{};
-  };
-  /// What it has of fields.
-  struct NodeFields
-  {
-    std::int32_t brick = 0; ///< of gradients; 0: there are none
-    bool isCoarse = false;  ///< there are none, but should be
-    FieldFacts facts{};
   };
   /// A node to be made or to be divided.
   struct Task
@@ -136,10 +117,9 @@ private:
   {
     Column column{};
     bool isFinished = true;
-    double largest = 0;  ///< deflection
-    double strong = 0;   ///< deflection, see RayFindings
-    double gathered = 0; ///< of fields, for full colour
-    double error = 0;    ///< along rays, see RayFindings
+    double largest = 0; ///< deflection
+    double strong = 0;  ///< deflection, see RayFindings
+    double error = 0;   ///< along rays, see RayFindings
     BlockedLight blocked{};
     int rounds = 0;      ///< begun
     double progress = 0; ///< reported
@@ -178,12 +158,10 @@ private:
   BrickLayout layout() const;
   void removeSamples(std::int32_t node);
   void removeMap(std::int32_t node);
-  void removeGradients(std::int32_t node);
   void forget(std::int32_t node);
   void forgetNegligible(const View& view);
   std::size_t bytesUsed() const;
 
-  NodeFields fieldsOf(std::int32_t node) const;
   void numberLeaves();
   void number(std::int32_t node, std::int32_t& code);
   Leaf<Real> leafOf(std::int32_t node) const;
@@ -199,16 +177,13 @@ private:
   double largestN_ = 0;
   BrickMaker<Real> maker_;
 
-  std::vector<Node> nodes_;            ///< the roots first
-  std::vector<NodeFields> nodeFields_; ///< of them; empty where the source has no fields
+  std::vector<Node> nodes_; ///< the roots first
   std::vector<Leaf<Real>> leaves_;
   std::vector<std::int32_t> leafNodes_; ///< of each leaf
   std::vector<std::int32_t> roots_;
   std::vector<std::int32_t> children_;
   BrickStore<Real> samples_;
   BrickStore<std::int16_t> maps_;
-  BrickStore<float> gradients_;
-  std::vector<std::int32_t> gradientBricks_;
   Work work_;
   Unneeded unneeded_ = Unneeded::Goes; ///< as of the last call
   bool lacksRoom_ = false;

@@ -88,9 +88,8 @@ public:
     return aside * voxel[2] > along * edge ? 1 / aside : voxel[2] / (along * edge);
   }
 
-  /// The error of a node, or of its fields, that the next level would lessen, without edges: of rays.
-  template <class Facts>
-  double errorOf(const NodePlace& place, const Facts& facts) const
+  /// The error of a node that the next level would lessen, without edges: of rays.
+  double errorOf(const NodePlace& place, const BrickFacts& facts) const
   {
     return lengthIn(place.level) * errorOverEdge(place, facts);
   }
@@ -111,16 +110,6 @@ public:
       alongLight(place, facts, isAllowed(place, 1)).largestAtEdges,
       hiddenIn(place, pixel, facts.hidden, weights) });
   }
-  double errorOverEdge(const NodePlace& place, const FieldFacts& facts) const
-  {
-    const std::array<bool, 3> counts = isAllowed(place, 1);
-    double error = hiddenIn(place, pixelAt(place), facts.hidden, { 1, 1, 1 });
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      error = counts[axis] ? std::max(error, facts.error[axis]) : error;
-    }
-    return error;
-  }
 
   /// What is typical of rays that are in it for as long as its edge, whatever the next level may mend.
   double typicalOverEdge(const NodePlace& place, const BrickFacts& facts) const
@@ -137,7 +126,7 @@ public:
   }
 
   /// How badly a leaf needs to be divided; 0: not at all.
-  double urgencyOf(const Node& node, const FieldFacts& ofFields) const
+  double urgencyOf(const Node& node) const
   {
     if (node.facts.isTooLarge)
     {
@@ -146,7 +135,7 @@ public:
     const double error = errorOf(node.place, node.facts);
     constexpr double ofGrazing = 8; // light that grazes an edge is wrong over a longer path
     const double ofWindow = (isEdgeOn(node) ? ofGrazing : 1) * node.facts.ofWindow;
-    const bool hasWindow = ofWindow > negligible(node.place.level).deflection;
+    const bool hasWindow = ofWindow > negligible(node.place.level);
     const bool hasWall = node.facts.hasWallEdge && !showsWalls(node, 0.1);
     // Silhouettes are where walls are, however large cells are. Faces have many small bends, of which few are seen.
     const bool isSeen = node.facts.hasWallEdge &&
@@ -163,15 +152,9 @@ public:
       isUnproved = isUnproved || (node.facts.canImprove[axis] && isAllowedAlong[axis]);
     }
     isUnproved = isUnproved && node.place.level == 0 && node.brick > 0;
-    double urgency = node.isWrong || error > allowed().deflection ? error
-      : isUnproved ? std::numeric_limits<double>::min()
-                   : 0;
-    if (const double gathered = errorOf(node.place, ofFields); gathered > allowed().gathered)
-    {
-      const double deflection = work_.strong;
-      const bool canCompare = deflection > 0 && work_.gathered > 0;
-      urgency = std::max(urgency, canCompare ? gathered * (deflection / work_.gathered) : gathered);
-    }
+    double urgency = node.isWrong || error > allowed() ? error
+      : isUnproved                                     ? std::numeric_limits<double>::min()
+                                                       : 0;
     if (hasEdge)
     {
       // A shadow's edge that is wrong by a voxel is as wrong as can be.
@@ -222,20 +205,14 @@ public:
   }
 
   /// Finds what is negligible in a level's leaves, by their facts.
-  Negligible negligible(int level) const
-  {
-    const double perLength = 1 / lengthIn(level);
-    return { perLength * allowed().deflection, perLength * allowed().gathered };
-  }
+  double negligible(int level) const { return allowed() / lengthIn(level); }
 
   /// What is negligible to a leaf that is made, or made again, or to the children of one that is divided: nothing where
   /// too much has been neglected along rays; and what a leaf has, it keeps when it lacks something else.
-  Negligible negligibleTo(const Node& node, const NodeFields& fields, bool divides) const
+  double negligibleTo(const Node& node, bool divides) const
   {
-    const Negligible usual = negligible(node.place.level);
     const bool isNeeded = node.isCoarse || (!divides && node.brick > 0);
-    const bool areFieldsNeeded = fields.isCoarse || (!divides && fields.brick > 0);
-    return { isNeeded ? 0 : usual.deflection, areFieldsNeeded ? 0 : usual.gathered };
+    return isNeeded ? 0 : negligible(node.place.level);
   }
 
   /// Whether a leaf has no samples because it is divided at walls.
@@ -245,11 +222,10 @@ public:
   }
 
   /// Whether a leaf lacks something that is not negligible.
-  bool lacks(const Node& node, const NodeFields& fields) const
+  bool lacks(const Node& node) const
   {
-    const Negligible usual = negligible(node.place.level);
-    return node.isCoarse || fields.isCoarse || node.facts.neglected > usual.deflection ||
-      fields.facts.neglected > usual.gathered || (awaitsWalls(node) && !dividesAtWalls(node.place));
+    return node.isCoarse || node.facts.neglected > negligible(node.place.level) ||
+      (awaitsWalls(node) && !dividesAtWalls(node.place));
   }
 
   /// How far refining has come, when so much of this round is done. Each level takes some four times as long as
@@ -266,11 +242,7 @@ public:
 
 private:
   /// Errors of rays.
-  Negligible allowed() const
-  {
-    const double tolerance = tree_.settings_.tolerance;
-    return { tolerance * work_.strong, tolerance * work_.gathered };
-  }
+  double allowed() const { return tree_.settings_.tolerance * work_.strong; }
 
   bool allows(int level, std::size_t axis, double finest) const
   {

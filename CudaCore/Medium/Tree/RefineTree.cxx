@@ -4,8 +4,6 @@
 // How a tree is refined for a view.
 #include "Medium/Tree/NodesInView.h"
 
-#include "Medium/Tree/BrickErrors.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,7 +47,7 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
     {
       numberLeaves();
       const RayFindings found = measure(view, {});
-      if (!isMeasured_ && (work_.largest > 0 || work_.gathered > 0))
+      if (!isMeasured_ && work_.largest > 0)
       {
         forgetNegligible(view);
         isMeasured_ = true;
@@ -91,7 +89,7 @@ void MediumTree<Real>::refineFurther(
   refine(column, monitor, Unneeded::Stays);
 }
 
-/// Finds the largest deflection in the tree as it is and what rays gather, and leaves that are too coarse for it.
+/// Finds the largest deflection in the tree as it is, and leaves that are too coarse for it.
 template <class Real>
 RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least)
 {
@@ -115,7 +113,6 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
     places.push_back({ at[0], at[1], at[2] });
   }
   std::vector<float> differences(leafNodes_.size(), 0.f);
-  std::vector<float> ofFields(nodeFields_.empty() ? 0 : leafNodes_.size(), 0.f);
   std::vector<float> errors(leafNodes_.size(), 0.f), typical(errors);
   for (std::size_t leaf = 0; leaf < differences.size(); ++leaf)
   {
@@ -127,20 +124,13 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
       errors[leaf] = static_cast<float>(view.errorOverEdge(node.place, node.facts));
       typical[leaf] = static_cast<float>(view.typicalOverEdge(node.place, node.facts));
     }
-    if (const NodeFields fields = fieldsOf(leafNodes_[leaf]);
-        fields.brick == 0 && !ofFields.empty())
-    {
-      ofFields[leaf] = static_cast<float>(fields.facts.neglected / deflectionByRange);
-    }
   }
   const RayFindings findings =
     lookAlongRays<Real>({ grid_, finder(), leaves_.data(), differences.data(), errors.data(),
-                          typical.data(), samples().data(), gasDistances().data(), gradients(),
-                          ofFields.empty() ? nullptr : ofFields.data(), layout() },
+                          typical.data(), samples().data(), gasDistances().data(), layout() },
       work_.column, places, settings_.tolerance, least, settings_.threads);
   work_.largest = findings.deflection;
   work_.strong = findings.strong;
-  work_.gathered = findings.gathered;
   work_.error = findings.error;
   const auto nodeOf = [this](std::int32_t leaf)
   { return static_cast<std::size_t>(leafNodes_[static_cast<std::size_t>(leaf)]); };
@@ -151,10 +141,6 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   for (const std::int32_t leaf : findings.wrong)
   {
     nodes_[nodeOf(leaf)].isWrong = true;
-  }
-  for (const std::int32_t leaf : findings.coarseInFields)
-  {
-    nodeFields_[nodeOf(leaf)].isCoarse = true;
   }
   return findings;
 }
@@ -206,12 +192,11 @@ std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const Vie
     {
       continue;
     }
-    const NodeFields fields = fieldsOf(n);
-    if (!node.isKnown || view.lacks(node, fields))
+    if (!node.isKnown || view.lacks(node))
     {
       tasks.push_back({ n, false, std::numeric_limits<double>::infinity() });
     }
-    else if (const double urgency = view.urgencyOf(node, fields.facts); urgency > 0)
+    else if (const double urgency = view.urgencyOf(node); urgency > 0)
     {
       tasks.push_back({ n, true, urgency });
     }
@@ -224,9 +209,8 @@ template <class Real>
 std::size_t MediumTree<Real>::costOf(const Task& task) const
 {
   const Node& node = nodes_[static_cast<std::size_t>(task.node)];
-  const std::size_t ofOne = samples_.bytesOfBrick() +
-    (node.map >= 0 || !node.isKnown ? maps_.bytesOfBrick() : 0) +
-    (nodeFields_.empty() ? 0 : gradients_.bytesOfBrick() + sizeof(NodeFields));
+  const std::size_t ofOne =
+    samples_.bytesOfBrick() + (node.map >= 0 || !node.isKnown ? maps_.bytesOfBrick() : 0);
   if (node.place.level < -1)
   {
     return childCount() * (sizeof(Node) + sizeof(Leaf<Real>));

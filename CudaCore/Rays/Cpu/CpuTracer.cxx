@@ -58,7 +58,6 @@ std::int64_t traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, L
         const std::int64_t ray = atRow * pass.columns + atColumn;
         entries[i] = enterGrid(task, pass, ray, batch, i);
         rays[i] = of.firstRay + ray;
-        batch.gathered[i] = traced.gathered.data() + rays[i] * task.gradients.count;
       }
     }
   };

@@ -51,13 +51,12 @@ SCHLIEREN_HD void takePlainSteps(March<Kernel, Real, May>& a, March<Kernel, Real
 template <class Kernel, class Real, class May>
 SCHLIEREN_HD void marchTwo(March<Kernel, Real, May>& a, March<Kernel, Real, May>& b)
 {
-  const bool mayBePlain = !a.isGathering();
   // To look again: a tree's leaves are left often.
   const std::int32_t pause = a.isTree() ? 2 : 8;
   std::int32_t next = 0;
   while (a.areUnderWay && b.areUnderWay)
   {
-    if (mayBePlain && a.steps >= next && a.isPlain() && b.isPlain())
+    if (a.steps >= next && a.isPlain() && b.isPlain())
     {
       const std::int32_t before = a.steps;
       takePlainSteps(a, b);

@@ -30,22 +30,20 @@ struct MarchTotals
   unsigned long long crossed;
 };
 
-/// Some bands of passes, from `firstBand` on. `gathered`: the sums of each ray's fields; null where they are not wanted.
-/// All pointers are to the device's memory.
+/// Some bands of passes, from `firstBand` on. All pointers are to the device's memory.
 struct MarchedBands
 {
   const PlacedPass* passes;
   int count; ///< of passes
   std::int64_t firstBand;
   RayExit* exits;
-  float* gathered;
   MarchTotals* totals;
 };
 
 /// Starts the kernel of the task, with all that it points to on the device. CudaMarch*.cu instantiate it for one scheme
 /// each, those that take longest for one precision, so that they can be compiled at the same time.
 template <class Scheme, class Real>
-void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedBands& bands,
-  const dim3& blocks, cudaStream_t stream);
+void launchMarch(
+  const RayTask<Real>& task, const MarchedBands& bands, const dim3& blocks, cudaStream_t stream);
 
 } // namespace schlieren

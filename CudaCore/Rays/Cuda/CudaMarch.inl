@@ -8,8 +8,6 @@
 #include "Rays/March/Kernels.h"
 #include "Rays/March/OneRay.h"
 
-#include <type_traits>
-
 namespace schlieren
 {
 
@@ -81,17 +79,8 @@ __global__ void __launch_bounds__(threadsPerBlock, blocksAtATime<Kernel, Real>) 
   {
     const std::int64_t inPass = pixel.row * pass.columns + pixel.column;
     const std::int64_t ray = pixel.of->firstRay + inPass;
-    float* sums = nullptr;
-    if constexpr (May::fieldsToGather)
-    {
-      sums = bands.gathered + ray * task.gradients.count;
-      for (int field = 0; field < task.gradients.count; ++field)
-      {
-        sums[field] = 0;
-      }
-    }
     Real drift = 0;
-    const RayExit exit = traceRay<Kernel, May>(task, pass, inPass, sums, drift);
+    const RayExit exit = traceRay<Kernel, May>(task, pass, inPass, drift);
     bands.exits[ray] = exit;
     hasCrossed = exit.fate != RayFate::Missed;
     worstDrift = drift > 0 ? static_cast<double>(drift) : 0; // not NaN
@@ -101,22 +90,16 @@ __global__ void __launch_bounds__(threadsPerBlock, blocksAtATime<Kernel, Real>) 
 }
 
 template <class Scheme, class Real>
-void launchMarch(const RayTask<Real>& task, bool gathers, const MarchedBands& bands,
-  const dim3& blocks, cudaStream_t stream)
+void launchMarch(
+  const RayTask<Real>& task, const MarchedBands& bands, const dim3& blocks, cudaStream_t stream)
 {
   visitKernelOf<Scheme>(task.kernel,
     [&](auto kind)
     {
-      const auto start = [&](auto gathering)
-      {
-        using Kind = decltype(kind);
-        constexpr bool fields = decltype(gathering)::value;
-        launchKernel(task.medium.leaves != nullptr
-            ? traceKernel<Kind, MayMeet<false, true, fields>, Real>
-            : traceKernel<Kind, MayMeet<true, false, fields>, Real>,
-          blocks, threadsPerBlock, 0, stream, task, bands);
-      };
-      gathers ? start(std::true_type{}) : start(std::false_type{});
+      using Kind = decltype(kind);
+      launchKernel(task.medium.leaves != nullptr ? traceKernel<Kind, MayMeet<false, true>, Real>
+                                                 : traceKernel<Kind, MayMeet<true, false>, Real>,
+        blocks, threadsPerBlock, 0, stream, task, bands);
     });
 }
 

@@ -6,6 +6,6 @@ namespace schlieren
 {
 
 template void launchMarch<CubicInterpolation>(
-  const RayTask<float>&, bool, const MarchedBands&, const dim3&, cudaStream_t);
+  const RayTask<float>&, const MarchedBands&, const dim3&, cudaStream_t);
 
 } // namespace schlieren

@@ -6,6 +6,6 @@ namespace schlieren
 {
 
 template void launchMarch<CubicInterpolation>(
-  const RayTask<double>&, bool, const MarchedBands&, const dim3&, cudaStream_t);
+  const RayTask<double>&, const MarchedBands&, const dim3&, cudaStream_t);
 
 } // namespace schlieren

@@ -6,8 +6,8 @@ namespace schlieren
 {
 
 template void launchMarch<QuadraticInterpolation>(
-  const RayTask<float>&, bool, const MarchedBands&, const dim3&, cudaStream_t);
+  const RayTask<float>&, const MarchedBands&, const dim3&, cudaStream_t);
 template void launchMarch<QuadraticInterpolation>(
-  const RayTask<double>&, bool, const MarchedBands&, const dim3&, cudaStream_t);
+  const RayTask<double>&, const MarchedBands&, const dim3&, cudaStream_t);
 
 } // namespace schlieren

@@ -63,12 +63,6 @@ MediumArrays<Real> MediumArrays<Real>::of(const Medium<Real>& medium)
   arrays.roots = arrayOf(tree.roots());
   arrays.children = arrayOf(tree.children());
   arrays.gasDistances = arrayOf(tree.gasDistances());
-  if (const FieldGradientsView ofFields = tree.gradients(); ofFields.count > 0)
-  {
-    arrays.gradients = arrayOf(tree.gradientValues());
-    arrays.gradientBricks = arrayOf(tree.gradientBricks());
-    arrays.firstGradient = ofFields.values - arrays.gradients.first;
-  }
   return arrays;
 }
 
@@ -88,12 +82,11 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes,
-  const TaskVersions& versions, Exits exits, TracedPass& traced, const Monitor& monitor)
+bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes, Exits exits,
+  TracedPass& traced, const Monitor& monitor)
 {
-  begin(task, passes, exits, traced);
-  const bool isTraced =
-    traceBands(task, passes, versions, exits, { 0, passes.bands() }, traced, monitor);
+  begin(passes, exits, traced);
+  const bool isTraced = traceBands(task, passes, exits, { 0, passes.bands() }, traced, monitor);
   if (exits == Exits::OnHost)
   {
     traced.onDevice.reset();
@@ -102,8 +95,7 @@ bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes,
 }
 
 template <class Real>
-void CudaTracer<Real>::begin(
-  const RayTask<Real>& task, const Passes& passes, Exits exits, TracedPass& traced) const
+void CudaTracer<Real>::begin(const Passes& passes, Exits exits, TracedPass& traced) const
 {
   checkCuda(cudaSetDevice(memory_->device), "Choosing a device"); // of this thread
   std::unique_ptr<CudaPass> there = std::move(traced.onDevice);   // its memory serves again
@@ -114,7 +106,7 @@ void CudaTracer<Real>::begin(
   }
   if (exits == Exits::OnHost)
   {
-    traced.resize(passes, task.gradients.count);
+    traced.resize(passes);
     traced.crossed = 0;
     traced.worstDrift = 0;
   }
@@ -126,20 +118,16 @@ void CudaTracer<Real>::begin(
 }
 
 template <class Real>
-bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Passes& passes,
-  const TaskVersions& versions, Exits exits, const Tiles& bands, TracedPass& traced,
-  const Monitor& monitor)
+bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Passes& passes, Exits exits,
+  const Tiles& bands, TracedPass& traced, const Monitor& monitor)
 {
-  const int fields = exits == Exits::OnHost ? task.gradients.count : 0;
-  const RayTask<Real> onDevice = memory_->upload(task, versions);
+  RayTask<Real> onDevice = task;
+  onDevice.medium = memory_->view;
   const CudaBuffer<PlacedPass> passesThere(
     passes.all().data(), passes.all().size(), "Copying the passes");
   const CudaPass* there = traced.onDevice.get();
-  const std::size_t sums = passes.rays() * static_cast<std::size_t>(fields);
-  const std::unique_ptr<CudaBuffer<float>> gathered =
-    fields > 0 ? std::make_unique<CudaBuffer<float>>(sums) : nullptr;
   memory_->clearTotals();
-  memory_->findPace(task, fields);
+  memory_->findPace(task);
 
   /// Some bands, traced in a lane.
   struct Launch
@@ -162,9 +150,9 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Passes& passe
     visitScheme(task.kernel.interpolation,
       [&](auto scheme)
       {
-        launchMarch<decltype(scheme)>(onDevice, fields > 0,
+        launchMarch<decltype(scheme)>(onDevice,
           { passesThere.data(), static_cast<int>(passes.all().size()), firstBand, there->exits(),
-            gathered ? gathered->data() : nullptr, lane.totals.data() },
+            lane.totals.data() },
           blocksOf(passes, nextBand - firstBand), lane.stream.get());
       });
     checkCuda(cudaGetLastError(), "Starting the ray kernel");
@@ -179,12 +167,6 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Passes& passe
     if (exits == Exits::OnHost)
     {
       copyRays(traced.exits.data() + first, there->exits() + first, count, lane.stream);
-      if (fields > 0)
-      {
-        const auto perRay = static_cast<std::size_t>(fields);
-        copyRays(traced.gathered.data() + first * perRay, gathered->data() + first * perRay,
-          count * perRay, lane.stream);
-      }
     }
     const auto crossed = static_cast<std::int64_t>(lane.fetchTotals().crossed);
     memory_->pace->add(static_cast<std::int64_t>(count), crossed - lane.crossed,

@@ -33,15 +33,12 @@ struct MediumArrays
   Array<Leaf<Real>> leaves{};
   Array<std::int32_t> roots{}, children{};
   Array<std::int16_t> gasDistances{};
-  Array<float> gradients{};
-  Array<std::int32_t> gradientBricks{};
-  std::ptrdiff_t firstGradient = 0; ///< where the view of the gradients begins
 
   static MediumArrays of(const Medium<Real>& medium);
 };
 
-/// Traces rays on the CUDA device that cudaAvailable has chosen. Holds in its memory what rays need, from pass to pass: the medium,
-/// the gradients of fields. Throws DeviceError, OutOfDeviceMemory where the medium does not fit.
+/// Traces rays on the CUDA device that cudaAvailable has chosen. Holds in its memory what rays need, from pass to pass: the medium.
+/// Throws DeviceError, OutOfDeviceMemory where the medium does not fit.
 template <class Real>
 class CudaTracer
 {
@@ -54,20 +51,19 @@ public:
   enum class Exits
   {
     OnHost,
-    OnDevice ///< for CudaFilm; what they gather is lost
+    OnDevice ///< for CudaFilm
   };
 
   /// Traces passes, as traceOnCpu does. Returns false if aborted.
-  bool trace(const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions,
-    Exits exits, TracedPass& traced, const Monitor& monitor);
+  bool trace(const RayTask<Real>& task, const Passes& passes, Exits exits, TracedPass& traced,
+    const Monitor& monitor);
 
   /// Makes room for the rays of passes: in traced.onDevice, and on the host where they are wanted there.
-  void begin(
-    const RayTask<Real>& task, const Passes& passes, Exits exits, TracedPass& traced) const;
+  void begin(const Passes& passes, Exits exits, TracedPass& traced) const;
   /// After begin(), in the same thread: traces consecutive bands until the monitor stops it, and adds to what `traced` counts.
   /// Returns false if aborted.
-  bool traceBands(const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions,
-    Exits exits, const Tiles& bands, TracedPass& traced, const Monitor& monitor);
+  bool traceBands(const RayTask<Real>& task, const Passes& passes, Exits exits, const Tiles& bands,
+    TracedPass& traced, const Monitor& monitor);
 
 private:
   struct DeviceMemory;

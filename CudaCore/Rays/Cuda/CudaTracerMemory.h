@@ -73,43 +73,18 @@ struct CudaTracer<Real>::DeviceMemory
       : leaves(medium.leaves.first, medium.leaves.count, "Copying the medium's leaves")
       , roots(medium.roots.first, medium.roots.count, "Copying the medium's tree")
       , children(medium.children.first, medium.children.count, "Copying the medium's tree")
-      , firstGradient(medium.firstGradient)
     {
       if (medium.gasDistances.count > 0)
       {
         gasDistances = std::make_unique<CudaBuffer<std::int16_t>>(
           medium.gasDistances.first, medium.gasDistances.count, "Copying the walls");
       }
-      if (medium.gradients.count > 0)
-      {
-        gradients = std::make_unique<CudaBuffer<float>>(
-          medium.gradients.first, medium.gradients.count, "Copying the gradients of the fields");
-        gradientBricks = std::make_unique<CudaBuffer<std::int32_t>>(medium.gradientBricks.first,
-          medium.gradientBricks.count, "Copying the gradients of the fields");
-      }
     }
     CudaBuffer<Leaf<Real>> leaves;
     CudaBuffer<std::int32_t> roots, children;
     std::unique_ptr<CudaBuffer<std::int16_t>> gasDistances;
-    std::unique_ptr<CudaBuffer<float>> gradients;
-    std::unique_ptr<CudaBuffer<std::int32_t>> gradientBricks;
-    std::ptrdiff_t firstGradient; ///< where the view begins
   };
   std::unique_ptr<Tree> tree;
-
-  struct Gradients
-  {
-    Gradients(const FieldGradientsView& view, std::uint64_t versionOfValues)
-      : version(versionOfValues)
-      , values(view.values,
-          static_cast<std::size_t>(view.count * view.planeStride * (view.lastCell[2] + 2)),
-          "Copying the gradients of the fields")
-    {
-    }
-    std::uint64_t version;
-    CudaBuffer<float> values;
-  };
-  std::unique_ptr<Gradients> gradients;
 
   /// One launch ends while the next is under way.
   struct Lane
@@ -141,13 +116,13 @@ struct CudaTracer<Real>::DeviceMemory
 
   /// The pace of the last pass, and what it depends on.
   std::optional<LaunchPace> pace;
-  std::tuple<PathModel, Integrator, Interpolation, std::int32_t, int> paced{};
+  std::tuple<PathModel, Integrator, Interpolation, std::int32_t> paced{};
 
-  void findPace(const RayTask<Real>& task, int fields)
+  void findPace(const RayTask<Real>& task)
   {
     const KernelChoice& kernel = task.kernel;
     const auto now =
-      std::make_tuple(kernel.path, kernel.integrator, kernel.interpolation, task.stepLimit, fields);
+      std::make_tuple(kernel.path, kernel.integrator, kernel.interpolation, task.stepLimit);
     if (!pace || now != paced)
     {
       // Steps may be shorter, and a step reads at several places; many GPUs are slow in double precision.
@@ -159,28 +134,6 @@ struct CudaTracer<Real>::DeviceMemory
       pace.emplace(steps * places * precision);
       paced = now;
     }
-  }
-
-  /// The task with what it points to on the device. Sends what is new.
-  RayTask<Real> upload(const RayTask<Real>& task, const TaskVersions& versions)
-  {
-    RayTask<Real> onDevice = task;
-    onDevice.medium = view;
-    if (tree && task.gradients.count > 0)
-    {
-      onDevice.gradients.values = tree->gradients->data() + tree->firstGradient;
-      onDevice.gradients.bricks = tree->gradientBricks->data();
-    }
-    else if (task.gradients.count > 0)
-    {
-      if (!gradients || gradients->version != versions.gradients)
-      {
-        gradients.reset(); // first: both at once might not fit
-        gradients = std::make_unique<Gradients>(task.gradients, versions.gradients);
-      }
-      onDevice.gradients.values = gradients->values.data();
-    }
-    return onDevice;
   }
 };
 

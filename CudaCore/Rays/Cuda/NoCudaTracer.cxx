@@ -27,20 +27,20 @@ template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
 
 template <class Real>
-void CudaTracer<Real>::begin(const RayTask<Real>&, const Passes&, Exits, TracedPass&) const
+void CudaTracer<Real>::begin(const Passes&, Exits, TracedPass&) const
 {
 }
 
 template <class Real>
-bool CudaTracer<Real>::traceBands(const RayTask<Real>&, const Passes&, const TaskVersions&, Exits,
-  const Tiles&, TracedPass&, const Monitor&)
+bool CudaTracer<Real>::traceBands(
+  const RayTask<Real>&, const Passes&, Exits, const Tiles&, TracedPass&, const Monitor&)
 {
   return false;
 }
 
 template <class Real>
 bool CudaTracer<Real>::trace(
-  const RayTask<Real>&, const Passes&, const TaskVersions&, Exits, TracedPass&, const Monitor&)
+  const RayTask<Real>&, const Passes&, Exits, TracedPass&, const Monitor&)
 {
   return false;
 }

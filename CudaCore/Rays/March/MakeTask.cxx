@@ -146,15 +146,10 @@ std::int32_t stepLimitOf(
 } // namespace
 
 template <class Real>
-RayTask<Real> makeTask(const Medium<Real>& medium, const FieldGradientsView& gradients,
-  const Light& light, const RaySettings& settings)
+RayTask<Real> makeTask(const Medium<Real>& medium, const Light& light, const RaySettings& settings)
 {
   RayTask<Real> task{};
   task.medium = medium.view();
-  if (gradients.count > 0)
-  {
-    task.gradients = gradients;
-  }
   task.light = light;
   task.indexScale = static_cast<Vec3<Real>>(light.indexScale);
   const PathModel path = settings.kernel.path;
@@ -193,9 +188,7 @@ RayTask<Real> makeTask(const Medium<Real>& medium, const FieldGradientsView& gra
   return task;
 }
 
-template RayTask<float> makeTask(
-  const Medium<float>&, const FieldGradientsView&, const Light&, const RaySettings&);
-template RayTask<double> makeTask(
-  const Medium<double>&, const FieldGradientsView&, const Light&, const RaySettings&);
+template RayTask<float> makeTask(const Medium<float>&, const Light&, const RaySettings&);
+template RayTask<double> makeTask(const Medium<double>&, const Light&, const RaySettings&);
 
 } // namespace schlieren

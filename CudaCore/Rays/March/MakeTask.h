@@ -32,15 +32,8 @@ struct RaySettings
   double lengthScale = 1; ///< metres per data unit
 };
 
-/// Both stay the caller's.
+/// The medium stays the caller's.
 template <class Real>
-RayTask<Real> makeTask(const Medium<Real>& medium, const FieldGradientsView& gradients,
-  const Light& light, const RaySettings& settings);
-
-/// What of a task is sent elsewhere again only when this changes; the medium apart.
-struct TaskVersions
-{
-  std::uint64_t gradients; ///< of FieldGradients
-};
+RayTask<Real> makeTask(const Medium<Real>& medium, const Light& light, const RaySettings& settings);
 
 } // namespace schlieren

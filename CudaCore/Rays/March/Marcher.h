@@ -25,9 +25,9 @@ struct March : RaysInMedium<Kernel, Real, May>
   using Base = RaysInMedium<Kernel, Real, May>;
   using Base::areUnderWay, Base::batch, Base::cruise, Base::domainHigh, Base::domainLow,
     Base::finish, Base::forRays, Base::in, Base::inGas, Base::isAdaptive, Base::isConstant,
-    Base::isGathering, Base::isTree, Base::lanes, Base::light, Base::nextStep, Base::ray,
-    Base::someConstant, Base::someNearEdge, Base::someNearEnd, Base::steps, Base::stepsInLeaves,
-    Base::stepsToFirst, Base::stepsToLast, Base::takeLeaves, Base::task, Base::withinLeaf;
+    Base::isTree, Base::lanes, Base::light, Base::nextStep, Base::ray, Base::someConstant,
+    Base::someNearEdge, Base::someNearEnd, Base::steps, Base::stepsInLeaves, Base::stepsToFirst,
+    Base::stepsToLast, Base::takeLeaves, Base::task, Base::withinLeaf;
   using Base::Base;
   using typename Base::Batch, typename Base::Number, typename Base::Path, typename Base::Integrator;
 
@@ -111,14 +111,6 @@ struct March : RaysInMedium<Kernel, Real, May>
       { blocked[i] = isSolid(task.medium, at) ? 1 : 0; });
     const auto which = fromArray<Real>(blocked) > 0;
     block(which, step);
-  }
-
-  SCHLIEREN_HD void gather(const Vec3<Real>& middle, const Real& step) const
-  {
-    forRays(middle, step,
-      [this](int i, const Vec3<Number>& at, Number length) {
-        gatherGradients(task.gradients, isTree() ? in.leaf[i] : 0, at, length, batch.gathered[i]);
-      });
   }
 
   struct Sampler // a lambda cannot be forced to be compiled into its caller
@@ -295,10 +287,6 @@ struct March : RaysInMedium<Kernel, Real, May>
     else
     {
       advance(ray, next.step, next.middle);
-    }
-    if (isGathering())
-    {
-      gather(withinLeaf(next.middle), someNearEdge ? inGas * next.step : next.step);
     }
     if (next.someLeave)
     {

@@ -196,14 +196,13 @@ SCHLIEREN_HD RayExit leaveGrid(
   return exit;
 }
 
-/// Traces one ray of a pass, with the kernel that is given. `gathered` receives the sums of the fields' gradients.
+/// Traces one ray of a pass, with the kernel that is given.
 template <class Kernel, class May, class Number>
 SCHLIEREN_HD RayExit traceRay(
-  const RayTask<Number>& task, const Pass& pass, std::int64_t ray, float* gathered, Number& drift)
+  const RayTask<Number>& task, const Pass& pass, std::int64_t ray, Number& drift)
 {
   RayBatch<Number, 1> batch{};
   const Entry entry = enterGrid(task, pass, ray, batch, 0);
-  batch.gathered[0] = gathered;
   march<Kernel, Number, May>(task, batch);
   drift = batch.drift[0];
   return leaveGrid(task, batch, 0, entry);

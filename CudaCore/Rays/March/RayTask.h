@@ -5,7 +5,6 @@
 #pragma once
 
 #include "Medium/Medium.h"
-#include "Medium/Samples/FieldGradients.h"
 #include "Rays/Light.h"
 #include "Rays/March/Integrators.h"
 #include "Rays/RayExit.h"
@@ -29,7 +28,6 @@ struct RayTask
 {
   KernelChoice kernel;
   MediumView<Number> medium;
-  FieldGradientsView gradients;
   Light light;
   Vec3<Number> indexScale; ///< of the light
   Number step;             ///< in units of the light's unit of length
@@ -60,7 +58,6 @@ struct RayBatch
   Number drift[Lanes]; ///< | |p| / n - 1 | at the end
   RayFate fate[Lanes]; ///< Left: to be traced; anything else: not
   std::int32_t steps[Lanes];
-  float* gathered[Lanes]; ///< sums of the fields' gradients, where there are any
 };
 
 } // namespace schlieren

@@ -17,14 +17,13 @@ namespace schlieren
 
 /// What the march of some rays may meet, as far as it is known when the code is compiled. On a GPU, each thing that
 /// cannot be met saves registers.
-template <bool image, bool tree, bool fields>
+template <bool image, bool tree>
 struct MayMeet
 {
   static constexpr bool anImage = image;
   static constexpr bool aTree = tree;
-  static constexpr bool fieldsToGather = fields;
 };
-using MayMeetAll = MayMeet<true, true, true>;
+using MayMeetAll = MayMeet<true, true>;
 
 template <class Real>
 struct LeavesOfPack; // for those who march with packs
@@ -121,7 +120,6 @@ struct RaysInMedium
   {
     return May::aTree && (!May::anImage || task.medium.leaves != nullptr);
   }
-  SCHLIEREN_HD bool isGathering() const { return May::fieldsToGather && task.gradients.count > 0; }
 
   /// Puts rays where they disturb no others.
   template <class Mask>

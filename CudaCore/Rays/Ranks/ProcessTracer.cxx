@@ -35,39 +35,29 @@ bool isToStop(const Monitor& monitor)
   return (monitor.aborted && monitor.aborted()) || (monitor.paused && monitor.paused());
 }
 
-/// Adds what an answer counts. Throws Error where the answer has not that many rays.
-RaysHead headOf(const std::vector<char>& answer, std::size_t rays, TracedPass& traced)
+/// Adds what an answer counts and returns where its rays begin. Throws Error where it has not that many.
+const char* exitsOf(const std::vector<char>& answer, std::size_t rays, TracedPass& traced)
 {
   RaysHead head;
-  if (!read(answer, head) ||
-    answer.size() != sizeof(head) + rays * (sizeof(RayExit) + head.fields * sizeof(float)))
+  if (!read(answer, head) || answer.size() != sizeof(head) + rays * sizeof(RayExit))
   {
     throw Error("A process has sent other rays than were requested.");
   }
   traced.crossed += head.crossed;
   traced.worstDrift = std::max(traced.worstDrift, head.worstDrift);
-  return head;
+  return answer.data() + sizeof(head);
 }
 
 /// Puts the rays of a rank's tiles where they belong.
 void putTiles(
   const std::vector<char>& answer, const Passes& passes, const Tiles& tiles, TracedPass& traced)
 {
-  const std::size_t rays = passes.raysOf(tiles);
-  const RaysHead head = headOf(answer, rays, traced);
-  const char* exits = answer.data() + sizeof(head);
-  const char* gathered = exits + rays * sizeof(RayExit);
+  const char* exits = exitsOf(answer, passes.raysOf(tiles), traced);
   forRowsOf(passes, tiles,
     [&](std::size_t first, std::size_t count)
     {
       std::memcpy(traced.exits.data() + first, exits, count * sizeof(RayExit));
       exits += count * sizeof(RayExit);
-      if (head.fields > 0)
-      {
-        const std::size_t bytes = count * head.fields * sizeof(float);
-        std::memcpy(traced.gathered.data() + first * head.fields, gathered, bytes);
-        gathered += bytes;
-      }
     });
 }
 
@@ -81,19 +71,13 @@ void putBands(const std::vector<char>& answer, const Passes& passes, const Tiles
   {
     return;
   }
-  const RaysHead head = headOf(answer, rays, traced);
-  const char* exits = answer.data() + sizeof(head);
+  const char* exits = exitsOf(answer, rays, traced);
   if (!isWantedOnHost)
   {
     traced.onDevice->put(first, exits, rays);
     return;
   }
   std::memcpy(traced.exits.data() + first, exits, rays * sizeof(RayExit));
-  if (head.fields > 0)
-  {
-    std::memcpy(traced.gathered.data() + first * head.fields, exits + rays * sizeof(RayExit),
-      rays * head.fields * sizeof(float));
-  }
 }
 
 } // namespace
@@ -109,8 +93,6 @@ struct ProcessTracer<Real>::State
     std::uint64_t version = 0;
   };
   std::array<ArrayOfTask, arraysOfTask> arrays;
-  TaskVersions versions{ 0 };
-  bool hasFieldsOfTree = false;
 
   static std::uint64_t newVersion()
   {
@@ -145,32 +127,14 @@ struct ProcessTracer<Real>::State
       set(rootsOfTask, medium.tree->roots());
       set(childrenOfTask, medium.tree->children());
       set(gasDistancesOfTask, medium.tree->gasDistances());
-      set(gradientsOfTask, medium.tree->gradientValues());
-      set(gradientBricksOfTask, medium.tree->gradientBricks());
-    }
-    hasFieldsOfTree = medium.tree != nullptr;
-  }
-
-  /// Finds the arrays of a task that are not the medium's: each bench that uses the medium has its own gradients.
-  void update(const RayTask<Real>& task, const TaskVersions& now)
-  {
-    const FieldGradientsView& fields = task.gradients;
-    if (!hasFieldsOfTree && fields.count > 0 &&
-      (arrays[gradientsOfTask].first != fields.values || versions.gradients != now.gradients))
-    {
-      arrays[gradientsOfTask].version = 0;
-      set(gradientsOfTask, fields.values,
-        static_cast<std::size_t>(fields.count * fields.planeStride * (fields.lastCell[2] + 2)));
-      versions.gradients = now.gradients;
     }
   }
 
   /// What processes are to do, but for the tiles.
-  TraceMessage<Real> requestFor(const Medium<Real>& medium, const RayTask<Real>& task,
-    const Passes& passes, const TaskVersions& now, Device device)
+  TraceMessage<Real> requestFor(
+    const Medium<Real>& medium, const RayTask<Real>& task, const Passes& passes, Device device)
   {
     locate(medium);
-    update(task, now);
     TraceMessage<Real> message;
     message.device = device;
     message.simd = bestSimd();
@@ -217,11 +181,10 @@ template <class Real>
 ProcessTracer<Real>::~ProcessTracer() = default;
 
 template <class Real>
-bool ProcessTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes,
-  const TaskVersions& versions, Processes& others, TracedPass& traced, int threads,
-  const Monitor& monitor)
+bool ProcessTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes, Processes& others,
+  TracedPass& traced, int threads, const Monitor& monitor)
 {
-  TraceMessage<Real> request = state_->requestFor(medium_, task, passes, versions, Device::Cpu);
+  TraceMessage<Real> request = state_->requestFor(medium_, task, passes, Device::Cpu);
   state_->sendArrays(others, request);
   const std::int64_t all = passes.tiles(), processes = others.others() + 1;
   const std::int64_t least = 4 * threadCount(threads) * processes;
@@ -277,14 +240,14 @@ bool ProcessTracer<Real>::haveCuda(Processes& processes)
 
 template <class Real>
 bool ProcessTracer<Real>::traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
-  const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions, Processes& others,
-  TracedPass& traced, const Monitor& monitor)
+  const RayTask<Real>& task, const Passes& passes, Processes& others, TracedPass& traced,
+  const Monitor& monitor)
 {
   constexpr std::int64_t raysAtOnce = std::int64_t{ 1 } << 21; // of each process
   constexpr auto onHost = CudaTracer<Real>::Exits::OnHost;
-  TraceMessage<Real> request = state_->requestFor(medium_, task, passes, versions, Device::Cuda);
+  TraceMessage<Real> request = state_->requestFor(medium_, task, passes, Device::Cuda);
   state_->sendArrays(others, request);
-  own.begin(task, passes, exits, traced);
+  own.begin(passes, exits, traced);
   const std::int64_t all = passes.bands(), processes = others.others() + 1;
   const std::int64_t atOnce =
     std::max<std::int64_t>(1, raysAtOnce * processes / (bandRows * passes.columns()));
@@ -295,7 +258,7 @@ bool ProcessTracer<Real>::traceOnCuda(CudaTracer<Real>& own, typename CudaTracer
     const auto bandsOf = [&](std::int64_t process)
     { return bandsOfProcess(request.first, request.end, process, processes); };
     const auto answers = others.request(messageOf(request, passes.all()),
-      [&] { own.traceBands(task, passes, versions, exits, bandsOf(0), traced, {}); });
+      [&] { own.traceBands(task, passes, exits, bandsOf(0), traced, {}); });
     for (std::size_t n = 0; n < answers.size(); ++n)
     {
       putBands(

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Rays of one image traced by several ranks: one has the medium and the image (ProcessTracer), the others have
-// RayWorkers. These get what rays need of the medium, as a GPU does, and send back what rays hand on: 40 bytes a ray, and
-// 4 for each field that it gathers. Whoever traces a tile, its rays are the same to the last bit.
+// RayWorkers. These get what rays need of the medium, as a GPU does, and send back what rays hand on: 40 bytes a ray.
+// Whoever traces a tile, its rays are the same to the last bit.
 #pragma once
 
 #include "Rays/Cuda/CudaTracer.h"
@@ -24,15 +24,15 @@ public:
   ~ProcessTracer();
 
   /// Traces passes, or resumes them, as traceOnCpu() does.
-  bool trace(const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions,
-    Processes& processes, TracedPass& traced, int threads, const Monitor& monitor);
+  bool trace(const RayTask<Real>& task, const Passes& passes, Processes& processes,
+    TracedPass& traced, int threads, const Monitor& monitor);
 
   /// Whether all ranks have CUDA devices, of the same compute capability. Asks them once.
   static bool haveCuda(Processes& processes);
   /// Traces passes on these, where all have them. `own` is this rank's, with the medium.
   bool traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
-    const RayTask<Real>& task, const Passes& passes, const TaskVersions& versions,
-    Processes& processes, TracedPass& traced, const Monitor& monitor);
+    const RayTask<Real>& task, const Passes& passes, Processes& processes, TracedPass& traced,
+    const Monitor& monitor);
 
 private:
   struct State;

@@ -31,7 +31,7 @@ public:
   /// What a ProcessTracer has found out about them.
   struct KnownOfRays
   {
-    std::array<std::uint64_t, 9> arrays{}; ///< versions of those of a RayTask that they have
+    std::array<std::uint64_t, 6> arrays{}; ///< versions of those of a RayTask that they have
     std::optional<bool> hasCuda;           ///< whether all have CUDA devices like this process's
     double secondsPerTile = 0;             ///< of all processes together; 0: not known yet
   };

@@ -29,8 +29,6 @@ enum ArrayNumber : std::size_t
   rootsOfTask,
   childrenOfTask,
   gasDistancesOfTask,
-  gradientsOfTask,
-  gradientBricksOfTask,
   arraysOfTask ///< how many
 };
 
@@ -44,8 +42,6 @@ void forArrays(RayTask<Real>& task, const Visit& visit)
   visit(rootsOfTask, task.medium.finder.roots);
   visit(childrenOfTask, task.medium.finder.children);
   visit(gasDistancesOfTask, task.medium.gasDistances);
-  visit(gradientsOfTask, task.gradients.values);
-  visit(gradientBricksOfTask, task.gradients.bricks);
 }
 
 /// The beginning of a message with a piece of an array, which follows. Pieces come in their order; so neither side has a
@@ -106,11 +102,9 @@ struct TraceMessage
 constexpr std::int64_t nowhere =
   std::numeric_limits<std::int64_t>::min(); // the offset of a null pointer
 
-/// The beginning of an answer with rays: of those of each tile, or of all bands, row by row, then of all that they have
-/// gathered.
+/// The beginning of an answer with rays: of those of each tile, or of all bands, row by row.
 struct RaysHead
 {
-  std::uint64_t fields = 0;
   std::int64_t crossed = 0;
   double worstDrift = 0;
 };

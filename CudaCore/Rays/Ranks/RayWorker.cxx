@@ -30,17 +30,6 @@ int capabilityHere()
   }
 }
 
-template <class Values>
-char* putAll(const Values& values, char* to)
-{
-  const std::size_t bytes = values.size() * sizeof(typename Values::value_type);
-  if (bytes > 0)
-  {
-    std::memcpy(to, values.data(), bytes);
-  }
-  return to + bytes;
-}
-
 } // namespace
 
 struct RayWorker::Arrays
@@ -86,17 +75,15 @@ struct RayWorker::Arrays
     ofTask.keep(message);
   }
 
-  template <class Real>
-  std::vector<char> answerOf(const TraceMessage<Real>& request) const
+  std::vector<char> answer() const
   {
-    const std::size_t bytes =
-      traced.exits.size() * sizeof(RayExit) + traced.gathered.size() * sizeof(float);
-    std::vector<char> answer =
-      messageOf(RaysHead{ static_cast<std::uint64_t>(request.task.gradients.count), traced.crossed,
-                  traced.worstDrift },
-        bytes);
-    putAll(traced.gathered, putAll(traced.exits, answer.data() + sizeof(RaysHead)));
-    return answer;
+    const std::size_t bytes = traced.exits.size() * sizeof(RayExit);
+    std::vector<char> message = messageOf(RaysHead{ traced.crossed, traced.worstDrift }, bytes);
+    if (bytes > 0)
+    {
+      std::memcpy(message.data() + sizeof(RaysHead), traced.exits.data(), bytes);
+    }
+    return message;
   }
 
   template <class Real>
@@ -105,11 +92,9 @@ struct RayWorker::Arrays
   {
     OnCuda<Real>& here = onCuda<Real>();
     std::array<std::uint64_t, arraysOfTask> versions{};
-    const bool isTree = request.task.medium.leaves != nullptr;
     for (std::size_t n = 0; n < arraysOfTask; ++n)
     {
-      const bool isOfMedium = n != 6 && (n < 6 || isTree);
-      versions[n] = isOfMedium && request.offsets[n] != nowhere ? request.versions[n] : 0;
+      versions[n] = request.offsets[n] != nowhere ? request.versions[n] : 0;
     }
     if (!here.tracer || here.versions != versions)
     {
@@ -124,10 +109,9 @@ struct RayWorker::Arrays
     traced = {};
     if (const Passes own = passes.ofBands(bands); own.rays() > 0)
     {
-      here.tracer->trace(request.task, own, { request.versions[gradientsOfTask] },
-        CudaTracer<Real>::Exits::OnHost, traced, {});
+      here.tracer->trace(request.task, own, CudaTracer<Real>::Exits::OnHost, traced, {});
     }
-    return answerOf(request);
+    return answer();
   }
 
   /// The rays of its tiles, tile after tile.
@@ -139,27 +123,19 @@ struct RayWorker::Arrays
     {
       throw Error("The processors of the processes differ, so that rays would, too.");
     }
-    const auto fields = static_cast<std::size_t>(request.task.gradients.count);
-    traced.resize(passes, static_cast<int>(fields));
+    traced.resize(passes);
     traced.crossed = 0;
     traced.worstDrift = 0;
     schlieren::traceTiles(request.task, passes, tiles, traced, threads, {}, request.simd);
     const std::size_t rays = passes.raysOf(tiles);
-    std::vector<char> answer = messageOf(RaysHead{ fields, traced.crossed, traced.worstDrift },
-      rays * (sizeof(RayExit) + fields * sizeof(float)));
+    std::vector<char> answer =
+      messageOf(RaysHead{ traced.crossed, traced.worstDrift }, rays * sizeof(RayExit));
     char* exits = answer.data() + sizeof(RaysHead);
-    char* gathered = exits + rays * sizeof(RayExit);
     forRowsOf(passes, tiles,
       [&](std::size_t first, std::size_t count)
       {
         std::memcpy(exits, traced.exits.data() + first, count * sizeof(RayExit));
         exits += count * sizeof(RayExit);
-        if (fields > 0)
-        {
-          const std::size_t bytes = count * fields * sizeof(float);
-          std::memcpy(gathered, traced.gathered.data() + first * fields, bytes);
-          gathered += bytes;
-        }
       });
     return answer;
   }

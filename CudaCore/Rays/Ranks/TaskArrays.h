@@ -95,10 +95,6 @@ public:
       set(rootsOfTask, arrays.roots);
       set(childrenOfTask, arrays.children);
       set(gasDistancesOfTask, arrays.gasDistances);
-      set(gradientsOfTask, arrays.gradients);
-      set(gradientBricksOfTask, arrays.gradientBricks);
-      const std::int64_t first = request.offsets[gradientsOfTask];
-      arrays.firstGradient = first != nowhere ? first : 0;
     }
     return arrays;
   }

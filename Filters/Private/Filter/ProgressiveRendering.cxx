@@ -13,7 +13,6 @@
 #include "Image/RealOptics.h"
 #include "Image/SceneFromSettings.h"
 #include "Input/InputDescription.h"
-#include "Sources/FieldTints.h"
 #include "Sources/PieceSource.h"
 #include "Sources/RevolvedSource.h"
 
@@ -159,11 +158,10 @@ bool vtkSchlierenFilter::CanBegin(vtkMTimeType now)
   Internals& inside = *this->Inside;
   return inside.ShownOf != 0 && inside.ShownOf != now && inside.FailedAt != now &&
     inside.Shown[IMAGE_PORT].IsThere() &&
-    (!this->ColorByField || inside.Refractivity->Source || !inside.FieldGradients.empty()) &&
     inside.holdsRefractivityOf(
       this->DescribeInputs(inside.Ranks.gatheredOf(0, this->GetInputDataObject(0, 0)),
         inside.Ranks.gatheredOf(BODIES, this->GetInputDataObject(BODIES, 0))),
-      this->GetMediumSettings(), this->ColorByField) &&
+      this->GetMediumSettings()) &&
     this->UseOwnRanks();
 }
 
@@ -178,8 +176,7 @@ bool vtkSchlierenFilter::Continues(vtkDataObject* input, vtkDataObject* bodies)
 {
   Internals& inside = *this->Inside;
   return !this->GetFinished() && inside.UnfinishedOf == this->GetTimeOfImage() &&
-    inside.holdsRefractivityOf(
-      this->DescribeInputs(input, bodies), this->GetMediumSettings(), this->ColorByField) &&
+    inside.holdsRefractivityOf(this->DescribeInputs(input, bodies), this->GetMediumSettings()) &&
     this->UseOwnRanks();
 }
 
@@ -209,8 +206,7 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
   }
 
   const LastImage& shown = inside.Shown[IMAGE_PORT];
-  const bool isColored = this->ColorByField || this->HasOwnColor();
-  if (this->TimeLimit > 0 && (!shown.IsThere() || (isColored && !shown.HasColor())))
+  if (this->TimeLimit > 0 && (!shown.IsThere() || (this->HasOwnColor() && !shown.HasColor())))
   {
     // Something to show if time is over before the first sample of each pixel is there.
     if (!this->Show(this->Begin(true, 0, monitor), output, histogram))
@@ -282,19 +278,11 @@ schlieren::Image vtkSchlierenFilter::Begin(
     scene.lens.focusDistance = inside.Pupil.focusDistance;
   }
   this->UseKept(scene);
-  if (this->ColorByField)
-  {
-    const std::size_t fields = this->GetMediumSettings().Fields.size();
-    scene.fieldColors = fieldColors(this->FieldColors, fields);
-    field.gradients = { static_cast<int>(fields),
-      inside.Refractivity->Source ? nullptr : inside.FieldGradients.data(), field.version };
-  }
   if (isPreview)
   {
     makePreview(scene, schlieren::frameOf(field.grid, scene.view), reductionAtFirst(scene.view));
   }
-  requireMemoryFor(
-    scene.view, this->ColorByField || this->HasOwnColor(), CutoffHasBackground(this->Cutoff));
+  requireMemoryFor(scene.view, this->HasOwnColor(), CutoffHasBackground(this->Cutoff));
   return inside.Images.Begin(field, scene, seconds, monitor);
 }
 
@@ -381,7 +369,7 @@ bool vtkSchlierenFilter::Show(
   setOutput(output, image);
   if (!image.color.empty())
   {
-    addColor(output, image, colors);
+    addColor(output, image);
   }
   if (schlieren::techniqueOf(scene.cutoff).hasFringes)
   {
@@ -390,7 +378,6 @@ bool vtkSchlierenFilter::Show(
   if (const auto& source = inside.Refractivity->Source)
   {
     inside.Grid = mediumInWords(image.medium);
-    inside.Grid += source->fields() > 0 ? " or of the full colour" : "";
     inside.Grid += source->makers() ? ", of data that stay on their ranks" : "";
     addMedium(output, image.medium);
   }

@@ -90,16 +90,10 @@ struct vtkSchlierenFilter::Internals
     return medium;
   }
 
-  // Rejects a source whose voxels resolve the fields needlessly, or do not resolve them.
-  bool holdsRefractivityOf(
-    const std::vector<double>& input, const MediumSettings& medium, bool needsFields) const
+  bool holdsRefractivityOf(const std::vector<double>& input, const MediumSettings& medium) const
   {
-    return this->MadeWith == this->inUse(medium) && this->Input == input &&
-      (!this->Refractivity->Source || (this->Refractivity->Source->fields() > 0) == needsFields);
+    return this->MadeWith == this->inUse(medium) && this->Input == input;
   }
-
-  // Gradients of the fields that tint, on the grid of Refractivity; empty if a source has them.
-  std::vector<float> FieldGradients;
 
   // Newest times of this filter and of everything upstream, except Refine(), of the last failure,
   // of the image at the outputs, and of the unfinished image (0: none).

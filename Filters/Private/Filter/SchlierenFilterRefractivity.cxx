@@ -9,7 +9,6 @@
 #include "Image/SceneFromSettings.h"
 #include "Input/Flow.h"
 #include "Input/InputDescription.h"
-#include "Sources/FieldTints.h"
 #include "Sources/MediumMaker.h"
 
 #include "vtkDataObject.h"
@@ -90,13 +89,12 @@ bool vtkSchlierenFilter::UpdateRefractivity(vtkDataObject* input, vtkDataObject*
   settings.Wavelength = MediumSettings().Wavelength; // without influence on a flow's size
   inside.DepthLock.For(K_AUTOMATIC, { inside.Time, description, std::move(settings), {}, {} });
   const double kept = inside.DepthLock.GetKept().value_or(0);
-  if (inside.holdsRefractivityOf(description, this->GetMediumSettings(), this->ColorByField) &&
+  if (inside.holdsRefractivityOf(description, this->GetMediumSettings()) &&
     kept == inside.KeptDepth && this->UseOwnRanks())
   {
     return true;
   }
   inside.MadeWith.reset();
-  inside.FieldGradients.clear();
   inside.Refractivity = std::make_shared<MadeRefractivity>(); // what was, goes first
   inside.Grid.clear();
   inside.KeptDepth = kept;
@@ -131,8 +129,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::FindOrMakeRefractivi
   const bool arePieces = this->Inside->Ranks.areInPieces();
   MediumMaker& maker = this->GetMaker();
   RefractivityKey key{ input, bodies, arePieces ? this->DescribePieces(input, bodies) : description,
-    arePieces ? maker.choiceFor(input).settings : this->Chosen(input).flow.choice.settings,
-    this->ColorByField };
+    arePieces ? maker.choiceFor(input).settings : this->Chosen(input).flow.choice.settings };
   const std::shared_ptr<const MadeRefractivity> found = findRefractivity(key);
   if (found && this->Inside->Ranks.use(found->Source.get()))
   {
@@ -163,7 +160,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
     {
       maker.forgetLast();
       auto made = std::make_shared<MadeRefractivity>();
-      made->Source = inside.Ranks.make(bodies, this->ColorByField, made->Warning);
+      made->Source = inside.Ranks.make(bodies, made->Warning);
       vtkTimeStamp now;
       now.Modified();
       made->SourceTime = now.GetMTime();
@@ -174,7 +171,7 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
     inside.Ranks.release();
     const Choice& choice = this->Chosen(input);
     const bool isLarge = this->IsLargeImage(input) && choice.flatAxis < 0;
-    const auto made = maker.make(choice, bodies, this->ColorByField, isLarge);
+    const auto made = maker.make(choice, bodies, isLarge);
     if (isLarge && choice.keepsGrid() && !bodies)
     {
       addText(made->Warning,
@@ -194,20 +191,5 @@ std::shared_ptr<const MadeRefractivity> vtkSchlierenFilter::MakeRefractivity(
       return nullptr;
     }
     throw;
-  }
-}
-
-void vtkSchlierenFilter::UpdateFieldGradients(vtkDataObject* input)
-{
-  Internals& inside = *this->Inside;
-  if (!this->ColorByField || inside.Refractivity->Source)
-  {
-    inside.FieldGradients = std::vector<float>();
-  }
-  else if (inside.FieldGradients.empty())
-  {
-    const MediumMaker& maker = this->GetMaker();
-    inside.FieldGradients =
-      fieldGradients(maker.settings, input, inside.Refractivity->Image, maker.threads());
   }
 }

@@ -195,14 +195,14 @@ unsigned char byteOf(float light, ColorScale scale)
     (scale == ColorScale::Srgb ? srgbFromLinear(fraction) : fraction) * 255.f + 0.5f);
 }
 
-void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale)
+void addColor(vtkImageData* output, const schlieren::Image& image)
 {
   vtkNew<vtkUnsignedCharArray> array;
   array->SetName("Color");
   array->SetNumberOfComponents(3);
   setTuples(array, static_cast<vtkIdType>(image.color.size()) / 3);
   std::transform(image.color.begin(), image.color.end(), array->GetPointer(0),
-    [scale](float light) { return byteOf(light, scale); });
+    [](float light) { return byteOf(light, ColorScale::Srgb); });
   output->GetPointData()->AddArray(array); // SetScalars would remove the intensity
   output->GetPointData()->SetActiveScalars("Color");
 }

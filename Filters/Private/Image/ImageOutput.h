@@ -21,7 +21,7 @@ void setOutput(vtkImageData* output, schlieren::Image& image);
 /// The mapping of light to the bytes of Color.
 enum class ColorScale
 {
-  Linear,        ///< tinted images: 1 is 255
+  Linear,        ///< 1 is 255
   LinearToTwice, ///< shadowgraphs, whose undisturbed light is 1: 2 is 255
   Srgb           ///< true colours (IEC 61966-2-1): 1 is 255
 };
@@ -30,7 +30,7 @@ enum class ColorScale
 unsigned char byteOf(float light, ColorScale scale);
 
 /// Adds the colours of an image and makes them the scalars.
-void addColor(vtkImageData* output, const schlieren::Image& image, ColorScale scale);
+void addColor(vtkImageData* output, const schlieren::Image& image);
 
 /// Adds spacing (data units) and angle (degrees) of finite fringes, and the wavelength (metres) of light that has only one.
 void addFringes(vtkImageData* output, const schlieren::Scene& scene);

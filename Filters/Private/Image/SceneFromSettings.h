@@ -37,7 +37,7 @@ schlieren::Scene sceneFrom(
 schlieren::LightModel lightModelOf(const SchlierenSettings& settings);
 
 /// Adds what comes from objects and the scene needs: the graded filter (null: a straight line) and
-/// the dispersion for white light, but not the colours of fields.
+/// the dispersion for white light.
 void addObjects(
   schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumMaker& medium);
 

@@ -48,8 +48,7 @@ std::vector<double> settingsOfRays(const SchlierenSettings& settings)
   ViewSettings::visit(add);
   AccuracySettings::visit(add);
   values.insert(values.end(),
-    { settings.SourceDistance, double(settings.SourceShape), double(settings.ColorByField),
-      double(settings.Device) });
+    { settings.SourceDistance, double(settings.SourceShape), double(settings.Device) });
   if (static_cast<schlieren::SourceShape>(settings.SourceShape) != schlieren::SourceShape::Point)
   {
     values.insert(values.end(),

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/ChoiceOverRanks.h"
 
-#include "Sources/FieldTints.h"
 #include "Sources/MediumMaker.h"
 
 #include "vtkDataSet.h"
@@ -51,12 +50,12 @@ vtkSmartPointer<vtkDataObject> dataOf(
 /// The part of a choice that is sent to all ranks.
 struct Sent
 {
-  FieldRanges ofModel, ofFields;
+  FieldRanges ofModel;
   std::string lacks; // message about what it lacks
 };
 
 /// Chooses from a rank's own pieces.
-Sent chooseOwn(MediumMaker& maker, ChoiceOverRanks& choice, bool hasFields)
+Sent chooseOwn(MediumMaker& maker, ChoiceOverRanks& choice)
 {
   Sent own;
   try
@@ -72,13 +71,6 @@ Sent chooseOwn(MediumMaker& maker, ChoiceOverRanks& choice, bool hasFields)
   if (const auto* mean = std::get_if<FieldMean>(&choice.flow.model))
   {
     own.ofModel = mean->rangesIn(choice.flow.leaves);
-  }
-  const auto fields =
-    hasFields ? rangesOfFields(maker.settings, choice.data) : std::vector<RangeOfField>();
-  for (const RangeOfField& field : fields)
-  {
-    own.lacks = own.lacks.empty() ? field.lacks : own.lacks;
-    own.ofFields.push_back(field.range);
   }
   return own;
 }
@@ -104,7 +96,7 @@ void shareArrays(const Ranks& ranks, MediumMaker& maker, vtkDataObject* own)
 }
 
 ChoiceOverRanks chooseOverRanks(const Ranks& ranks, MediumMaker& maker,
-  const std::vector<PiecesOfRanks::Piece>& pieces, bool areImages, bool hasFields)
+  const std::vector<PiecesOfRanks::Piece>& pieces, bool areImages)
 {
   ChoiceOverRanks choice;
   FieldRanges ofModel;
@@ -116,11 +108,10 @@ ChoiceOverRanks chooseOverRanks(const Ranks& ranks, MediumMaker& maker,
       if (!pieces.empty())
       {
         choice.data = dataOf(pieces, areImages);
-        own = chooseOwn(maker, choice, hasFields);
+        own = chooseOwn(maker, choice);
       }
       Ranks::Bytes bytes;
       putAll(own.ofModel, bytes);
-      putAll(own.ofFields, bytes);
       putAll(own.lacks, bytes);
       putAll(choice.flow.label, bytes);
       return bytes;
@@ -128,15 +119,12 @@ ChoiceOverRanks chooseOverRanks(const Ranks& ranks, MediumMaker& maker,
     [&](Reader& reader)
     {
       join(ofModel, reader.GetAll<FieldRanges>());
-      join(choice.ofFields, reader.GetAll<FieldRanges>());
       const auto lacks = reader.GetAll<std::string>();
       lacking = lacking.empty() ? lacks : lacking;
       const auto label = reader.GetAll<std::string>();
       choice.label = choice.label.empty() ? label : choice.label;
     });
-  const bool hasAllFields = std::all_of(choice.ofFields.begin(), choice.ofFields.end(),
-    [](const FieldMean::Range& range) { return range[0] <= range[1]; });
-  if (!lacking.empty() && (choice.label.empty() || !hasAllFields))
+  if (!lacking.empty() && choice.label.empty())
   {
     throw ArraysMissing(lacking);
   }

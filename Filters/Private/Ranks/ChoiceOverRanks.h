@@ -21,10 +21,9 @@ class MediumMaker;
 /// What a rank reads of its pieces.
 struct ChoiceOverRanks
 {
-  vtkSmartPointer<vtkDataObject> data;    ///< of the pieces; null: none with the arrays
-  Flow flow;                              ///< of `data`
-  std::vector<FieldMean::Range> ofFields; ///< ranges on all ranks
-  std::string label;                      ///< see Flow::label; that of any rank
+  vtkSmartPointer<vtkDataObject> data; ///< of the pieces; null: none with the arrays
+  Flow flow;                           ///< of `data`
+  std::string label;                   ///< see Flow::label; that of any rank
 };
 
 /// Lets all ranks choose among the arrays of all.
@@ -33,6 +32,6 @@ void shareArrays(const Ranks& ranks, MediumMaker& maker, vtkDataObject* own);
 /// Chooses arrays on all ranks, and finds the ranges on all ranks of fields that are relative to
 /// them. Throws ArraysMissing if no rank has them.
 ChoiceOverRanks chooseOverRanks(const Ranks& ranks, MediumMaker& maker,
-  const std::vector<PiecesOfRanks::Piece>& pieces, bool areImages, bool hasFields);
+  const std::vector<PiecesOfRanks::Piece>& pieces, bool areImages);
 
 } // namespace filters

@@ -197,7 +197,7 @@ vtkDataObject* InputsOfRanks::gatheredOf(int port, vtkDataObject* own) const
 }
 
 std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
-  vtkDataObject* bodies, bool hasFields, std::string& warning)
+  vtkDataObject* bodies, std::string& warning)
 {
   std::vector<char> ofBodies;
   if (bodies)
@@ -209,7 +209,6 @@ std::shared_ptr<const schlieren::MediumSource> InputsOfRanks::make(
   }
   std::vector<char> request = requestOf(Make);
   put(sources().newNumber(), request);
-  put(hasFields, request);
   putAll(ofBodies, request);
   this->requestOfAll(request);
   const MediumChoice choice = this->Maker->choice();
@@ -288,14 +287,12 @@ std::vector<char> InputsOfRanks::answer(const std::vector<char>& request)
     case Make:
     {
       const auto number = reader.Get<std::uint64_t>();
-      const auto hasFields = reader.Get<bool>();
       const auto ofBodies = reader.GetAll<std::vector<char>>();
       this->Held = nullptr; // frees memory first
       this->Made = {};
       vtkSmartPointer<vtkDataObject> bodies;
       ranks.agree([&] { bodies = gatheredData({ ofBodies }); });
-      this->Made =
-        makeOverRanks(*this->Maker, ranks, this->Own[0], bodies, hasFields, number, this->Cache);
+      this->Made = makeOverRanks(*this->Maker, ranks, this->Own[0], bodies, number, this->Cache);
       this->Held = this->Made.source;
       if (this->Held)
       {

@@ -64,8 +64,7 @@ public:
 
   /// Makes the source of data that stay on their ranks. `warning`: for the user.
   /// Throws std::runtime_error.
-  std::shared_ptr<const schlieren::MediumSource> make(
-    vtkDataObject* bodies, bool hasFields, std::string& warning);
+  std::shared_ptr<const schlieren::MediumSource> make(vtkDataObject* bodies, std::string& warning);
   /// Makes the ranks of this filter answer for a source, perhaps another filter's. Returns false if
   /// they cannot, and a new source is needed. Succeeds for sources that need no ranks.
   bool use(const schlieren::MediumSource* source);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 namespace filters
@@ -13,11 +12,8 @@ namespace filters
 PieceSamples PieceSamples::Of(const DataPiece& piece, const schlieren::Lattice& lattice)
 {
   const auto size = static_cast<std::size_t>(lattice.size());
-  const auto fields = static_cast<std::size_t>(piece.fields());
-  PieceSamples samples{ std::vector<unsigned char>(size), std::vector<double>(size),
-    std::vector<double>(fields * size) };
-  piece.sample(lattice, samples.values.data(), samples.found.data(),
-    fields > 0 ? samples.fields.data() : nullptr);
+  PieceSamples samples{ std::vector<unsigned char>(size), std::vector<double>(size) };
+  piece.sample(lattice, samples.values.data(), samples.found.data());
   const bool isAny =
     std::find(samples.found.begin(), samples.found.end(), 1) != samples.found.end();
   return isAny ? std::move(samples) : PieceSamples();
@@ -36,10 +32,6 @@ void PieceSamples::Add(PieceSamples other)
     {
       this->found[i] = 1;
       this->values[i] = other.values[i];
-      for (std::size_t at = i; at < other.fields.size(); at += other.found.size())
-      {
-        this->fields[at] = other.fields[at];
-      }
     }
   }
 }
@@ -58,19 +50,12 @@ void PieceSamples::Put(std::vector<char>& message) const
       known.push_back(this->values[i]);
     }
   }
-  for (std::size_t i = 0; i < this->fields.size(); ++i)
-  {
-    if (this->found[i % size])
-    {
-      known.push_back(this->fields[i]);
-    }
-  }
   put(static_cast<std::uint64_t>(size), message);
   putAll(bits, message);
   putAll(known, message);
 }
 
-PieceSamples PieceSamples::Get(Reader& message, std::size_t points, std::size_t fields)
+PieceSamples PieceSamples::Get(Reader& message, std::size_t points)
 {
   const auto size = static_cast<std::size_t>(message.Get<std::uint64_t>());
   const auto bits = message.GetAll<std::vector<unsigned char>>();
@@ -91,18 +76,17 @@ PieceSamples PieceSamples::Get(Reader& message, std::size_t points, std::size_t 
   }
   const auto count =
     static_cast<std::size_t>(std::count(samples.found.begin(), samples.found.end(), 1));
-  if (known.size() != count * (1 + fields))
+  if (known.size() != count)
   {
     Reader::Fail();
   }
   const double* next = known.data();
   samples.values.resize(size);
-  samples.fields.assign(size * fields, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t i = 0; i < size * (1 + fields); ++i)
+  for (std::size_t i = 0; i < size; ++i)
   {
-    if (samples.found[i % size])
+    if (samples.found[i])
     {
-      (i < size ? samples.values[i] : samples.fields[i - size]) = *next++;
+      samples.values[i] = *next++;
     }
   }
   return samples;

@@ -13,13 +13,11 @@
 namespace filters
 {
 
-/// N at the points of a lattice that a rank's piece holds, and fields, field after field, NaN where
-/// one has no value. `found`: empty if it holds no point.
+/// N at the points of a lattice that a rank's piece holds. `found`: empty if it holds no point.
 struct PieceSamples
 {
   std::vector<unsigned char> found;
   std::vector<double> values;
-  std::vector<double> fields;
 
   static PieceSamples Of(const DataPiece& piece, const schlieren::Lattice& lattice);
 
@@ -27,8 +25,8 @@ struct PieceSamples
   void Add(PieceSamples other);
 
   void Put(std::vector<char>& message) const;
-  /// Reads what Put() has written for so many points and fields; else throws std::runtime_error.
-  static PieceSamples Get(Reader& message, std::size_t points, std::size_t fields);
+  /// Reads what Put() has written for so many points; else throws std::runtime_error.
+  static PieceSamples Get(Reader& message, std::size_t points);
 };
 
 } // namespace filters

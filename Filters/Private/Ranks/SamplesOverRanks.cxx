@@ -13,8 +13,6 @@ namespace filters
 namespace
 {
 
-constexpr schlieren::MediumSource::FieldRange nowhere{ 1, 0 };
-
 /// Calls work(i) for i < count in so many threads; 0: one per core. Several threads may call it at
 /// once, unlike vtkSMPTools, whose list of threads such calls corrupt.
 template <class Work>
@@ -52,23 +50,14 @@ void extend(schlieren::Box& box, const schlieren::Box& by)
   }
 }
 
-void extend(
-  schlieren::MediumSource::FieldRange& range, const schlieren::MediumSource::FieldRange& by)
+void extend(CellTree::Content& content, const CellTree::Content& by)
 {
   if (by.lowest <= by.highest)
   {
-    const bool isFirst = range.lowest > range.highest;
-    range.lowest = isFirst ? by.lowest : std::min(range.lowest, by.lowest);
-    range.highest = isFirst ? by.highest : std::max(range.highest, by.highest);
+    const bool isFirst = content.lowest > content.highest;
+    content.lowest = isFirst ? by.lowest : std::min(content.lowest, by.lowest);
+    content.highest = isFirst ? by.highest : std::max(content.highest, by.highest);
   }
-}
-
-void extend(CellTree::Content& content, const CellTree::Content& by)
-{
-  schlieren::MediumSource::FieldRange range{ content.lowest, content.highest };
-  extend(range, { by.lowest, by.highest });
-  content.lowest = range.lowest;
-  content.highest = range.highest;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     content.cellSize[axis] = std::min(content.cellSize[axis], by.cellSize[axis]);
@@ -77,13 +66,12 @@ void extend(CellTree::Content& content, const CellTree::Content& by)
 
 SamplesOverRanks::SamplesOverRanks(const Ranks& ranks, std::uint64_t number,
   std::unique_ptr<const DataPiece> piece, const DataPiece::Facts& facts,
-  std::vector<FieldRange> fields, std::shared_ptr<const GasBoundary> boundary, double ambient,
+  std::shared_ptr<const GasBoundary> boundary, double ambient,
   std::shared_ptr<LatticeCache> lattices, int threads)
   : PieceSource(std::move(piece), std::move(boundary), ambient, std::move(lattices), facts)
   , AllRanks(ranks)
   , Number(number)
   , Own(this->piece().facts())
-  , Ranges(std::move(fields))
   , Threads(threads)
   , Whole(this->contentWith(facts.bounds, { facts.content, { 1, 1, 1, 1, 1, 1, 1, 1, 1 } }))
 {
@@ -134,60 +122,36 @@ void SamplesOverRanks::OwnContent::add(const OwnContent& other)
   }
 }
 
-/// Writes contents and ranges of fields, of each box.
 std::vector<char> SamplesOverRanks::ownContentsOf(const std::vector<schlieren::Box>& boxes) const
 {
-  const std::size_t fields = this->Ranges.size();
   std::vector<OwnContent> own(boxes.size());
-  std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
-  forEach(boxes.size(), this->Threads,
-    [&](std::size_t n)
-    {
-      own[n] = this->ownContentOf(boxes[n]);
-      const bool has = own[n].cells.lowest <= own[n].cells.highest;
-      for (std::size_t field = 0; has && field < fields; ++field)
-      {
-        ranges[n * fields + field] = this->piece().rangeOfField(static_cast<int>(field), boxes[n]);
-      }
-    });
+  forEach(
+    boxes.size(), this->Threads, [&](std::size_t n) { own[n] = this->ownContentOf(boxes[n]); });
   std::vector<char> bytes;
   putAll(own, bytes);
-  putAll(ranges, bytes);
   return bytes;
 }
 
 void SamplesOverRanks::prepareContents(const std::vector<schlieren::Box>& boxes) const
 {
-  const std::size_t fields = this->Ranges.size();
   std::vector<OwnContent> all(boxes.size());
-  std::vector<FieldRange> ranges(boxes.size() * fields, nowhere);
   this->AllRanks.allGather([&] { return this->ownContentsOf(boxes); },
     [&](Reader& reader)
     {
       const auto own = reader.GetAll<std::vector<OwnContent>>();
-      const auto ownRanges = reader.GetAll<std::vector<FieldRange>>();
       for (std::size_t n = 0; n < all.size(); ++n)
       {
         all[n].add(own.at(n));
       }
-      for (std::size_t n = 0; n < ranges.size(); ++n)
-      {
-        extend(ranges[n], ownRanges.at(n));
-      }
     });
   this->Boxes.clear();
-  std::vector<CachedBox*> known;
+  std::vector<Content*> known;
   for (const schlieren::Box& box : boxes)
   {
     known.push_back(&this->Boxes[keyOf(box)]);
   }
   forEach(boxes.size(), this->Threads,
-    [&](std::size_t n)
-    {
-      const auto first = ranges.begin() + static_cast<std::ptrdiff_t>(n * fields);
-      *known[n] = { this->contentWith(boxes[n], all[n]),
-        { first, first + static_cast<std::ptrdiff_t>(fields) } };
-    });
+    [&](std::size_t n) { *known[n] = this->contentWith(boxes[n], all[n]); });
 }
 
 /// Writes, for each rank, the samples of its lattices.
@@ -237,8 +201,7 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
       if (!ofLattice.empty())
       {
         Reader own(ofLattice);
-        samples.Add(PieceSamples::Get(
-          own, static_cast<std::size_t>(lattices[n].size()), this->Ranges.size()));
+        samples.Add(PieceSamples::Get(own, static_cast<std::size_t>(lattices[n].size())));
       }
     }
   }
@@ -247,12 +210,12 @@ void SamplesOverRanks::prepareSamples(const std::vector<schlieren::Lattice>& lat
 schlieren::MediumSource::Content SamplesOverRanks::contentOf(const schlieren::Box& box) const
 {
   const bool isAll = box.low == this->bounds().low && box.high == this->bounds().high;
-  return isAll ? this->Whole : this->Boxes.at(keyOf(box)).content;
+  return isAll ? this->Whole : this->Boxes.at(keyOf(box));
 }
 
 /// Copies what has been prepared. `found`: may be null.
 void SamplesOverRanks::sampleGas(const schlieren::Lattice& lattice, double* refractivity,
-  unsigned char* found, double* values, CellsOfLattice*) const
+  unsigned char* found, CellsOfLattice*) const
 {
   const PieceSamples& samples = this->Samples.at(keyOf(lattice));
   std::fill_n(refractivity, static_cast<std::size_t>(lattice.size()), 0.);
@@ -261,25 +224,13 @@ void SamplesOverRanks::sampleGas(const schlieren::Lattice& lattice, double* refr
   {
     std::copy(samples.found.begin(), samples.found.end(), found);
   }
-  if (values)
-  {
-    std::copy(samples.fields.begin(), samples.fields.end(), values);
-  }
 }
 
-bool SamplesOverRanks::sampleGasIn(const CellsOfLattice&, const schlieren::Lattice& lattice,
-  double* refractivity, double* values) const
+bool SamplesOverRanks::sampleGasIn(
+  const CellsOfLattice&, const schlieren::Lattice& lattice, double* refractivity) const
 {
-  this->sampleGas(lattice, refractivity, nullptr, values, nullptr);
+  this->sampleGas(lattice, refractivity, nullptr, nullptr);
   return true;
-}
-
-schlieren::MediumSource::FieldRange SamplesOverRanks::rangeOfField(
-  int field, const schlieren::Box& box) const
-{
-  const auto number = static_cast<std::size_t>(field);
-  const auto found = this->Boxes.find(keyOf(box));
-  return found == this->Boxes.end() ? this->Ranges[number] : found->second.fields[number];
 }
 
 std::vector<std::vector<char>> SamplesOverRanks::makeShare(

@@ -29,11 +29,9 @@ namespace filters
 class SamplesOverRanks : public PieceSource, public schlieren::BrickMakers
 {
 public:
-  /// `number`: identifies the source on all ranks. `facts`, `fields`: of all data, and the ranges of
-  /// their fields. For the others see PieceSource.
+  /// `number`: identifies the source on all ranks. `facts`: of all data. For the others see PieceSource.
   SamplesOverRanks(const Ranks& ranks, std::uint64_t number, std::unique_ptr<const DataPiece> piece,
-    const DataPiece::Facts& facts, std::vector<FieldRange> fields,
-    std::shared_ptr<const GasBoundary> boundary, double ambient,
+    const DataPiece::Facts& facts, std::shared_ptr<const GasBoundary> boundary, double ambient,
     std::shared_ptr<LatticeCache> lattices, int threads);
 
   /// The first bytes of a request for bricks, which other ranks answer by answerBricks().
@@ -47,8 +45,6 @@ public:
 
   Content contentOf(const schlieren::Box& box) const override;
   bool dependsOnLattice() const override { return true; }
-  /// Returns the range in a prepared box, or that of all data.
-  FieldRange rangeOfField(int field, const schlieren::Box& box) const override;
 
   const schlieren::BrickMakers* makers() const override { return this; }
   void prepareContents(const std::vector<schlieren::Box>& boxes) const override;
@@ -60,16 +56,11 @@ public:
 
 protected:
   void sampleGas(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
-    double* values, CellsOfLattice* cells) const override;
+    CellsOfLattice* cells) const override;
   bool sampleGasIn(const CellsOfLattice& cells, const schlieren::Lattice& lattice,
-    double* refractivity, double* values) const override;
+    double* refractivity) const override;
 
 private:
-  struct CachedBox
-  {
-    Content content;
-    std::vector<FieldRange> fields;
-  };
   /// Content of a rank in a box: its cells, and which of GasBoundary::testedPlaces() they contain.
   struct OwnContent
   {
@@ -93,19 +84,16 @@ private:
 
   const Ranks AllRanks;
   const std::uint64_t Number;
-  const DataPiece::Facts Own;           // of its piece
-  const std::vector<FieldRange> Ranges; // of the fields of all data
+  const DataPiece::Facts Own; // of its piece
   const int Threads;
   const Content Whole; // of bounds()
-  mutable std::map<BoxKey, CachedBox> Boxes;
+  mutable std::map<BoxKey, Content> Boxes;
   mutable std::map<LatticeKey, PieceSamples> Samples;
   mutable FilterRanks* Used = nullptr;
 };
 
-/// Extend the bounds, content or range of a piece by those of another one.
+/// Extend the bounds or content of a piece by those of another one.
 void extend(schlieren::Box& box, const schlieren::Box& by);
 void extend(CellTree::Content& content, const CellTree::Content& by);
-void extend(
-  schlieren::MediumSource::FieldRange& range, const schlieren::MediumSource::FieldRange& by);
 
 } // namespace filters

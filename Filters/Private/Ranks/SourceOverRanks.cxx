@@ -9,7 +9,6 @@
 #include "Input/RefractivityOfImage.h"
 #include "Ranks/BoundaryOverRanks.h"
 #include "Ranks/ChoiceOverRanks.h"
-#include "Sources/FieldTints.h"
 #include "Sources/MediumMaker.h"
 
 #include "vtkImageData.h"
@@ -43,25 +42,19 @@ void reach(const Ranks& ranks, const MediumMaker& maker, double done)
 }
 
 std::unique_ptr<MeshPiece> makePieceOfMeshes(
-  MediumMaker& maker, ChoiceOverRanks& choice, MeshCache& cache, Tally& tally)
+  ChoiceOverRanks& choice, MeshCache& cache, Tally& tally)
 {
   std::vector<Leaf>& leaves = choice.flow.leaves;
   leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
                  [](const Leaf& leaf) { return dimensionOf(leaf.data) < 3; }),
     leaves.end());
-  PreparedLeaves prepared{ {}, std::vector<MeshLeaves>(choice.ofFields.size()) };
+  MeshLeaves prepared;
   if (choice.data && !leaves.empty())
   {
-    std::vector<Flow> fields;
-    if (!choice.ofFields.empty())
-    {
-      fields = fieldFlows(maker.settings, choice.data, choice.flow, choice.ofFields);
-    }
-    prepared = preparedLeaves(choice.flow, fields, tally);
+    prepared = preparedLeaves(choice.flow, tally);
   }
-  cache.piece = PieceMesh::of(prepared.refractivity, cache.piece);
-  auto piece = std::make_unique<MeshPiece>(prepared, cache.piece, Copies::Neighbours);
-  return piece;
+  cache.piece = PieceMesh::of(prepared, cache.piece);
+  return std::make_unique<MeshPiece>(prepared, cache.piece, Copies::Neighbours);
 }
 
 std::unique_ptr<ImagePiece> makePieceOfImage(MediumMaker& maker, const ChoiceOverRanks& choice,
@@ -80,28 +73,25 @@ std::unique_ptr<ImagePiece> makePieceOfImage(MediumMaker& maker, const ChoiceOve
       --extents.own[high];
     }
   }
-  return pieceOfImage(maker, refractivity, extents,
-    turnedBack(bodies, gridFrom(refractivity).direction), choice.data, !choice.ofFields.empty(),
-    choice.ofFields);
+  return std::make_unique<ImagePiece>(
+    refractivity, extents, turnedBack(bodies, gridFrom(refractivity).direction), maker.threads());
 }
 
 /// The properties of all pieces.
 struct Sum
 {
   DataPiece::Facts facts{};
-  std::vector<schlieren::MediumSource::FieldRange> fields;
   Tally tally{};
   std::vector<std::uint64_t> keys; // of the ranks' meshes
 };
 
-Sum sumUp(const Ranks& ranks, const DataPiece& piece, const Tally& tally, std::size_t fields)
+Sum sumUp(const Ranks& ranks, const DataPiece& piece, const Tally& tally)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Sum sum;
   sum.facts.bounds = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
   sum.facts.content = { 1, 0, { infinity, infinity, infinity } };
   sum.facts.direction = schlieren::Grid{}.direction;
-  sum.fields.assign(fields, { 1, 0 });
   ranks.allGather(
     [&]
     {
@@ -112,10 +102,6 @@ Sum sumUp(const Ranks& ranks, const DataPiece& piece, const Tally& tally, std::s
       put(facts.content, bytes);
       put(tally, bytes);
       put(piece.meshKey(), bytes);
-      for (int field = 0; facts.cells > 0 && field < piece.fields(); ++field)
-      {
-        put(piece.rangeOfField(field, facts.bounds), bytes);
-      }
       return bytes;
     },
     [&](Reader& reader)
@@ -130,17 +116,13 @@ Sum sumUp(const Ranks& ranks, const DataPiece& piece, const Tally& tally, std::s
         sum.facts.cells += cells;
         extend(sum.facts.bounds, bounds);
         extend(sum.facts.content, content);
-        for (schlieren::MediumSource::FieldRange& range : sum.fields)
-        {
-          extend(range, reader.Get<schlieren::MediumSource::FieldRange>());
-        }
       }
     });
   return sum;
 }
 
 MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
-  vtkDataObject* bodies, bool hasFields, std::uint64_t number, MeshCache& cache)
+  vtkDataObject* bodies, std::uint64_t number, MeshCache& cache)
 {
   bool isImage = false;
   Pieces pieces;
@@ -150,7 +132,7 @@ MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
     pieces = found.withGhostCells();
   }
   reach(ranks, maker, 0.2);
-  ChoiceOverRanks choice = chooseOverRanks(ranks, maker, pieces, isImage, hasFields);
+  ChoiceOverRanks choice = chooseOverRanks(ranks, maker, pieces, isImage);
   std::unique_ptr<DataPiece> piece;
   Tally tally;
   ranks.agree(
@@ -162,10 +144,10 @@ MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
       }
       else
       {
-        piece = makePieceOfMeshes(maker, choice, cache, tally);
+        piece = makePieceOfMeshes(choice, cache, tally);
       }
     });
-  Sum sum = sumUp(ranks, *piece, tally, choice.ofFields.size());
+  Sum sum = sumUp(ranks, *piece, tally);
   reach(ranks, maker, 0.6);
   MadeOverRanks made{ nullptr, sum.tally, choice.label };
   if (sum.facts.cells > 0)
@@ -173,8 +155,7 @@ MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
     BoundaryOverRanks of = findBoundary(ranks, *piece, isImage, std::move(sum.keys),
       static_cast<Outside>(maker.settings.Outside), bodies, cache, sum.facts);
     made.source = std::make_shared<SamplesOverRanks>(ranks, number, std::move(piece), sum.facts,
-      std::move(sum.fields), std::move(of.boundary), of.ambient, isImage ? nullptr : cache.lattices,
-      maker.threads());
+      std::move(of.boundary), of.ambient, isImage ? nullptr : cache.lattices, maker.threads());
   }
   return made;
 }
@@ -182,11 +163,11 @@ MadeOverRanks make(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
 } // namespace
 
 MadeOverRanks makeOverRanks(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
-  vtkDataObject* bodies, bool hasFields, std::uint64_t number, MeshCache& cache)
+  vtkDataObject* bodies, std::uint64_t number, MeshCache& cache)
 {
   MadeOverRanks made;
-  vtkSMPTools::LocalScope(loopsWith(maker.threads()),
-    [&] { made = make(maker, ranks, data, bodies, hasFields, number, cache); });
+  vtkSMPTools::LocalScope(
+    loopsWith(maker.threads()), [&] { made = make(maker, ranks, data, bodies, number, cache); });
   return made;
 }
 

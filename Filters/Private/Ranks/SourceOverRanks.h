@@ -27,6 +27,6 @@ struct MadeOverRanks
 /// Makes the source of data in pieces; see PiecesOfRanks. All ranks call it, with the same settings
 /// of `maker`, bodies (may be null) and number. Throws std::runtime_error on all ranks.
 MadeOverRanks makeOverRanks(MediumMaker& maker, const Ranks& ranks, vtkDataObject* data,
-  vtkDataObject* bodies, bool hasFields, std::uint64_t number, MeshCache& cache);
+  vtkDataObject* bodies, std::uint64_t number, MeshCache& cache);
 
 } // namespace filters

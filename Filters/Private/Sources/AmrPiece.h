@@ -5,9 +5,6 @@
 #include "Amr/AmrField.h"
 #include "Sources/DataPiece.h"
 
-#include <memory>
-#include <vector>
-
 namespace filters
 {
 
@@ -15,27 +12,23 @@ namespace filters
 class AmrPiece : public DataPiece
 {
 public:
-  /// `levels`: turned if flat (see turnedAcrossZ()). `fields`: of the same blocks, with values in
-  /// cells, NaN where there is none.
-  AmrPiece(const AmrLevels& levels, const Flow& flow, const std::vector<Flow>& fields, Tally& tally,
+  /// `levels`: turned if flat (see turnedAcrossZ()).
+  AmrPiece(const AmrLevels& levels, const Flow& flow, Tally& tally,
     const WorkProgress& progress = WorkProgress());
 
-  const AmrField& refractivity() const { return *this->Fields[0]; }
+  const AmrField& refractivity() const { return this->Field; }
 
   Facts facts() const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override
   {
-    return this->Fields[0]->contentOf(box);
+    return this->Field.contentOf(box);
   }
-  bool holds(const Point& place) const override { return this->Fields[0]->hasGasAt(place); }
-  int fields() const override { return static_cast<int>(this->Fields.size()) - 1; }
-  schlieren::MediumSource::FieldRange rangeOfField(
-    int field, const schlieren::Box& box) const override;
+  bool holds(const Point& place) const override { return this->Field.hasGasAt(place); }
   void sample(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
-    double* fields, CellsOfLattice* cells) const override;
+    CellsOfLattice* cells) const override;
 
 private:
-  std::vector<std::unique_ptr<const AmrField>> Fields; // N first
+  const AmrField Field;
 };
 
 } // namespace filters

@@ -48,18 +48,12 @@ public:
   std::vector<unsigned char> hold(
     const std::vector<Point>& places, const WorkProgress& progress = WorkProgress()) const;
 
-  /// Return the number of further fields, and the range of one in a box; see MediumSource.
-  virtual int fields() const = 0;
-  virtual schlieren::MediumSource::FieldRange rangeOfField(
-    int field, const schlieren::Box& box) const = 0;
-
-  /// Sets `found`, 1 or 0, at all points of a lattice that the piece holds(), and there N and fields
-  /// (may be null; field after field; NaN: no value). Of meshes, fills `cells`, if not null.
+  /// Sets `found`, 1 or 0, at all points of a lattice that the piece holds(), and there N. Of meshes, fills `cells`, if not null.
   virtual void sample(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
-    double* fields, CellsOfLattice* cells = nullptr) const = 0;
+    CellsOfLattice* cells = nullptr) const = 0;
   /// Samples in cells of an earlier call on the same mesh. Returns false if that is not possible.
   virtual bool sampleIn(const CellsOfLattice& /*cells*/, const schlieren::Lattice& /*lattice*/,
-    double* /*refractivity*/, double* /*fields*/) const
+    double* /*refractivity*/) const
   {
     return false;
   }

@@ -129,8 +129,8 @@ ImagePiece::ImagePiece(
     }
   }
   this->findOuter(field);
-  this->Splines.push_back(
-    std::make_unique<const ImageSpline>(field, this->IsKnown, this->Points, this->First, threads));
+  this->Spline =
+    std::make_unique<const ImageSpline>(field, this->IsKnown, this->Points, this->First, threads);
 }
 
 /// Counts its known points, and finds those on the faces of the whole image.
@@ -171,18 +171,6 @@ std::vector<unsigned char> ImagePiece::knownOf(const schlieren::Field& field) co
     isKnown[at] = kindAt(field, at) == schlieren::Place::Gas ? 1 : 0;
   }
   return isKnown;
-}
-
-void ImagePiece::addField(vtkImageData* image, int threads)
-{
-  const schlieren::Field field = fieldFrom(image);
-  std::vector<unsigned char> isKnown = this->knownOf(field);
-  for (std::size_t at = 0; at < isKnown.size(); ++at)
-  {
-    isKnown[at] = isKnown[at] & this->IsKnown[at];
-  }
-  this->Splines.push_back(
-    std::make_unique<const ImageSpline>(field, isKnown, this->Points, this->First, threads));
 }
 
 schlieren::Box ImagePiece::bounds() const
@@ -285,7 +273,7 @@ Counts ImagePiece::nearestPoint(const Point& place) const
   return nearest;
 }
 
-ImageSpline::Range ImagePiece::rangeOf(std::size_t spline, const schlieren::Box& box) const
+ImageSpline::Range ImagePiece::rangeOf(const schlieren::Box& box) const
 {
   Counts first, last;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -293,11 +281,11 @@ ImageSpline::Range ImagePiece::rangeOf(std::size_t spline, const schlieren::Box&
     first[axis] = static_cast<int>(std::floor(this->indexWithin(box.low[axis], axis)));
     last[axis] = static_cast<int>(std::ceil(this->indexWithin(box.high[axis], axis)));
   }
-  return this->Splines[spline]->rangeIn(first, last);
+  return this->Spline->rangeIn(first, last);
 }
 
 void ImagePiece::sample(const schlieren::Lattice& lattice, double* refractivity,
-  unsigned char* found, double* fields, CellsOfLattice*) const
+  unsigned char* found, CellsOfLattice*) const
 {
   constexpr int ofOthers = -1;
   std::array<std::vector<double>, 3> indices;
@@ -329,12 +317,7 @@ void ImagePiece::sample(const schlieren::Lattice& lattice, double* refractivity,
   {
     return;
   }
-  this->Splines[0]->sample(indices, refractivity);
-  for (std::size_t field = 1; fields && field < this->Splines.size(); ++field)
-  {
-    this->Splines[field]->sample(indices, fields);
-    fields += lattice.size();
-  }
+  this->Spline->sample(indices, refractivity);
 }
 
 DataPiece::Facts ImagePiece::facts() const
@@ -354,7 +337,7 @@ CellTree::Content ImagePiece::contentOf(const schlieren::Box& box) const
     part.high[axis] = std::clamp(box.high[axis], own.low[axis], own.high[axis]);
     content.cellSize[axis] = cellBySpacing * this->Spacing[axis];
   }
-  const ImageSpline::Range range = this->rangeOf(0, part);
+  const ImageSpline::Range range = this->rangeOf(part);
   content.lowest = range.lowest;
   content.highest = range.highest;
   return content;

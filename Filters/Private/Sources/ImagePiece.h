@@ -53,9 +53,6 @@ public:
   ImagePiece(
     vtkImageData* refractivity, const Extents& extents, vtkDataObject* bodies, int threads);
 
-  /// Adds a field at the same points, with the next number, from 1 on.
-  void addField(vtkImageData* values, int threads);
-
   /// N at a known point of its own on the faces of the whole image.
   struct OuterValue
   {
@@ -77,20 +74,14 @@ public:
   bool dependsOnLattice() const override { return false; }
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
-  int fields() const override { return static_cast<int>(this->Splines.size()) - 1; }
-  schlieren::MediumSource::FieldRange rangeOfField(
-    int field, const schlieren::Box& box) const override
-  {
-    return this->rangeOf(static_cast<std::size_t>(field) + 1, box);
-  }
   void sample(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
-    double* fields, CellsOfLattice* cells) const override;
+    CellsOfLattice* cells) const override;
 
 private:
   std::vector<unsigned char> knownOf(const schlieren::Field& field) const;
   void findOuter(const schlieren::Field& field);
   schlieren::Box bounds() const;
-  ImageSpline::Range rangeOf(std::size_t spline, const schlieren::Box& box) const;
+  ImageSpline::Range rangeOf(const schlieren::Box& box) const;
   /// Returns the index of the nearest point of the whole image, from its first one.
   double indexAt(double place, std::size_t axis) const;
   double indexWithin(double place, std::size_t axis) const; // clamped to the points that it has
@@ -108,7 +99,7 @@ private:
   std::vector<unsigned char> IsKnown;  // of each point: gas outside of bodies
   std::int64_t KnownPoints = 0;        // of its own
   std::vector<OuterValue> Outer;
-  std::vector<std::unique_ptr<const ImageSpline>> Splines; // of N, and of each field
+  std::unique_ptr<const ImageSpline> Spline; // of N
 };
 
 /// Surfaces in the axes that `direction` leads from. Null: there are none.

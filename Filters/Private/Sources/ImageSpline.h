@@ -16,7 +16,10 @@ namespace filters
 class ImageSpline
 {
 public:
-  using Range = schlieren::MediumSource::FieldRange;
+  struct Range
+  {
+    double lowest, highest; // lowest > highest: there are no values
+  };
 
   /// `isKnown`: of each point. `first`: index in the whole image of the field's first point.
   ImageSpline(const schlieren::Field& field, const std::vector<unsigned char>& isKnown,

@@ -11,7 +11,6 @@
 #include "Input/FlatData.h"
 #include "Input/RefractivityOfImage.h"
 #include "Sources/AmrPiece.h"
-#include "Sources/FieldTints.h"
 #include "Sources/Mirrored.h"
 #include "Sources/PreparedLeaves.h"
 #include "Sources/RevolvedSource.h"
@@ -186,7 +185,7 @@ std::string MediumMaker::warningOf(
 }
 
 std::shared_ptr<MadeRefractivity> MediumMaker::make(
-  const Choice& choice, vtkDataObject* bodies, bool withFields, bool isLarge)
+  const Choice& choice, vtkDataObject* bodies, bool isLarge)
 {
   auto made = std::make_shared<MadeRefractivity>();
   made->FlatAxis = choice.flatAxis;
@@ -196,13 +195,13 @@ std::shared_ptr<MadeRefractivity> MediumMaker::make(
   {
     if (!choice.keepsGrid())
     {
-      made->Source = this->sourceOfCells(choice, bodies, withFields, made->Warning);
+      made->Source = this->sourceOfCells(choice, bodies, made->Warning);
       return;
     }
     this->makeImage(choice, *made);
     if (bodies || isLarge)
     {
-      made->Source = this->sourceOfImage(choice, made->Image, bodies, withFields, made->Warning);
+      made->Source = this->sourceOfImage(made->Image, bodies, made->Warning);
       made->Image->Initialize();
       made->Grid.clear();
     }
@@ -239,27 +238,12 @@ void MediumMaker::makeImage(const Choice& choice, MadeRefractivity& made)
     std::to_string(points[2]) + " points: the data's own";
 }
 
-std::unique_ptr<ImagePiece> pieceOfImage(const MediumMaker& maker, vtkImageData* refractivity,
-  const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input, bool withFields,
-  const std::vector<FieldMean::Range>& ranges)
-{
-  const int threads = maker.threads();
-  auto piece = std::make_unique<ImagePiece>(refractivity, extents, bodies, threads);
-  if (withFields)
-  {
-    forFieldImages(
-      maker.settings, input, refractivity,
-      [&](std::size_t, vtkImageData* field) { piece->addField(field, threads); }, ranges);
-  }
-  return piece;
-}
-
-std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfImage(const Choice& choice,
-  vtkImageData* refractivity, vtkDataObject* bodies, bool withFields, std::string& warning)
+std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfImage(
+  vtkImageData* refractivity, vtkDataObject* bodies, std::string& warning)
 {
   const auto own = turnedBack(bodies, gridFrom(refractivity).direction);
-  auto made = sourceOf(pieceOfImage(*this, refractivity, ImagePiece::extentsOf(refractivity), own,
-                         choice.input, withFields),
+  auto made = sourceOf(std::make_unique<ImagePiece>(
+                         refractivity, ImagePiece::extentsOf(refractivity), own, this->threads()),
     own);
   this->progressOf(0, 1).reach(1);
   if (!made->hasGas())
@@ -274,7 +258,7 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfImage(const 
 }
 
 std::shared_ptr<const PieceSource> MediumMaker::makeOf(
-  Flow flow, std::vector<Flow> fields, int flat, double depth, vtkDataObject* bodies, Tally& tally)
+  Flow flow, int flat, double depth, vtkDataObject* bodies, Tally& tally)
 {
   const vtkSmartPointer<vtkDataObject> ownBodies = turnedBodies(bodies, flat, depth);
   const auto outside = static_cast<Outside>(this->settings.Outside);
@@ -284,12 +268,8 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(
     if (flat >= 0)
     {
       flow = extruded(flow, flat, depth);
-      for (Flow& field : fields)
-      {
-        field = extruded(field, flat, depth);
-      }
     }
-    const PreparedLeaves leaves = preparedLeaves(flow, fields, tally);
+    const MeshLeaves leaves = preparedLeaves(flow, tally);
     this->progressOf(0, 1).reach(0.1);
     return sourceOfMeshes(
       leaves, { outside, flat }, ownBodies, this->progressOf(0.1, 1), this->Mesh);
@@ -299,14 +279,12 @@ std::shared_ptr<const PieceSource> MediumMaker::makeOf(
     setDepth(*levels, depth);
     levels = turnedAcrossZ(std::move(*levels));
   }
-  std::for_each(fields.begin(), fields.end(), bringToCells);
-  return sourceOf(
-    std::make_unique<AmrPiece>(*levels, flow, fields, tally, this->progressOf(0.02, 1)), ownBodies,
-    outside);
+  return sourceOf(std::make_unique<AmrPiece>(*levels, flow, tally, this->progressOf(0.02, 1)),
+    ownBodies, outside);
 }
 
 std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfCells(
-  const Choice& choice, vtkDataObject* bodies, bool withFields, std::string& warning)
+  const Choice& choice, vtkDataObject* bodies, std::string& warning)
 {
   Flow flow = choice.flow;
   const int flat = choice.flatAxis;
@@ -315,22 +293,13 @@ std::shared_ptr<const schlieren::MediumSource> MediumMaker::sourceOfCells(
     ? choice.revolution->note
     : choice.revolution || flat < 0 ? ""
                                     : warningOfExtrusion(flow, flat);
-  std::vector<Flow> fields;
-  if (withFields)
-  {
-    fields = fieldFlows(flow.choice.settings, choice.input, flow);
-  }
   if (choice.revolution)
   {
     flow = mirrored(flow, *choice.revolution);
-    for (Flow& field : fields)
-    {
-      field = mirrored(field, *choice.revolution);
-    }
   }
   this->progressOf(0, 1).reach(0.02);
   Tally tally;
-  const auto made = this->makeOf(flow, std::move(fields), flat, depth, bodies, tally);
+  const auto made = this->makeOf(flow, flat, depth, bodies, tally);
   if (!made->hasGas())
   {
     throw std::runtime_error(noGas(flow.label));

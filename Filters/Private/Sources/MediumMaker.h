@@ -66,13 +66,13 @@ public:
   bool canUsePieces() const { return !this->settings.isAxisymmetric(); } // planes are small
 
   /// Makes the refractivity for the tracer: of an image on its grid, unless there are `bodies` or it `isLarge`; else a
-  /// source, which is sampled as finely as a view needs, `withFields`: with Fields; see FieldTints.h.
+  /// source, which is sampled as finely as a view needs,
   ///
   /// Keeps what depends on the mesh alone until the next data: the order of cells, neighbours of
   /// points, the boundary. Meshes are compared by their content, not by times: points, cells, what
   /// hides them, valid values, bodies and Outside.
   std::shared_ptr<MadeRefractivity> make(
-    const Choice& choice, vtkDataObject* bodies, bool withFields = false, bool isLarge = false);
+    const Choice& choice, vtkDataObject* bodies, bool isLarge = false);
 
   std::shared_ptr<MeshCache> mesh() const { return this->Mesh; }
   void setMesh(std::shared_ptr<MeshCache> mesh) { this->Mesh = std::move(mesh); }
@@ -91,24 +91,18 @@ private:
   WorkProgress progressOf(double from, double to) const;
   /// Fills `made` from an image.
   void makeImage(const Choice& choice, MadeRefractivity& made);
-  std::shared_ptr<const schlieren::MediumSource> sourceOfImage(const Choice& choice,
-    vtkImageData* refractivity, vtkDataObject* bodies, bool withFields, std::string& warning);
+  std::shared_ptr<const schlieren::MediumSource> sourceOfImage(
+    vtkImageData* refractivity, vtkDataObject* bodies, std::string& warning);
   std::shared_ptr<const schlieren::MediumSource> sourceOfCells(
-    const Choice& choice, vtkDataObject* bodies, bool withFields, std::string& warning);
-  std::shared_ptr<const PieceSource> makeOf(Flow flow, std::vector<Flow> fields, int flatAxis,
-    double depth, vtkDataObject* bodies, Tally& tally);
+    const Choice& choice, vtkDataObject* bodies, std::string& warning);
+  std::shared_ptr<const PieceSource> makeOf(
+    Flow flow, int flatAxis, double depth, vtkDataObject* bodies, Tally& tally);
 
   Progress Report;
   KnownArrays Known;
   std::shared_ptr<MeshCache> Mesh = std::make_shared<MeshCache>();
   SaidOfFlow Said;
 };
-
-/// Makes the piece of an image, or of a rank's piece of it, on whose grid `refractivity` has been made of `input`.
-/// `bodies`: see ImagePiece. `withFields`: those of the settings. `ranges`: see forFieldImages().
-std::unique_ptr<ImagePiece> pieceOfImage(const MediumMaker& maker, vtkImageData* refractivity,
-  const ImagePiece::Extents& extents, vtkDataObject* bodies, vtkDataObject* input, bool withFields,
-  const std::vector<FieldMean::Range>& ranges = {});
 
 std::string noGas(const std::string& label); // of the arrays
 

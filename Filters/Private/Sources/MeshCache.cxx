@@ -50,12 +50,12 @@ std::shared_ptr<const GasBoundary> boundaryOf(Faces faces, const MeshPiece& piec
 
 } // namespace
 
-std::shared_ptr<const PieceSource> sourceOfMeshes(const PreparedLeaves& prepared,
+std::shared_ptr<const PieceSource> sourceOfMeshes(const MeshLeaves& prepared,
   const MeshChoices& choices, vtkDataObject* bodies, const WorkProgress& progress,
   std::shared_ptr<MeshCache>& cache)
 {
-  const std::vector<vtkDataSet*> leaves = pointersTo(prepared.refractivity);
-  const auto mesh = PieceMesh::of(prepared.refractivity, cache->piece);
+  const std::vector<vtkDataSet*> leaves = pointersTo(prepared);
+  const auto mesh = PieceMesh::of(prepared, cache->piece);
   const std::vector<std::uint64_t> keys{ mesh->key, keyOfWalls(choices.outside, bodies) };
   if (cache->keys != keys)
   {

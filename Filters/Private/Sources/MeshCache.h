@@ -50,7 +50,7 @@ struct MeshChoices
 
 /// Makes the source of meshes, with what is kept if that depends on the same meshes, bodies and
 /// choices, and keeps it otherwise. `bodies`: may be null.
-std::shared_ptr<const PieceSource> sourceOfMeshes(const PreparedLeaves& prepared,
+std::shared_ptr<const PieceSource> sourceOfMeshes(const MeshLeaves& prepared,
   const MeshChoices& choices, vtkDataObject* bodies, const WorkProgress& progress,
   std::shared_ptr<MeshCache>& cache);
 

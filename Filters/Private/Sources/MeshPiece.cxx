@@ -17,13 +17,6 @@
 namespace filters
 {
 
-namespace
-{
-
-constexpr double ofTree = 0.7; // of the progress; the rest is of fields
-
-} // namespace
-
 std::shared_ptr<PieceMesh> PieceMesh::of(
   const MeshLeaves& leaves, const std::shared_ptr<PieceMesh>& kept)
 {
@@ -38,30 +31,17 @@ std::shared_ptr<PieceMesh> PieceMesh::of(
     : std::make_shared<PieceMesh>(PieceMesh{ hash.value(), nullptr, {} });
 }
 
-MeshPiece::MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
+MeshPiece::MeshPiece(MeshLeaves leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
   const WorkProgress& progress, int flatAxis)
-  : Leaves(leaves.refractivity)
+  : Leaves(std::move(leaves))
   , Mesh(std::move(mesh))
   , Cells(this->Mesh->cells
-        ? CellTree(pointersTo(this->Leaves), this->Mesh->cells, progress.part(0, ofTree))
-        : CellTree(pointersTo(this->Leaves), CellTree::Reconstruction::Smooth,
-            progress.part(0, ofTree), copies))
+        ? CellTree(pointersTo(this->Leaves), this->Mesh->cells, progress)
+        : CellTree(pointersTo(this->Leaves), CellTree::Reconstruction::Smooth, progress, copies))
   , Values(this->Cells)
   , FlatAxis(flatAxis)
 {
   this->Mesh->cells = this->Cells.mesh();
-  const auto begunAt = [&](std::size_t number)
-  {
-    return ofTree +
-      (1 - ofTree) * static_cast<double>(number) / static_cast<double>(leaves.fields.size());
-  };
-  for (std::size_t number = 0; number < leaves.fields.size(); ++number)
-  {
-    const MeshLeaves& field = leaves.fields[number];
-    this->Fields.push_back(std::unique_ptr<const Field>(new Field{ field,
-      CellTree(pointersTo(field), this->Cells.mesh(),
-        progress.part(begunAt(number), begunAt(number + 1))) }));
-  }
 }
 
 DataPiece::Facts MeshPiece::facts() const
@@ -110,61 +90,15 @@ bool MeshPiece::holds(const Point& place) const
 }
 
 void MeshPiece::sample(const schlieren::Lattice& lattice, double* refractivity,
-  unsigned char* found, double* fields, CellsOfLattice* cells) const
+  unsigned char* found, CellsOfLattice* cells) const
 {
-  CellsOfLattice ofFields;
-  const bool isLarge = lattice.size() > CellsOfLattice::maxPoints;
-  cells = cells || !fields || isLarge ? cells : &ofFields;
   this->Values.sample(lattice, refractivity, found, cells);
-  if (fields)
-  {
-    this->sampleFields(lattice, cells, fields);
-  }
 }
 
-bool MeshPiece::sampleIn(const CellsOfLattice& cells, const schlieren::Lattice& lattice,
-  double* refractivity, double* fields) const
+bool MeshPiece::sampleIn(
+  const CellsOfLattice& cells, const schlieren::Lattice& lattice, double* refractivity) const
 {
-  const bool areSame = this->Values.sample(lattice, cells, refractivity);
-  if (areSame && fields)
-  {
-    this->sampleFields(lattice, &cells, fields);
-  }
-  return areSame;
-}
-
-schlieren::MediumSource::FieldRange MeshPiece::rangeOfField(
-  int field, const schlieren::Box& box) const
-{
-  const CellTree& cells = this->Fields[static_cast<std::size_t>(field)]->cells;
-  const CellTree::Content content = cells.content({ box.low, box.high });
-  return { content.lowest, content.highest };
-}
-
-/// Interpolates in the lattice's cells, field after field; NaN where a field has no value. `cells`:
-/// null: to be searched.
-void MeshPiece::sampleFields(
-  const schlieren::Lattice& lattice, const CellsOfLattice* cells, double* values) const
-{
-  const auto size = static_cast<std::size_t>(lattice.size());
-  std::vector<unsigned char> isFound(size, 0);
-  for (const std::uint16_t point : cells ? cells->points : std::vector<std::uint16_t>())
-  {
-    isFound[point] = 1;
-  }
-  for (const auto& field : this->Fields)
-  {
-    const CellSampler sampler(field->cells);
-    if (!cells || !sampler.sample(lattice, *cells, values))
-    {
-      sampler.sample(lattice, values, isFound.data());
-    }
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      values[i] = isFound[i] ? values[i] : std::numeric_limits<double>::quiet_NaN();
-    }
-    values += size;
-  }
+  return this->Values.sample(lattice, cells, refractivity);
 }
 
 /// Finds the faces, and keeps the origins of their points.

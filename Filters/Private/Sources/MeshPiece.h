@@ -46,19 +46,16 @@ class MeshPiece : public DataPiece
 public:
   /// `leaves`: may be none. `copies`: of cells, among the leaves'. `flatAxis`: the axis across which
   /// they were flat (see extruded()), or -1.
-  MeshPiece(const PreparedLeaves& leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
+  MeshPiece(MeshLeaves leaves, std::shared_ptr<PieceMesh> mesh, Copies copies,
     const WorkProgress& progress = WorkProgress(), int flatAxis = -1);
 
   Facts facts() const override;
   CellTree::Content contentOf(const schlieren::Box& box) const override;
   bool holds(const Point& place) const override;
-  int fields() const override { return static_cast<int>(this->Fields.size()); }
-  schlieren::MediumSource::FieldRange rangeOfField(
-    int field, const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, unsigned char* found,
-    double* fields, CellsOfLattice* cells) const override;
+    CellsOfLattice* cells) const override;
   bool sampleIn(const CellsOfLattice& cells, const schlieren::Lattice& lattice,
-    double* refractivity, double* fields) const override;
+    double* refractivity) const override;
 
   std::uint64_t meshKey() const override { return this->Mesh->key; }
   /// Writes some cells' sizes and the faces of its own cells, for BoundaryOfMeshes. `cellsOfAll`:
@@ -70,21 +67,11 @@ public:
 private:
   schlieren::Box bounds() const;
   Faces findFaces() const;
-  void sampleFields(
-    const schlieren::Lattice& lattice, const CellsOfLattice* cells, double* values) const;
-
-  /// Another field at the points, for tints by its gradients.
-  struct Field
-  {
-    MeshLeaves leaves;
-    CellTree cells;
-  };
 
   MeshLeaves Leaves;
   std::shared_ptr<PieceMesh> Mesh;
   CellTree Cells;
   CellSampler Values;
-  std::vector<std::unique_ptr<const Field>> Fields;
   int FlatAxis;
 };
 

@@ -85,23 +85,23 @@ schlieren::MediumSource::Content PieceSource::contentFrom(const schlieren::Box& 
 }
 
 void PieceSource::sampleGas(const schlieren::Lattice& lattice, double* refractivity,
-  unsigned char* found, double* values, CellsOfLattice* cells) const
+  unsigned char* found, CellsOfLattice* cells) const
 {
-  this->Piece->sample(lattice, refractivity, found, values, cells);
+  this->Piece->sample(lattice, refractivity, found, cells);
 }
 
-bool PieceSource::sampleGasIn(const CellsOfLattice& cells, const schlieren::Lattice& lattice,
-  double* refractivity, double* values) const
+bool PieceSource::sampleGasIn(
+  const CellsOfLattice& cells, const schlieren::Lattice& lattice, double* refractivity) const
 {
-  return this->Piece->sampleIn(cells, lattice, refractivity, values);
+  return this->Piece->sampleIn(cells, lattice, refractivity);
 }
 
-void PieceSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances, double* values) const
+void PieceSource::sample(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances) const
 {
   const auto size = static_cast<std::size_t>(lattice.size());
   const auto known = this->Lattices ? this->Lattices->find(lattice, distances) : nullptr;
-  if (known && this->sampleGasIn(known->cells, lattice, refractivity, values))
+  if (known && this->sampleGasIn(known->cells, lattice, refractivity))
   {
     known->copyTo(places, distances, size);
   }
@@ -110,19 +110,12 @@ void PieceSource::sampleWithFields(const schlieren::Lattice& lattice, double* re
     const bool isKept = this->Lattices && this->Lattices->hasRoomFor(lattice);
     CellsOfLattice cells;
     std::vector<unsigned char> found(size);
-    this->sampleGas(lattice, refractivity, found.data(), values, isKept ? &cells : nullptr);
+    this->sampleGas(lattice, refractivity, found.data(), isKept ? &cells : nullptr);
     this->Boundary->sample(lattice, found.data(), places, distances);
     if (isKept)
     {
       this->Lattices->keep(lattice, cachedLattice(std::move(cells), places, distances, size));
     }
-  }
-  const std::size_t count = values ? size * static_cast<std::size_t>(this->fields()) : 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    values[i] = places[i % size] == schlieren::Place::Gas
-      ? values[i]
-      : std::numeric_limits<double>::quiet_NaN();
   }
 }
 

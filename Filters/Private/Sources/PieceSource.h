@@ -17,8 +17,7 @@
 namespace filters
 {
 
-/// The refractivity of a piece of data and its boundary, for bricks of the tracer. Fields have no
-/// value where there is no gas.
+/// The refractivity of a piece of data and its boundary, for bricks of the tracer.
 class PieceSource : public schlieren::MediumSource
 {
 public:
@@ -41,17 +40,7 @@ public:
   Content contentOf(const schlieren::Box& box) const override;
   bool dependsOnLattice() const override { return this->Piece->dependsOnLattice(); }
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
-    float* distances) const override
-  {
-    this->sampleWithFields(lattice, refractivity, places, distances, nullptr);
-  }
-  int fields() const override { return this->Piece->fields(); }
-  FieldRange rangeOfField(int field, const schlieren::Box& box) const override
-  {
-    return this->Piece->rangeOfField(field, box);
-  }
-  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
-    schlieren::Place* places, float* distances, double* values) const override;
+    float* distances) const override;
 
 protected:
   const DataPiece& piece() const { return *this->Piece; }
@@ -66,9 +55,9 @@ protected:
 
   /// Call DataPiece::sample() and DataPiece::sampleIn().
   virtual void sampleGas(const schlieren::Lattice& lattice, double* refractivity,
-    unsigned char* found, double* values, CellsOfLattice* cells) const;
-  virtual bool sampleGasIn(const CellsOfLattice& cells, const schlieren::Lattice& lattice,
-    double* refractivity, double* values) const;
+    unsigned char* found, CellsOfLattice* cells) const;
+  virtual bool sampleGasIn(
+    const CellsOfLattice& cells, const schlieren::Lattice& lattice, double* refractivity) const;
 
 private:
   const std::unique_ptr<const DataPiece> Piece;

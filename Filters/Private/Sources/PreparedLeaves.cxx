@@ -21,7 +21,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <limits>
-#include <memory>
 
 namespace filters
 {
@@ -96,45 +95,6 @@ vtkSmartPointer<vtkDataSet> withValues(
   return prepared;
 }
 
-/// Makes the meshes of a flow. `shared`: their common points, found if null. `others`: sources of
-/// the same leaves, later.
-MeshLeaves leavesOf(const Flow& flow, const std::vector<Flow>& others, Tally& tally,
-  std::shared_ptr<const SharedPoints>& shared)
-{
-  const int dimension = flatAxisOf(flow) < 0 ? 3 : 2;
-  MeshLeaves leaves;
-  std::vector<std::vector<bool>> kinds; // of each leaf, which of the others it has
-  for (std::size_t number = 0; number < flow.leaves.size(); ++number)
-  {
-    const Leaf& leaf = flow.leaves[number];
-    if (!hasCells(leaf.data, dimension))
-    {
-      continue;
-    }
-    leaves.push_back(asLinearCells(withValues(leaf, dimension, flow.model, tally)));
-    for (const Flow& other : others)
-    {
-      kinds.resize(leaves.size());
-      // Recognizes replacements of missing arrays, which have no name.
-      kinds.back().push_back(other.leaves[number].arrays[0]->GetName() != nullptr);
-    }
-  }
-  if (!shared)
-  {
-    shared = std::make_shared<SharedPoints>(leaves, kinds);
-  }
-  leaves = shared->joined(leaves);
-  for (vtkSmartPointer<vtkDataSet>& leaf : leaves)
-  {
-    if (leaf->GetCellData()->GetScalars())
-    {
-      bringToPoints(leaf, true);
-    }
-    leaf = withoutPolyhedra(leaf);
-  }
-  return leaves;
-}
-
 } // namespace
 
 std::vector<vtkDataSet*> pointersTo(const MeshLeaves& leaves)
@@ -154,16 +114,27 @@ bool hasCells(vtkDataSet* data, int dimension)
   return false;
 }
 
-PreparedLeaves preparedLeaves(const Flow& flow, const std::vector<Flow>& fields, Tally& tally)
+MeshLeaves preparedLeaves(const Flow& flow, Tally& tally)
 {
-  std::shared_ptr<const SharedPoints> shared;
-  PreparedLeaves prepared{ leavesOf(flow, fields, tally, shared), {} };
-  Tally notReported;
-  for (const Flow& field : fields)
+  const int dimension = flatAxisOf(flow) < 0 ? 3 : 2;
+  MeshLeaves leaves;
+  for (const Leaf& leaf : flow.leaves)
   {
-    prepared.fields.push_back(leavesOf(field, {}, notReported, shared));
+    if (hasCells(leaf.data, dimension))
+    {
+      leaves.push_back(asLinearCells(withValues(leaf, dimension, flow.model, tally)));
+    }
   }
-  return prepared;
+  leaves = withSharedPoints(leaves);
+  for (vtkSmartPointer<vtkDataSet>& leaf : leaves)
+  {
+    if (leaf->GetCellData()->GetScalars())
+    {
+      bringToPoints(leaf, true);
+    }
+    leaf = withoutPolyhedra(leaf);
+  }
+  return leaves;
 }
 
 } // namespace filters

@@ -72,13 +72,11 @@ struct RefractivityKey
   const vtkDataObject* Bodies = nullptr;
   std::vector<double> Inputs; ///< see describeInput()
   MediumSettings Settings;    ///< complete: see MediumChoice
-  bool HasFields = false;     ///< whether Source has them
 
   bool operator==(const RefractivityKey& other) const
   {
     return this->Data == other.Data && this->Bodies == other.Bodies &&
-      this->Inputs == other.Inputs && this->Settings == other.Settings &&
-      this->HasFields == other.HasFields;
+      this->Inputs == other.Inputs && this->Settings == other.Settings;
   }
 };
 

@@ -27,7 +27,7 @@ struct RevolvedSource::Rows
   std::int64_t first;
   std::size_t columns, rows;
   bool areRows; // whether the section's x is along the axis, so that rows are contiguous
-  std::vector<double> values; // N, then each field
+  std::vector<double> values;
   std::vector<schlieren::Place> places;
   std::vector<float> distances;
 
@@ -42,16 +42,15 @@ struct RevolvedSource::Rows
     const double whole = std::clamp(std::floor(row), 1., static_cast<double>(this->rows) - 3);
     return { static_cast<std::size_t>(whole), row - whole };
   }
-  double valueAt(std::size_t field, std::size_t column, double r) const
+  double valueAt(std::size_t column, double r) const
   {
-    const double* ofField = this->values.data() + field * this->columns * this->rows;
     const auto [row, t] = this->before(r);
     std::array<double, 4> four;
     bool areAll = true;
     for (std::size_t i = 0; i < 4; ++i)
     {
       const std::size_t point = this->at(column, row + i - 1);
-      four[i] = this->places[point] == schlieren::Place::Gas ? ofField[point] : notANumber;
+      four[i] = this->places[point] == schlieren::Place::Gas ? this->values[point] : notANumber;
       areAll = areAll && std::isfinite(four[i]);
     }
     if (areAll)
@@ -83,9 +82,9 @@ struct RevolvedSource::Rows
         if (isAfter ? row + far < this->rows : row >= far)
         {
           const std::size_t point = this->at(column, isAfter ? row + far : row - far);
-          if (this->places[point] == schlieren::Place::Gas && std::isfinite(ofField[point]))
+          if (this->places[point] == schlieren::Place::Gas && std::isfinite(this->values[point]))
           {
-            return ofField[point];
+            return this->values[point];
           }
         }
       }
@@ -152,7 +151,7 @@ schlieren::MediumSource::Content RevolvedSource::contentOf(const schlieren::Box&
 }
 
 RevolvedSource::Rows RevolvedSource::rowsFor(const schlieren::Lattice& lattice, double spacing,
-  double nearest, double farthest, bool hasValues) const
+  double nearest, double farthest, bool hasDistances) const
 {
   const auto axis = static_cast<std::size_t>(this->Of.axis);
   Rows rows;
@@ -175,23 +174,15 @@ RevolvedSource::Rows RevolvedSource::rowsFor(const schlieren::Lattice& lattice, 
   ofSection.first[2] = 0.5 * (this->BoundsOfSection.low[2] + this->BoundsOfSection.high[2]);
   const auto size = static_cast<std::size_t>(ofSection.size());
   rows.places.resize(size);
-  rows.values.resize(size * (hasValues ? 1 + static_cast<std::size_t>(this->fields()) : 1));
-  if (hasValues)
-  {
-    // Skips distances, which gas points do not need.
-    this->Section->sampleWithFields(ofSection, rows.values.data(), rows.places.data(), nullptr,
-      this->fields() > 0 ? rows.values.data() + size : nullptr);
-  }
-  else
-  {
-    rows.distances.resize(size);
-    this->Section->sample(ofSection, rows.values.data(), rows.places.data(), rows.distances.data());
-  }
+  rows.values.resize(size);
+  rows.distances.resize(hasDistances ? size : 0);
+  this->Section->sample(ofSection, rows.values.data(), rows.places.data(),
+    hasDistances ? rows.distances.data() : nullptr);
   return rows;
 }
 
-void RevolvedSource::sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
-  schlieren::Place* places, float* distances, double* values) const
+void RevolvedSource::sample(const schlieren::Lattice& lattice, double* refractivity,
+  schlieren::Place* places, float* distances) const
 {
   const auto axis = static_cast<std::size_t>(this->Of.axis);
   const std::size_t b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
@@ -211,13 +202,12 @@ void RevolvedSource::sampleWithFields(const schlieren::Lattice& lattice, double*
     }
   }
   const double spacing = std::min(lattice.spacing[b], lattice.spacing[c]);
-  const Rows ofValues = this->rowsFor(lattice, spacing / rowsPerVoxel, nearest, farthest, true);
+  // Gas points need no distances.
+  const Rows ofValues = this->rowsFor(lattice, spacing / rowsPerVoxel, nearest, farthest, false);
   // Scales distances to spacings of the lattice.
-  const Rows ofPlaces = this->rowsFor(lattice, spacing, nearest, farthest, false);
+  const Rows ofPlaces = this->rowsFor(lattice, spacing, nearest, farthest, true);
   const std::array<std::size_t, 3> strides{ 1, static_cast<std::size_t>(lattice.points[0]),
     static_cast<std::size_t>(lattice.points[0]) * static_cast<std::size_t>(lattice.points[1]) };
-  const auto size = static_cast<std::size_t>(lattice.size());
-  const auto fields = values ? static_cast<std::size_t>(this->fields()) : 0;
   for (int k = 0; k < lattice.points[c]; ++k)
   {
     for (int j = 0; j < lattice.points[b]; ++j)
@@ -235,7 +225,7 @@ void RevolvedSource::sampleWithFields(const schlieren::Lattice& lattice, double*
         double value = 0;
         if (distance > 0)
         {
-          value = ofValues.valueAt(0, i, r);
+          value = ofValues.valueAt(i, r);
           place = std::isfinite(value) ? schlieren::Place::Gas : place;
         }
         if (place != schlieren::Place::Gas || !(distance > 0))
@@ -259,11 +249,6 @@ void RevolvedSource::sampleWithFields(const schlieren::Lattice& lattice, double*
         if (distances)
         {
           distances[point] = distance;
-        }
-        for (std::size_t field = 0; field < fields; ++field)
-        {
-          values[field * size + point] =
-            place == schlieren::Place::Gas ? ofValues.valueAt(field + 1, i, r) : notANumber;
         }
       }
     }

@@ -29,25 +29,15 @@ public:
   std::array<double, 3> voxelShape() const override;
   Content contentOf(const schlieren::Box& box) const override;
   void sample(const schlieren::Lattice& lattice, double* refractivity, schlieren::Place* places,
-    float* distances) const override
-  {
-    this->sampleWithFields(lattice, refractivity, places, distances, nullptr);
-  }
+    float* distances) const override;
   bool dependsOnLattice() const override { return true; } // distances of rows depend on it
-  int fields() const override { return this->Section->fields(); }
-  FieldRange rangeOfField(int field, const schlieren::Box& box) const override
-  {
-    return this->Section->rangeOfField(field, this->sectionOf(box));
-  }
-  void sampleWithFields(const schlieren::Lattice& lattice, double* refractivity,
-    schlieren::Place* places, float* distances, double* values) const override;
 
 private:
   struct Rows;
 
   schlieren::Box sectionOf(const schlieren::Box& box) const;
   Rows rowsFor(const schlieren::Lattice& lattice, double spacing, double nearest, double farthest,
-    bool hasValues) const;
+    bool hasDistances) const;
 
   std::shared_ptr<const schlieren::MediumSource> Section;
   Revolution Of;

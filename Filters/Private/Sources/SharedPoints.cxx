@@ -15,7 +15,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 namespace filters
@@ -167,16 +166,14 @@ std::vector<double> jumpsAtWalls(
 }
 
 /// Maps each candidate to the first one that it becomes one point with.
-std::vector<std::int32_t> joinedCandidates(
-  const Leaves& leaves, const Candidates& all, const std::vector<std::vector<bool>>& kinds)
+std::vector<std::int32_t> joinedCandidates(const Leaves& leaves, const Candidates& all)
 {
   std::vector<std::int32_t> firsts = coincidentPoints(all.places, all.sizes);
   const std::vector<double> jumps = jumpsAtWalls(leaves, all, firsts);
   const auto areOne = [&](std::size_t a, std::size_t b)
   {
     const std::size_t i = all.leaves[a], j = all.leaves[b];
-    return (kinds.empty() || kinds[i] == kinds[j]) &&
-      !(std::abs(all.values[a] - all.values[b]) > std::min(jumps[i], jumps[j]));
+    return !(std::abs(all.values[a] - all.values[b]) > std::min(jumps[i], jumps[j]));
   };
   std::vector<std::int32_t> next(all.size(), -1); // other one at the same place
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -195,19 +192,19 @@ std::vector<std::int32_t> joinedCandidates(
 
 } // namespace
 
-SharedPoints::SharedPoints(const Leaves& leaves, const std::vector<std::vector<bool>>& kinds)
+Leaves withSharedPoints(const Leaves& leaves)
 {
   if (leaves.empty() ||
     (leaves.size() == 1 && isGrid(leaves[0]) && !vtkStructuredGrid::SafeDownCast(leaves[0])))
   {
-    return;
+    return leaves;
   }
   const Candidates all(leaves);
   if (all.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
   {
-    return; // too many to be numbered
+    return leaves; // too many to be numbered
   }
-  const std::vector<std::int32_t> firsts = joinedCandidates(leaves, all, kinds);
+  const std::vector<std::int32_t> firsts = joinedCandidates(leaves, all);
   std::vector<unsigned char> hasAny(leaves.size(), 0);
   for (std::size_t i = 0; i < all.size(); ++i)
   {
@@ -217,48 +214,53 @@ SharedPoints::SharedPoints(const Leaves& leaves, const std::vector<std::vector<b
       hasAny[all.leaves[first]] = hasAny[all.leaves[i]] = 1;
     }
   }
-  std::map<std::vector<bool>, std::vector<std::size_t>> leavesOfKinds;
+  Leaves result;
+  JoinedLeaves joined;
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
   {
     if (hasAny[leaf])
     {
-      leavesOfKinds[kinds.empty() ? std::vector<bool>() : kinds[leaf]].push_back(leaf);
+      joined.leaves.push_back(leaf);
+    }
+    if (!hasAny[leaf] || joined.leaves.size() == 1)
+    {
+      result.push_back(leaves[leaf]);
     }
   }
+  if (joined.leaves.empty())
+  {
+    return result;
+  }
+  std::int32_t points = 0;
   std::vector<std::int32_t> known(all.size(), -1); // of firsts
   std::vector<std::size_t> lastLeaf(all.size(), leaves.size());
-  for (const auto& ofKind : leavesOfKinds)
+  for (const std::size_t leaf : joined.leaves)
   {
-    Group group;
-    group.leaves = ofKind.second;
-    std::int32_t points = 0;
-    for (const std::size_t leaf : group.leaves)
+    std::vector<std::int32_t>& numbers =
+      joined.points.emplace_back(static_cast<std::size_t>(leaves[leaf]->GetNumberOfPoints()), -1);
+    for (std::size_t i = all.starts[leaf]; i < all.starts[leaf + 1]; ++i)
     {
-      std::vector<std::int32_t>& numbers =
-        group.points.emplace_back(static_cast<std::size_t>(leaves[leaf]->GetNumberOfPoints()), -1);
-      for (std::size_t i = all.starts[leaf]; i < all.starts[leaf + 1]; ++i)
+      const auto first = static_cast<std::size_t>(firsts[i]);
+      std::int32_t& ofFirst = known[first];
+      if (ofFirst < 0)
       {
-        const auto first = static_cast<std::size_t>(firsts[i]);
-        std::int32_t& ofFirst = known[first];
-        if (ofFirst < 0)
-        {
-          ofFirst = points++;
-        }
-        else if (lastLeaf[first] == leaf)
-        {
-          group.doubles.push_back(ofFirst);
-        }
-        lastLeaf[first] = leaf;
-        numbers[static_cast<std::size_t>(all.points[i])] = ofFirst;
+        ofFirst = points++;
       }
-      for (std::int32_t& number : numbers)
+      else if (lastLeaf[first] == leaf)
       {
-        number = number < 0 ? points++ : number;
+        joined.doubles.push_back(ofFirst);
       }
+      lastLeaf[first] = leaf;
+      numbers[static_cast<std::size_t>(all.points[i])] = ofFirst;
     }
-    makeMesh(leaves, static_cast<std::size_t>(points), group);
-    this->Groups.push_back(std::move(group));
+    for (std::int32_t& number : numbers)
+    {
+      number = number < 0 ? points++ : number;
+    }
   }
+  joined.count = static_cast<std::size_t>(points);
+  *std::find(result.begin(), result.end(), leaves[joined.leaves[0]]) = meshOf(joined, leaves);
+  return result;
 }
 
 } // namespace filters

@@ -10,7 +10,6 @@
 #include <vector>
 
 class vtkDataSet;
-class vtkUnstructuredGrid;
 
 namespace filters
 {
@@ -18,41 +17,26 @@ namespace filters
 /**
  * Merges points of datasets of an input that coincide (see CoincidentPoints.h): those of blocks, of
  * appended meshes, of grids that meet themselves, and of the cells of discontinuous finite elements,
- * so that cells become neighbours.
+ * so that cells become neighbours. Returns unchanged those datasets that share no points, and a mesh
+ * of all others, whose merged points have the mean of their values.
  *
- * Walls without thickness within a dataset stay: the points of their two sides have different
- * values, and are kept apart.
+ * Takes datasets with values in the cells' scalars or else in the points', with cells without gas
+ * hidden. Walls without thickness within a dataset stay: the points of their two sides have
+ * different values, and are kept apart.
  */
-class SharedPoints
+std::vector<vtkSmartPointer<vtkDataSet>> withSharedPoints(
+  const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
+
+/// Datasets that become one.
+struct JoinedLeaves
 {
-public:
-  /// Takes datasets with values in the cells' scalars or else in the points', with cells without
-  /// gas hidden. `kinds`: of the datasets; different kinds share no points; empty: all may.
-  explicit SharedPoints(const std::vector<vtkSmartPointer<vtkDataSet>>& leaves,
-    const std::vector<std::vector<bool>>& kinds = {});
-
-  /// Returns unchanged those datasets that share no points, and a mesh of all others of a kind. Merged points have the mean of their values. `leaves`: as in the constructor, perhaps
-  /// with other values.
-  std::vector<vtkSmartPointer<vtkDataSet>> joined(
-    const std::vector<vtkSmartPointer<vtkDataSet>>& leaves) const;
-
-private:
-  /// Datasets that become one.
-  struct Group
-  {
-    std::vector<std::size_t> leaves;
-    // Of each leaf's points and cells, numbers in the mesh; -1: a cell that is left out.
-    std::vector<std::vector<std::int32_t>> points, cells;
-    std::vector<std::int32_t> doubles;         // of the mesh's points: several of one leaf
-    vtkSmartPointer<vtkUnstructuredGrid> mesh; // without values
-  };
-
-  static void makeMesh(
-    const std::vector<vtkSmartPointer<vtkDataSet>>& leaves, std::size_t points, Group& group);
-  static vtkSmartPointer<vtkDataSet> joinedOf(
-    const Group& group, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
-
-  std::vector<Group> Groups;
+  std::vector<std::size_t> leaves;
+  std::vector<std::vector<std::int32_t>> points; // of each leaf's points, numbers in the mesh
+  std::size_t count = 0;                         // of the mesh's points
+  std::vector<std::int32_t> doubles;             // of these: several of one leaf
 };
+/// Makes the mesh of those that are named among `leaves`.
+vtkSmartPointer<vtkDataSet> meshOf(
+  const JoinedLeaves& joined, const std::vector<vtkSmartPointer<vtkDataSet>>& leaves);
 
 } // namespace filters

@@ -34,12 +34,12 @@ namespace
 {
 
 using Leaves = std::vector<vtkSmartPointer<vtkDataSet>>;
-using Numbers = std::vector<std::vector<std::int32_t>>;
+using LeafNumbers = std::vector<std::vector<std::int32_t>>;
 
 /// Leaves out cells (-1) whose points are all merged and the same as another's: of such cells it
 /// keeps a visible one if there is any, or else a copy.
-Numbers withoutDoubles(
-  const std::vector<MeshArrays>& meshes, const Numbers& points, std::size_t numberOfPoints)
+LeafNumbers withoutDoubles(
+  const std::vector<MeshArrays>& meshes, const LeafNumbers& points, std::size_t numberOfPoints)
 {
   std::vector<unsigned char> uses(numberOfPoints, 0); // none, one or more
   for (const std::vector<std::int32_t>& numbers : points)
@@ -50,7 +50,7 @@ Numbers withoutDoubles(
       of = of > 0 ? 2 : 1;
     }
   }
-  Numbers cells(meshes.size());
+  LeafNumbers cells(meshes.size());
   std::unordered_set<std::uint64_t> known;
   for (const int rank : { 2, 1, 0 }) // visible, a copy, hidden
   {
@@ -119,9 +119,9 @@ void addCells(vtkDataSet* leaf, const MeshArrays& from, const std::vector<std::i
   }
 }
 
-} // namespace
-
-void SharedPoints::makeMesh(const Leaves& leaves, std::size_t points, Group& group)
+/// Makes the mesh without values, and numbers the leaves' cells in it; -1: one that is left out.
+vtkSmartPointer<vtkUnstructuredGrid> emptyMeshOf(
+  const JoinedLeaves& group, const Leaves& leaves, LeafNumbers& cellNumbers)
 {
   std::vector<MeshArrays> meshes;
   vtkIdType cells = 0;
@@ -130,14 +130,14 @@ void SharedPoints::makeMesh(const Leaves& leaves, std::size_t points, Group& gro
     meshes.emplace_back(leaves[leaf]);
     cells += meshes.back().cells();
   }
-  group.cells = withoutDoubles(meshes, group.points, points);
-  group.mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  cellNumbers = withoutDoubles(meshes, group.points, group.count);
+  auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
   vtkNew<vtkPoints> places;
   places->SetDataTypeToDouble();
-  places->SetNumberOfPoints(static_cast<vtkIdType>(points));
-  group.mesh->SetPoints(places);
-  group.mesh->AllocateEstimate(cells, 8);
-  group.mesh->GetCells()->Use32BitStorage();
+  places->SetNumberOfPoints(static_cast<vtkIdType>(group.count));
+  mesh->SetPoints(places);
+  mesh->AllocateEstimate(cells, 8);
+  mesh->GetCells()->Use32BitStorage();
   for (std::size_t i = meshes.size(); i-- > 0;) // the first of equal points stays
   {
     for (std::size_t point = group.points[i].size(); point-- > 0;)
@@ -149,25 +149,28 @@ void SharedPoints::makeMesh(const Leaves& leaves, std::size_t points, Group& gro
   }
   for (std::size_t i = 0; i < meshes.size(); ++i)
   {
-    addCells(leaves[group.leaves[i]], meshes[i], group.points[i], group.cells[i], group.mesh);
+    addCells(leaves[group.leaves[i]], meshes[i], group.points[i], cellNumbers[i], mesh);
   }
   vtkNew<vtkUnsignedCharArray> doubles;
   doubles->SetName(doublesName);
-  doubles->SetNumberOfValues(static_cast<vtkIdType>(points));
+  doubles->SetNumberOfValues(static_cast<vtkIdType>(group.count));
   doubles->Fill(0);
   for (const std::int32_t point : group.doubles)
   {
     doubles->SetValue(point, 1);
   }
-  group.mesh->GetPointData()->AddArray(doubles);
+  mesh->GetPointData()->AddArray(doubles);
+  return mesh;
 }
 
-vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Leaves& leaves)
+} // namespace
+
+vtkSmartPointer<vtkDataSet> meshOf(const JoinedLeaves& group, const Leaves& leaves)
 {
   const bool areOfCells = std::all_of(group.leaves.begin(), group.leaves.end(),
     [&](std::size_t leaf) { return leaves[leaf]->GetCellData()->GetScalars() != nullptr; });
-  auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  mesh->ShallowCopy(group.mesh);
+  LeafNumbers cellNumbers;
+  const auto mesh = emptyMeshOf(group, leaves, cellNumbers);
   vtkNew<vtkDoubleArray> ofPoints, ofCells;
   vtkNew<vtkUnsignedCharArray> ghosts;
   ofPoints->SetName(arrayName);
@@ -191,7 +194,7 @@ vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Lea
     std::vector<unsigned char> isUsed(static_cast<std::size_t>(from.points()), 0);
     for (vtkIdType cell = 0; cell < from.cells(); ++cell)
     {
-      const std::int32_t number = group.cells[i][static_cast<std::size_t>(cell)];
+      const std::int32_t number = cellNumbers[i][static_cast<std::size_t>(cell)];
       if (number < 0)
       {
         continue;
@@ -238,21 +241,6 @@ vtkSmartPointer<vtkDataSet> SharedPoints::joinedOf(const Group& group, const Lea
     mesh->GetCellData()->SetScalars(ofCells);
   }
   return mesh;
-}
-
-Leaves SharedPoints::joined(const Leaves& leaves) const
-{
-  Leaves result = leaves;
-  for (const Group& group : this->Groups)
-  {
-    for (const std::size_t leaf : group.leaves)
-    {
-      result[leaf] = nullptr;
-    }
-    result[group.leaves[0]] = joinedOf(group, leaves);
-  }
-  result.erase(std::remove(result.begin(), result.end(), nullptr), result.end());
-  return result;
 }
 
 } // namespace filters

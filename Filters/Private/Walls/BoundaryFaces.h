@@ -51,7 +51,7 @@ struct BoundaryFaces
  * coincidentPoints()). Omits faces without area, at a pole or an axis.
  *
  * Sheets are walls without thickness: faces at the same place of cells of one dataset that have
- * points of their own there, because SharedPoints has left them apart. Others, whose cells share
+ * points of their own there, because withSharedPoints() has left them apart. Others, whose cells share
  * points, are not recognized.
  */
 class OpenFaces

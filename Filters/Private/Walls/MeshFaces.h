@@ -32,7 +32,7 @@ enum class State : unsigned char
   Visible
 };
 
-/// Name of an array of points: whether one was made of several of a dataset (see SharedPoints).
+/// Name of an array of points: whether one was made of several of a dataset (see SharedPoints.h).
 constexpr const char* doublesName = "Doubles";
 
 /// Polygons that bound visible or hidden cells.

@@ -24,7 +24,6 @@ Scene oblique()
   Scene scene = sceneOnCpu(150, 90, { -0.2, 0.4, -1 }); // no multiples of a tile's edge
   scene.histogramSize = 16;
   scene.samplesPerPixel = 2;
-  scene.fieldColors = { { 1, 0, 0 }, { 0, 0.5f, 1 } };
   scene.threads = 1;
   return scene;
 }
@@ -65,16 +64,16 @@ TEST(Processes, ChangesNoBitOfAnImage)
 {
   const BlobWithHole flow;
   Scene scene = oblique();
-  expectSameOf(flow.tinted(), scene);
+  expectSameOf(flow.field, scene);
   scene.precision = Precision::Double;
-  expectSameOf(flow.tinted(), scene);
+  expectSameOf(flow.field, scene);
 }
 
 TEST(Processes, ChangesNoBitOfATree)
 {
   Scene scene = oblique();
   scene.source.distance = 20;
-  expectSameOf(ballsWithFields(), scene);
+  expectSameOf(fieldOfBalls(), scene);
 }
 
 TEST(Processes, ChangesNoBitBesideWalls)
@@ -87,7 +86,6 @@ TEST(Processes, ChangesNoBitBesideWalls)
   Scene scene = oblique();
   scene.view.parallelScale = 1.5;
   scene.mediumTolerance = 0.1;
-  scene.fieldColors.clear();
   expectSameOf(field, scene);
 }
 
@@ -98,50 +96,21 @@ TEST(Processes, SendsTheMediumOnce)
   Bench bench;
   bench.setProcesses(&others);
   Scene scene = oblique();
-  bench.render(flow.tinted(), scene);
+  bench.render(flow.field, scene);
   const int traces = others.traces;
-  EXPECT_EQ(others.arrays, 3); // samples, solids, gradients of fields
+  EXPECT_EQ(others.arrays, 2); // samples, solids
   scene.view.viewDirection = { 0.3, 0.1, -1 };
-  bench.render(flow.tinted(), scene);
-  EXPECT_EQ(others.arrays, 3);
+  bench.render(flow.field, scene);
+  EXPECT_EQ(others.arrays, 2);
   EXPECT_GT(others.traces, traces);
   scene.interpolation = Interpolation::Cubic; // another medium
-  bench.render(flow.tinted(), scene);
-  EXPECT_GT(others.arrays, 3);
+  bench.render(flow.field, scene);
+  EXPECT_GT(others.arrays, 2);
   bench.setProcesses(nullptr);
   const int tracesOfOthers = others.traces;
   scene.view.viewDirection = { 0, 0.1, -1 };
-  EXPECT_EQ(bench.render(flow.tinted(), scene).processes, 1);
+  EXPECT_EQ(bench.render(flow.field, scene).processes, 1);
   EXPECT_EQ(others.traces, tracesOfOthers);
-}
-
-// Two views of the same data, each with its own array of the same gradients and with others of its own, or the same ones.
-TEST(Processes, BenchesOfOneMediumFindTheirOwnFields)
-{
-  const BlobWithHole flow;
-  Scene scene = oblique();
-  const auto media = std::make_shared<SharedMedia>();
-  OtherProcesses first(1), second(1), both(1);
-  Bench benches[4];
-  OtherProcesses* const of[4] = { &first, &second, &both, &both };
-  const std::vector<float> arrays[4] = { flow.gradients, flow.gradients, flow.gradients,
-    flow.gradients };
-  for (const double x : { -0.2, 0.3 })
-  {
-    scene.view.viewDirection = { x, 0.4, -1 };
-    const Image alone = Bench().render(flow.tinted(), scene);
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      benches[i].setMedia(media);
-      benches[i].setProcesses(of[i]);
-      Field field = flow.tinted();
-      field.gradients.values = arrays[i].data();
-      expectSameImage(benches[i].render(field, scene), alone);
-      EXPECT_GT(of[i]->traces, 0);
-    }
-  }
-  EXPECT_EQ(benches[1].work().mediumBuilds, 0);
-  EXPECT_EQ(first.arrays, 4); // gradients twice, as another bench has had its own meanwhile
 }
 
 TEST(Processes, SaysWhatGoesWrongInOne)
@@ -151,9 +120,9 @@ TEST(Processes, SaysWhatGoesWrongInOne)
   others.failing = 1;
   Bench bench;
   bench.setProcesses(&others);
-  EXPECT_THROW(bench.render(flow.tinted(), oblique()), Error);
+  EXPECT_THROW(bench.render(flow.field, oblique()), Error);
   others.failing = -1;
-  expectSameImage(bench.render(flow.tinted(), oblique()), Bench().render(flow.tinted(), oblique()));
+  expectSameImage(bench.render(flow.field, oblique()), Bench().render(flow.field, oblique()));
 }
 
 TEST(Processes, AbortsAtOnce)
@@ -164,8 +133,8 @@ TEST(Processes, AbortsAtOnce)
   bench.setProcesses(&others);
   int questions = 0;
   const Monitor aborting{ {}, [&] { return ++questions > 1; }, {} };
-  EXPECT_TRUE(bench.render(flow.tinted(), oblique(), aborting).aborted);
-  expectSameImage(bench.render(flow.tinted(), oblique()), Bench().render(flow.tinted(), oblique()));
+  EXPECT_TRUE(bench.render(flow.field, oblique(), aborting).aborted);
+  expectSameImage(bench.render(flow.field, oblique()), Bench().render(flow.field, oblique()));
 }
 
 // No side has a large medium twice.
@@ -175,7 +144,6 @@ TEST(Processes, SendsLargeArraysInPieces)
     [](double x, double y, double z)
     { return 3e-4 * std::exp(-(x * x + 2 * y * y + z * z) / 0.1); });
   Scene scene = oblique();
-  scene.fieldColors.clear();
   const Image alone = Bench().render(flow.field, scene);
   OtherProcesses others(1);
   Bench bench;

@@ -81,15 +81,15 @@ void expectSameImages(const Cutoffs& cutoff, std::int64_t raysPerBand = std::int
   std::mt19937 random(5);
   std::vector<RayExits> exits;
   std::vector<TracedRays> traced;
-  Films films(channelsOf(cutoff), {}, width, height, rays);
-  Films filmsOfDevice = Films(channelsOf(cutoff), {}, width, height, rays);
+  Films films(channelsOf(cutoff), width, height, rays);
+  Films filmsOfDevice = Films(channelsOf(cutoff), width, height, rays);
   CudaFilm onDevice(films, raysPerBand);
   for (int number = 0; number < passes; ++number)
   {
     const Pass pass{ -heldMargin, -heldMargin, width + 2 * heldMargin, height + 2 * heldMargin,
       { 0.1 * number, -0.07 * number }, { 0, 0 }, std::ldexp(1, -number) };
     exits.push_back(exitsOf(pass, random));
-    traced.push_back({ pass, exits.back().data(), nullptr });
+    traced.push_back({ pass, exits.back().data() });
     onDevice.expose(CudaPass(exits.back()), pass, cutoff, projection, margin);
   }
   const RayCounts counts = expose(traced, cutoff, projection, margin, 1, films);
@@ -227,7 +227,7 @@ TEST_F(HostAndDeviceFilm, FindsTheSameStrongDeflection)
   RayExits exits = anyExits(pass, random);
   const auto expectTheSame = [&]
   {
-    const double onHost = strongDeflection({ pass, exits.data(), nullptr }, width, height, {}, 2);
+    const double onHost = strongDeflection({ pass, exits.data() }, width, height, {}, 2);
     EXPECT_EQ(onHost, strongDeflection(CudaPass(exits), pass, width, height, {}));
     return onHost;
   };

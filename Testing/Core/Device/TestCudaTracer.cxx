@@ -48,12 +48,6 @@ struct Bundle
       }
       field.field.valid = valid.data();
     }
-    gradients.resize(2 * field.samples.size());
-    for (int n = 0; n < 2; ++n)
-    {
-      gradientMagnitudes(
-        field.field.grid, field.samples.data(), nullptr, 1, 2, n, gradients.data());
-    }
     View view;
     view.viewDirection = { -0.4, 0.3, -0.8 };
     view.width = width - 8;
@@ -65,16 +59,12 @@ struct Bundle
       std::make_unique<Medium<Real>>(buildMedium<Real>(field.field, kernel.interpolation, 1));
   }
 
-  RayTask<Real> task(int fields = 0) const
-  {
-    const FieldGradients view{ fields, gradients.data(), 1 };
-    return makeTask<Real>(*medium, FieldGradientsView::of(field.field.grid, view), light, settings);
-  }
+  RayTask<Real> task() const { return makeTask(*medium, light, settings); }
 
   TracedPass onHost(const RayTask<Real>& task) const
   {
     TracedPass traced;
-    traced.resize(pass, task.gradients.count);
+    traced.resize(pass);
     traceOnCpu(task, pass, traced, 1, {}, Simd::None);
     return traced;
   }
@@ -83,13 +73,12 @@ struct Bundle
   {
     TracedPass traced;
     CudaTracer<Real> tracer(*medium);
-    tracer.trace(task, pass, { 1 }, CudaTracer<Real>::Exits::OnHost, traced, {});
+    tracer.trace(task, pass, CudaTracer<Real>::Exits::OnHost, traced, {});
     return traced;
   }
 
   SampledField<float> field;
   std::vector<unsigned char> valid;
-  std::vector<float> gradients;
   RaySettings settings;
   Light light;
   std::unique_ptr<Medium<Real>> medium;
@@ -219,7 +208,7 @@ TEST_F(HostAndDeviceRays, AreCountedAlike)
           random() % 9 == 0 ? RayFate::Blocked : RayFate::Left, 1 };
         exit.deflection[0] = random() % 50 == 0 ? std::nan("") : exit.deflection[0];
       }
-      host.add({ pass, exits.data(), nullptr }, width - 8, height - 6, 1);
+      host.add({ pass, exits.data() }, width - 8, height - 6, 1);
       device.add(CudaPass(exits), pass, width - 8, height - 6);
       EXPECT_EQ(host.histogram().range, device.histogram().range);
       EXPECT_EQ(host.histogram().rays, device.histogram().rays);
@@ -263,41 +252,10 @@ TEST_F(HostAndDeviceRays, AreTrappedAtTheSameStep)
 }
 
 template <class Real>
-void expectSameSums(const KernelChoice& kernel)
-{
-  SCOPED_TRACE(name(kernel));
-  const Bundle<Real> bundle(kernel);
-  const RayTask<Real> task = bundle.task(2);
-  const TracedPass host = bundle.onHost(task);
-  const TracedPass device = bundle.onDevice(task);
-  ASSERT_EQ(host.gathered.size(), device.gathered.size());
-  const float largest = *std::max_element(host.gathered.begin(), host.gathered.end());
-  EXPECT_GT(largest, 0);
-  std::size_t differ = 0;
-  for (std::size_t n = 0; n < host.gathered.size(); ++n)
-  {
-    const bool isSame = std::abs(host.gathered[n] - device.gathered[n]) <= 1e-4f * largest;
-    differ += isSame ? 0 : 1; // NaN is not
-  }
-  EXPECT_LE(differ, mayBranch(kernel) ? host.gathered.size() / 50 : 0);
-}
-
-TEST_F(HostAndDeviceRays, GatherTheSameForEveryKernel)
-{
-  forKernels(
-    [](const KernelChoice& kernel)
-    {
-      expectSameSums<float>(kernel);
-      expectSameSums<double>(kernel);
-    });
-}
-
-template <class Real>
 void expectAgreementInATree(Interpolation interpolation, double allowed)
 {
-  const auto source = std::make_shared<SourceWithFields>(
-    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0.1, 0, -0.05 }, 0.1, 1e-3 } }),
-    std::vector<FieldFormula>{ ballField({ -0.1, 0.1, 0 }, 0.2), linearField({ 0.2, -0.3, 0.1 }) });
+  const auto source =
+    std::make_shared<BallsSource>(std::vector<Ball>{ { { 0.1, 0, -0.05 }, 0.1, 1e-3 } });
   Field field;
   field.source = source;
   field.grid = coarsestGrid(*source);
@@ -319,28 +277,15 @@ void expectAgreementInATree(Interpolation interpolation, double allowed)
       RaySettings settings;
       settings.kernel = kernel;
       settings.adaptiveTolerance = 1e-3;
-      for (const int fields : { 0, 2 })
-      {
-        field.gradients.count = fields;
-        const RayTask<Real> task =
-          makeTask<Real>(medium, medium.gradientsOf(field), light, settings);
-        TracedPass host, device;
-        host.resize(pass, fields);
-        traceOnCpu(task, pass, host, 1, {}, Simd::None);
-        tracer.trace(task, pass, { 1 }, CudaTracer<Real>::Exits::OnHost, device, {});
-        ASSERT_EQ(host.exits.size(), device.exits.size());
-        const Differences deflection(host, device, allowed, deflectionOf);
-        EXPECT_LT(deflection.fraction, 0.02); // steps begin at leaves, where rounding may decide
-        EXPECT_LT(deflection.worst, 0.05);
-        ASSERT_EQ(host.gathered.size(), device.gathered.size());
-        for (std::size_t n = 0; n < host.gathered.size(); ++n)
-        {
-          EXPECT_NEAR(host.gathered[n], device.gathered[n], 1e-3);
-        }
-        EXPECT_EQ(fields > 0,
-          std::any_of(host.gathered.begin(), host.gathered.end(),
-            [](float gathered) { return gathered > 1; }));
-      }
+      const RayTask<Real> task = makeTask(medium, light, settings);
+      TracedPass host, device;
+      host.resize(pass);
+      traceOnCpu(task, pass, host, 1, {}, Simd::None);
+      tracer.trace(task, pass, CudaTracer<Real>::Exits::OnHost, device, {});
+      ASSERT_EQ(host.exits.size(), device.exits.size());
+      const Differences deflection(host, device, allowed, deflectionOf);
+      EXPECT_LT(deflection.fraction, 0.02); // steps begin at leaves, where rounding may decide
+      EXPECT_LT(deflection.worst, 0.05);
     });
 }
 
@@ -372,16 +317,15 @@ TEST_F(HostAndDeviceRays, AreTheSameWhetherTheyComeBackOrNot)
   using Exits = CudaTracer<float>::Exits;
   std::vector<double> progress;
   TracedPass back, there;
-  EXPECT_TRUE(tracer.trace(task, large, { 1 }, Exits::OnHost, back,
+  EXPECT_TRUE(tracer.trace(task, large, Exits::OnHost, back,
     { [&](double fraction) { progress.push_back(fraction); }, {} }));
   EXPECT_GT(progress.size(), 1u);
   EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
   EXPECT_EQ(progress.back(), 1);
   EXPECT_FALSE(back.onDevice);
 
-  EXPECT_FALSE(
-    tracer.trace(task, large, { 1 }, Exits::OnDevice, there, { {}, [] { return true; } }));
-  EXPECT_TRUE(tracer.trace(task, large, { 1 }, Exits::OnDevice, there, {}));
+  EXPECT_FALSE(tracer.trace(task, large, Exits::OnDevice, there, { {}, [] { return true; } }));
+  EXPECT_TRUE(tracer.trace(task, large, Exits::OnDevice, there, {}));
   ASSERT_TRUE(there.onDevice);
   EXPECT_TRUE(there.exits.empty());
   EXPECT_EQ(there.crossed, back.crossed);
@@ -394,7 +338,7 @@ TEST_F(HostAndDeviceRays, AreTheSameInOnePassOrMany)
 {
   const Bundle<float> bundle(
     { PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic });
-  const RayTask<float> task = bundle.task(2);
+  const RayTask<float> task = bundle.task();
   std::vector<Pass> passes;
   for (std::int64_t n = 0; n < 7; ++n)
   {
@@ -403,15 +347,15 @@ TEST_F(HostAndDeviceRays, AreTheSameInOnePassOrMany)
   CudaTracer<float> tracer(*bundle.medium);
   constexpr auto onHost = CudaTracer<float>::Exits::OnHost;
   TracedPass onDevice, onCpu;
-  EXPECT_TRUE(tracer.trace(task, passes, { 1 }, onHost, onDevice, {}));
-  onCpu.resize(passes, 2);
+  EXPECT_TRUE(tracer.trace(task, passes, onHost, onDevice, {}));
+  onCpu.resize(passes);
   EXPECT_TRUE(traceOnCpu(task, passes, onCpu, 2, {}));
   TracedPass oneByOne[2];
   for (const Pass& one : passes)
   {
     TracedPass alone[2];
-    tracer.trace(task, one, { 1 }, onHost, alone[0], {});
-    alone[1].resize(one, 2);
+    tracer.trace(task, one, onHost, alone[0], {});
+    alone[1].resize(one);
     traceOnCpu(task, one, alone[1], 1, {});
     for (std::size_t n = 0; n < 2; ++n)
     {
@@ -419,7 +363,6 @@ TEST_F(HostAndDeviceRays, AreTheSameInOnePassOrMany)
       all.crossed += alone[n].crossed;
       all.worstDrift = std::max(all.worstDrift, alone[n].worstDrift);
       all.exits.insert(all.exits.end(), alone[n].exits.begin(), alone[n].exits.end());
-      all.gathered.insert(all.gathered.end(), alone[n].gathered.begin(), alone[n].gathered.end());
     }
   }
   for (const auto& [together, apart] :
@@ -427,30 +370,10 @@ TEST_F(HostAndDeviceRays, AreTheSameInOnePassOrMany)
       { onCpu, oneByOne[1] } })
   {
     expectSameBits(together.exits, apart.exits);
-    EXPECT_EQ(together.gathered, apart.gathered);
     EXPECT_EQ(together.crossed, apart.crossed);
     EXPECT_EQ(together.worstDrift, apart.worstDrift);
     EXPECT_GT(together.crossed, 0);
   }
-}
-
-TEST_F(HostAndDeviceRays, FindNewGradientsOnTheDevice)
-{
-  const KernelChoice kernel{ PathModel::Refracted, Integrator::Leapfrog, Interpolation::Quadratic };
-  Bundle<float> bundle(kernel);
-  CudaTracer<float> tracer(*bundle.medium);
-  using Exits = CudaTracer<float>::Exits;
-  TracedPass first, second;
-  EXPECT_TRUE(tracer.trace(bundle.task(2), pass, { 1 }, Exits::OnHost, first, {}));
-  for (float& value : bundle.gradients)
-  {
-    value *= 2;
-  }
-  EXPECT_TRUE(tracer.trace(bundle.task(2), pass, { 2 }, Exits::OnHost, second, {}));
-  const TracedPass fresh = bundle.onDevice(bundle.task(2));
-  expectSameBits(second.exits, fresh.exits);
-  EXPECT_EQ(second.gathered, fresh.gathered);
-  EXPECT_NE(second.gathered, first.gathered);
 }
 
 TEST_F(HostAndDeviceRays, TooMuchForTheDeviceIsReportedWithNumbers)
@@ -489,7 +412,7 @@ void expectSameImage(const Image& a, const Image& b)
   EXPECT_EQ(a.stepsTaken, b.stepsTaken);
 }
 
-/// Cached rays, whether on the device or (where something tints) on the host.
+/// Cached rays, on the device.
 TEST_F(HostAndDeviceRays, ServeForTheNextImage)
 {
   const Bundle<float> bundle(
@@ -515,14 +438,7 @@ TEST_F(HostAndDeviceRays, ServeForTheNextImage)
   EXPECT_EQ(bench.work().raysTraced, rays);
   EXPECT_EQ(freshShadow.work().raysTraced, rays);
 
-  field.gradients = { 2, bundle.gradients.data(), 1 };
-  scene.fieldColors = { { 1, 0, 0 }, { 0, 0, 1 } };
-  Bench freshTint;
-  expectSameImage(render(bench, field, scene), render(freshTint, field, scene));
-
-  field.gradients = FieldGradients{};
-  scene.fieldColors.clear();
-  scene.samplesPerPixel = 4; // of which three are cached, on the host
+  scene.samplesPerPixel = 4; // of which three are cached
   Bench freshMore;
   expectSameImage(render(bench, field, scene), render(freshMore, field, scene));
 }

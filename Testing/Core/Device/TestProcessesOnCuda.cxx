@@ -27,7 +27,6 @@ protected:
     scene_.view.viewDirection = { -0.2, 0.4, -1 };
     scene_.histogramSize = 16;
     scene_.samplesPerPixel = 2;
-    scene_.fieldColors = { { 1, 0, 0 }, { 0, 0.5f, 1 } };
     scene_.threads = 1;
   }
 
@@ -56,12 +55,11 @@ protected:
 TEST_F(ProcessesOnCuda, ChangesNoBitOfAnImage)
 {
   expectSameOf(flow_.field); // rays stay on the device
-  expectSameOf(flow_.tinted());
   scene_.precision = Precision::Double;
-  expectSameOf(flow_.tinted());
+  expectSameOf(flow_.field);
 }
 
-TEST_F(ProcessesOnCuda, ChangesNoBitOfATree) { expectSameOf(ballsWithFields()); }
+TEST_F(ProcessesOnCuda, ChangesNoBitOfATree) { expectSameOf(fieldOfBalls()); }
 
 TEST_F(ProcessesOnCuda, ChangesNoBitBesideWalls)
 {
@@ -72,7 +70,6 @@ TEST_F(ProcessesOnCuda, ChangesNoBitBesideWalls)
   field.version = 1;
   scene_.view.parallelScale = 1.5;
   scene_.mediumTolerance = 0.1;
-  scene_.fieldColors.clear();
   expectSameOf(field);
 }
 
@@ -84,11 +81,11 @@ TEST_F(ProcessesOnCuda, SendsTheMediumOnceAndFollowsTheScene)
   const auto expectSame = [&]
   {
     const int traces = others.traces;
-    expectSameImage(bench.render(flow_.tinted(), scene_), Bench().render(flow_.tinted(), scene_));
+    expectSameImage(bench.render(flow_.field, scene_), Bench().render(flow_.field, scene_));
     EXPECT_GT(others.traces, traces);
   };
   expectSame();
-  EXPECT_EQ(others.arrays, 3); // samples, solids, gradients of fields
+  EXPECT_EQ(others.arrays, 2); // samples, solids
   scene_.view.viewDirection = { 0.3, 0.1, -1 };
   expectSame();
   scene_.device = Device::Cpu;
@@ -96,10 +93,10 @@ TEST_F(ProcessesOnCuda, SendsTheMediumOnceAndFollowsTheScene)
   expectSame();
   scene_.device = Device::Cuda;
   expectSame();
-  EXPECT_EQ(others.arrays, 3);
+  EXPECT_EQ(others.arrays, 2);
   scene_.interpolation = Interpolation::Cubic; // another medium
   expectSame();
-  EXPECT_GT(others.arrays, 3);
+  EXPECT_GT(others.arrays, 2);
 }
 
 // Else rays would differ: this process traces all.
@@ -109,8 +106,8 @@ TEST_F(ProcessesOnCuda, HasOneKindOfDevice)
   others.hasOtherDevice = true;
   Bench bench;
   bench.setProcesses(&others);
-  const Image image = bench.render(flow_.tinted(), scene_);
-  expectSameImage(image, Bench().render(flow_.tinted(), scene_));
+  const Image image = bench.render(flow_.field, scene_);
+  expectSameImage(image, Bench().render(flow_.field, scene_));
   EXPECT_EQ(image.processes, 1);
   EXPECT_EQ(others.traces, 0);
   EXPECT_EQ(others.arrays, 0);

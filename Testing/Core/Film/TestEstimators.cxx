@@ -201,9 +201,9 @@ struct GaussianLens
     {
       rays.push_back({ { -margin, -margin, size + 2 * margin, size + 2 * margin,
                          pixelOffset(number, 1), { 0, 0 }, side },
-        exits[static_cast<std::size_t>(number)].data(), nullptr });
+        exits[static_cast<std::size_t>(number)].data() });
     }
-    Films films(1, {}, size, size, 10000000);
+    Films films(1, size, size, 10000000);
     expose(rays, Shadowgraph{}, { 0, 1, 1 }, margin, 2, films);
     return films.developIntensity(passes, 2);
   }
@@ -349,13 +349,13 @@ TEST(Estimators, ManyRaysPerPixelHaveThePixelsMean)
           ofPass.push_back(
             { { amplitude * std::sin(2 * pi * turns), 0 }, { 0, 0 }, turns, RayFate::Left, 1 });
         }
-        rays.push_back({ pass, nullptr, nullptr });
+        rays.push_back({ pass, nullptr });
       }
       for (std::size_t number = 0; number < rays.size(); ++number)
       {
         rays[number].exits = exits[number].data();
       }
-      Films films(1, {}, size, size, 10000000);
+      Films films(1, size, size, 10000000);
       expose(rays, KnifeEdge::at(0, 1), { 0, 1, 0 }, margin, 1, films);
       const PixelArray<float> image = films.developIntensity(passes, 1);
       for (int pixel = 0; pixel < size * size; ++pixel)
@@ -389,26 +389,6 @@ TEST(Estimators, BrightnessIsTheSumOverFolds)
     }
     EXPECT_NEAR(
       image[static_cast<std::size_t>(40 * GaussianLens::size + column)], expected, 0.01 * expected);
-  }
-}
-
-/// What fields tint gets as much light as what they do not, in all planes.
-TEST(Estimators, ColouredPlanesAreSpreadAlike)
-{
-  Bodies bodies(1e-3, false);
-  std::vector<float> gradients(bodies.gas.samples.size(), 1);
-  bodies.gas.field.gradients = { 1, gradients.data(), 1 };
-  Scene& scene = bodies.scene;
-  scene.fieldColors = { { 1, 1, 1 } };
-  scene.screenDistance = 200;
-  const Image image = Bench().render(bodies.gas.field, scene);
-  for (std::size_t pixel = 0; pixel < image.intensity.size(); ++pixel)
-  {
-    for (std::size_t channel = 0; channel < 3; ++channel)
-    {
-      ASSERT_NEAR(image.color[3 * pixel + channel], image.intensity[pixel],
-        1e-6 * std::max(1.f, image.intensity[pixel]));
-    }
   }
 }
 

@@ -43,7 +43,7 @@ struct InventedRays
           1e-6 * any(random), fate, static_cast<std::int32_t>(random() % 100) });
       }
       exits.push_back(std::move(ofPass));
-      rays.push_back({ pass, exits.back().data(), nullptr });
+      rays.push_back({ pass, exits.back().data() });
     }
   }
 
@@ -73,7 +73,7 @@ struct Exposed
 Exposed exposed(const std::vector<TracedRays>& rays, const Cutoffs& cutoff,
   const Projection& projection, int threads)
 {
-  Films films(channelsOf(cutoff), {}, width, height, 1000000);
+  Films films(channelsOf(cutoff), width, height, 1000000);
   const RayCounts counts = expose(rays, cutoff, projection, margin, threads, films);
   return { films.developIntensity(1, threads), counts };
 }

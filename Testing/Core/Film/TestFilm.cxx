@@ -42,7 +42,7 @@ TEST(AutomaticK, MapsThe99thPercentileToFullScale)
         RayExit{ { 0.6 * size, -0.8 * size }, { 0, 0 }, 0, RayFate::Left, 1 };
     }
   }
-  const TracedRays rays{ pass, exits.data(), nullptr };
+  const TracedRays rays{ pass, exits.data() };
   const double strong = strongDeflection(rays, width, height, {}, 2);
   EXPECT_NEAR(strong, 989e-6, 1e-12);
   EXPECT_EQ(automaticK(strong, 0.5), 0.5 / strong);
@@ -61,7 +61,7 @@ TEST(AutomaticK, ShowsTheErrorOfTheMediumAsATinyPartOfFullScale)
   const Pass pass{ 0, 0, width, height, { 0, 0 } };
   std::vector<RayExit> exits(width * height, RayExit{ { 1e-7, 0 }, { 0, 0 }, 0, RayFate::Left, 1 });
   exits[77].deflection[1] = 1e-4; // one ray
-  const TracedRays rays{ pass, exits.data(), nullptr };
+  const TracedRays rays{ pass, exits.data() };
   const auto strong = [&](double error) {
     return strongDeflection(rays, width, height, { 0, error }, 2);
   };

@@ -47,7 +47,7 @@ Histogram histogramOf(const std::vector<const std::vector<RayExit>*>& passes, in
   DeflectionHistogram histogram(size);
   for (const std::vector<RayExit>* exits : passes)
   {
-    histogram.add({ pass, exits->data(), nullptr }, width, height, threads);
+    histogram.add({ pass, exits->data() }, width, height, threads);
   }
   EXPECT_EQ(histogram.passes(), static_cast<int>(passes.size()));
   return histogram.histogram();
@@ -153,7 +153,7 @@ TEST(Histogram, BinsHaveTheirPlaceWhateverCameFirst)
           exits[static_cast<std::size_t>((row + 1) * pass.columns + column + 2)];
         ++expected[static_cast<std::size_t>(
           binOf(exit.deflection[1]) * size + binOf(exit.deflection[0]))];
-        oneByOne.add({ { 0, 0, 1, 1, { 0, 0 } }, &exit, nullptr }, 1, 1, 1);
+        oneByOne.add({ { 0, 0, 1, 1, { 0, 0 } }, &exit }, 1, 1, 1);
       }
     }
     EXPECT_EQ(histogram.rays, expected) << size;

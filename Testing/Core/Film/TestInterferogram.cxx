@@ -228,8 +228,8 @@ void expectMeansOfPixels(double spacing, double bend, double tolerance)
       exit.opticalPathDifference = heliumNeon * waves(pass.columnOf(ray), pass.rowOf(ray));
       exits.push_back(exit);
     }
-    Films films(1, {}, width, height, pass.columns * pass.rows);
-    expose({ { pass, exits.data(), nullptr } }, fringes, { 0, 1, 0 }, margin, 1, films);
+    Films films(1, width, height, pass.columns * pass.rows);
+    expose({ { pass, exits.data() } }, fringes, { 0, 1, 0 }, margin, 1, films);
     const PixelArray<float> image = films.developIntensity(1, 1);
     double worst = 0;
     for (int row = 0; row < height; ++row)

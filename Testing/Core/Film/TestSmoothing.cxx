@@ -97,10 +97,8 @@ struct SharpImage
 TEST(Smoothing, IsAppliedToTheBenchsImages)
 {
   SharpImage sharp;
-  std::vector<float> gradients(sharp.gas.samples.size(), 1);
-  sharp.gas.field.gradients = { 1, gradients.data(), 1 };
   Scene& scene = sharp.scene;
-  scene.fieldColors = { { 1, 0, 0.5f } };
+  scene.cutoff = Cutoff::ColorFilter;
   const Image plain = Bench().render(sharp.gas.field, scene);
   scene.smoothingRadius = 3;
   const Image image = Bench().render(sharp.gas.field, scene);

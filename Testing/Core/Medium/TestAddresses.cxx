@@ -121,10 +121,10 @@ TYPED_TEST(Addresses, ReachBeyondTwoThousandMillionSamples)
           std::to_string(static_cast<int>(simd)));
         RaySettings settings;
         settings.kernel = { PathModel::Refracted, integrator, interpolation };
-        RayTask<Real> task = makeTask<Real>(medium, {}, light, settings);
+        RayTask<Real> task = makeTask<Real>(medium, light, settings);
         task.medium = volume.view();
         TracedPass traced;
-        traced.resize(pass, 0);
+        traced.resize(pass);
         ASSERT_TRUE(traceOnCpu(task, pass, traced, 1, {}, simd));
         for (const RayExit& exit : traced.exits)
         {

@@ -92,45 +92,6 @@ TEST(MediumTree, GradientsReachWalls)
   EXPECT_LT(worst, 0.02 * ObliqueWallSource::slope);
 }
 
-// The same of what rays gather of fields, a linear one and one that is bent.
-TEST(MediumTree, GradientsOfFieldsReachWalls)
-{
-  const Vec3<double> centre{ -0.2, 0.1, 0.1 };
-  constexpr double width = 0.5;
-  const auto source = std::make_shared<SourceWithFields>(std::make_shared<ObliqueWallSource>(),
-    std::vector<FieldFormula>{
-      linearField({ 0.3, -0.4, 1.2 }), ballField({ centre.x, centre.y, centre.z }, width) });
-  Tree tree(source, 0, settingsOf(1e-2));
-  tree.refine(everything(x, y, 0.01));
-  double worst[2] = {};
-  besideTheObliqueWall(tree,
-    [&](const Vec3<double>& at)
-    {
-      const std::int32_t number = leafAt(tree, at);
-      const Leaf<float>& leaf = tree.leaves()[static_cast<std::size_t>(number)];
-      const Grid& grid = tree.grid();
-      Vec3<float> local;
-      local.x = static_cast<float>(
-        ((at.x - grid.origin[0]) / grid.spacing[0] - leaf.first[0]) * leaf.perIndex);
-      local.y = static_cast<float>(
-        ((at.y - grid.origin[1]) / grid.spacing[1] - leaf.first[1]) * leaf.perIndex);
-      local.z = static_cast<float>(
-        ((at.z - grid.origin[2]) / grid.spacing[2] - leaf.first[2]) * leaf.perIndex);
-      float found[2] = {};
-      gatherGradients(
-        tree.gradients(), number, local, static_cast<float>(1 / grid.spacing[0]), found);
-      const double r = length(at - centre);
-      const double expected[2] = { 1.3,
-        2 * r / (width * width) * std::exp(-r * r / (width * width)) };
-      for (int n = 0; n < 2; ++n)
-      {
-        worst[n] = std::max(worst[n], std::abs(static_cast<double>(found[n]) - expected[n]));
-      }
-    });
-  EXPECT_LT(worst[0], 1e-5);
-  EXPECT_LT(worst[1], 0.05); // of up to 1.7
-}
-
 TEST(MediumTree, ContinuedValuesDoNotDependOnTheBrick)
 {
   const auto source = std::make_shared<SphereSource>(2);

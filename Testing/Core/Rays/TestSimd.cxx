@@ -61,7 +61,7 @@ Traced traceWith(
   view.width = 37; // no multiple of a block, nor of a tile
   view.height = 29;
   const Light light = lightFrom(source, 0, field.grid, view, frameOf(field.grid, view));
-  const RayTask<Real> task = makeTask<Real>(medium, FieldGradientsView{}, light, settings);
+  const RayTask<Real> task = makeTask<Real>(medium, light, settings);
   Traced traced;
   Pass pass{ -2, -3, 41, 35, { 0.25, -0.125 } };
   if (source.shape != SourceShape::Point)
@@ -69,7 +69,7 @@ Traced traceWith(
     pass.tilt[0] = 0.02;
     pass.tilt[1] = -0.05;
   }
-  traced.pass.resize(pass, 0);
+  traced.pass.resize(pass);
   EXPECT_TRUE(traceOnCpu(task, pass, traced.pass, 2, {}, simd));
   for (const RayExit& exit : traced.pass.exits)
   {

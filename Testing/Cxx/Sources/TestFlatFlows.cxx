@@ -438,50 +438,6 @@ TEST(FlatFlows, MaskedCellsAreBodies)
   }
 }
 
-TEST(FlatFlows, FieldsTintWhereTheyChange)
-{
-  const Plane plane{ 1 };
-  auto mesh = cylinderMesh(plane);
-  const auto field = [](double a, double b) { return std::exp(-((a - 3) * (a - 3) + b * b)); };
-  addPointArray(mesh, "f", [&](const Vec& x) { return field(x[0], x[2]); });
-  auto filter = flatBench(mesh, 128);
-  filter->AddField("f");
-  for (const double color : { 1., 0., 0. })
-  {
-    filter->AddFieldColor(color);
-  }
-  filter->ColorByFieldOn();
-  filter->SetCutoff(vtkSchlierenFilter::SHADOWGRAPH);
-  plane.look(filter);
-  filter->SetParallelScale(5);
-  filter->Update();
-  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
-  vtkDataArray* color = arrayOf(filter, "Color");
-  ASSERT_NE(color, nullptr);
-  std::vector<double> gathered;
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    const double* x = image->GetPoint(i);
-    const std::array<double, 2> slope = slopes(field, x[0], x[1]);
-    gathered.push_back(std::hypot(slope[0], slope[1]));
-  }
-  std::vector<double> sorted = gathered;
-  std::sort(sorted.begin(), sorted.end());
-  const double full = sorted[sorted.size() * 99 / 100];
-  double worst = 0;
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    const double* x = image->GetPoint(i);
-    const double red = color->GetComponent(i, 0), green = color->GetComponent(i, 1);
-    if (std::hypot(x[0], x[1]) > 1.3 && red > 0)
-    {
-      const double expected = std::min(1., gathered[static_cast<std::size_t>(i)] / full);
-      worst = std::max(worst, std::abs(1 - green / red - expected));
-    }
-  }
-  EXPECT_LT(worst, 0.1);
-}
-
 // Other values on the same mesh.
 TEST(FlatFlows, TimeStepsKeepWhatIsKnownOfTheMesh)
 {

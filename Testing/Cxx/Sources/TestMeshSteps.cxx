@@ -134,14 +134,6 @@ Source sourceOf(vtkRefractiveIndex* filter, vtkDataObject* input, vtkDataObject*
   return maker.make(maker.choose(input), bodies)->Source;
 }
 
-/// The source of prepared meshes.
-std::shared_ptr<const filters::PieceSource> stepOf(
-  const filters::PreparedLeaves& prepared, std::shared_ptr<filters::MeshCache>& kept)
-{
-  return filters::sourceOfMeshes(
-    prepared, { filters::Outside::Auto, -1 }, nullptr, filters::WorkProgress(), kept);
-}
-
 void expectSame(const schlieren::MediumSource& one, const schlieren::MediumSource& other)
 {
   EXPECT_EQ(one.bounds().low, other.bounds().low);
@@ -435,66 +427,5 @@ TEST(MeshSteps, StopsAndStartsAnew)
     fresh->Update();
     ASSERT_FALSE(isEmpty(filter));
     EXPECT_EQ(valuesOf(filter, "Intensity"), valuesOf(fresh, "Intensity"));
-  }
-}
-
-// A field with the values of N has them at all points of lattices, in this step and in those that know the lattices'
-// cells; it has none where no cell is.
-TEST(MeshSteps, FieldsAreSampledInTheCellsOfN)
-{
-  for (const CellKind& kind : linearKinds())
-  {
-    SCOPED_TRACE(kind.name);
-    const auto leavesAt = [&kind](double time)
-    {
-      const Mesh mesh = meshOf(kind.type, 4, kind.cells, 0.2, false);
-      setTime(mesh, time);
-      mesh->GetPointData()->SetActiveScalars("N");
-      return std::vector<vtkSmartPointer<vtkDataSet>>{ mesh };
-    };
-    const schlieren::Lattice lattice{ { -0.2, 0.1, 0.1 }, { 0.07, 0.06, 0.05 }, { 20, 20, 20 } };
-    auto kept = std::make_shared<filters::MeshCache>();
-    for (const double time : { 0., 3. })
-    {
-      const auto made = stepOf({ leavesAt(time), { leavesAt(time), leavesAt(time + 1) } }, kept);
-      const filters::PieceSource& source = *made;
-      ASSERT_EQ(source.fields(), 2);
-      const auto size = static_cast<std::size_t>(lattice.size());
-      std::vector<double> alone(size), values(size), ofFields(2 * size);
-      std::vector<schlieren::Place> places(size);
-      for (int again = 0; again < 2; ++again)
-      {
-        source.sample(lattice, alone.data(), places.data(), nullptr);
-        source.sampleWithFields(lattice, values.data(), places.data(), nullptr, ofFields.data());
-        EXPECT_EQ(alone, values);
-        int missing = 0, different = 0;
-        for (std::size_t i = 0; i < size; ++i)
-        {
-          missing += std::isnan(ofFields[i]) ? 1 : 0;
-          different += std::isnan(ofFields[i]) || ofFields[i] == values[i] ? 0 : 1;
-        }
-        EXPECT_GT(missing, 100);
-        EXPECT_LT(missing, static_cast<int>(size) - 1000);
-        EXPECT_EQ(different, 0);
-        EXPECT_FALSE(std::equal(
-          ofFields.begin() + static_cast<std::ptrdiff_t>(size), ofFields.end(), ofFields.begin()));
-      }
-      // Of more points than numbers of 16 bits count.
-      const schlieren::Lattice large{ lattice.first, lattice.spacing, { 20, 20, 170 } };
-      const auto largeSize = static_cast<std::size_t>(large.size());
-      std::vector<double> ofLarge(largeSize), fieldsOfLarge(2 * largeSize);
-      std::vector<schlieren::Place> placesOfLarge(largeSize);
-      source.sampleWithFields(
-        large, ofLarge.data(), placesOfLarge.data(), nullptr, fieldsOfLarge.data());
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        ASSERT_EQ(std::isnan(fieldsOfLarge[i]), std::isnan(ofFields[i])) << i;
-        EXPECT_FALSE(std::abs(fieldsOfLarge[i] - ofFields[i]) > 1e-15) << i;
-      }
-      const auto range = source.rangeOfField(0, source.bounds());
-      const auto content = source.contentOf(source.bounds());
-      EXPECT_EQ(range.lowest, content.lowest);
-      EXPECT_EQ(range.highest, content.highest);
-    }
   }
 }

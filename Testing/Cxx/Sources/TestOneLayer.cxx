@@ -219,21 +219,3 @@ TEST(OneLayer, OfAnImageIsSeenAsItsPlane)
     EXPECT_NE(images[1].warning.find("one cell thick along y"), std::string::npos);
   }
 }
-
-// Fields that tint come from the plane, too, though they may differ behind.
-TEST(OneLayer, HasFieldsThatTint)
-{
-  auto layer = ring(2, 2);
-  addPointArray(layer, "f", [](const Vec& x) { return x[0] + x[2]; });
-  auto filter = bench(layer, 32);
-  filter->AddField("f");
-  for (const double color : { 1., 0., 0. })
-  {
-    filter->AddFieldColor(color);
-  }
-  filter->ColorByFieldOn();
-  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
-  filter->Update();
-  EXPECT_TRUE(complaints->Errors.empty());
-  EXPECT_NE(arrayOf(filter, "Color"), nullptr);
-}

@@ -203,7 +203,7 @@ inline Areas areasOf(const GasBoundary& boundary)
 
 inline std::vector<Data> withSharedPoints(const std::vector<Data>& leaves)
 {
-  return filters::SharedPoints(leaves).joined(leaves);
+  return filters::withSharedPoints(leaves);
 }
 
 /// As for an image: points that coincide are one before.
