@@ -89,6 +89,6 @@ for name in ("sphere", "jet"):
 # The tutorial's lines are those of its script, and a test runs each script that the examples name.
 for lines in re.findall(r"^```python\n(.*?)^```", read("Documentation/tutorial.md"), re.DOTALL | re.MULTILINE):
     assert lines in read("Examples/openfoam_jet.py"), lines
-tests = "".join(read(test) for test in glob.glob(os.path.join(SOURCE, "Testing", "Demo", "*.py")))
+tests = "".join(read(test) for test in glob.glob(os.path.join(SOURCE, "Testing", "*", "*.py")))
 for script in re.findall(r"\(\.\./Examples/(\w+)(?:\.py)?\)", read("Documentation/examples.md")):
     assert script in tests, f"No test runs {script}"

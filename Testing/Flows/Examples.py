@@ -28,11 +28,11 @@ for example in gallery.schlieren_examples.EXAMPLES:
     made[name] = schlieren = names["schlieren"]
     columns, rows = schlieren.ImageSize
     schlieren.ImageSize = [200, 200 * rows // columns if rows else 107]
+    schlieren.Quality = "Interactive"
     exec(save, names)
     assert os.path.getsize(name + ".png") > 5000
     check_baseline(schlieren, "Example" + name.title().replace("_", ""), facts_of(output(schlieren))["WhiteLevel"][0],
                    "Color" if name == "mirage" else "Intensity")
-
 
 
 def values(flow, name):

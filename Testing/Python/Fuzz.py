@@ -194,6 +194,7 @@ def case_of_filters(rng, rank=None):
                 other.reset(rng, item)
         if not is_grid:
             other.algorithm.SetImageSize(16, 16)
+            other.algorithm.SetKMode(other.algorithm.K_AUTOMATIC)  # k of an earlier image is none of a new filter's
             other.algorithm.SetMediumMemory(4)
     set_up(properties)
     give(0, own_data())
