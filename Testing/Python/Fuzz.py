@@ -194,7 +194,9 @@ def case_of_filters(rng, rank=None):
                 other.reset(rng, item)
         if not is_grid:
             other.algorithm.SetImageSize(16, 16)
-            other.algorithm.SetKMode(other.algorithm.K_AUTOMATIC)  # k of an earlier image is none of a new filter's
+            # Neither is that of an earlier image, as kept ones and settings for a target error may be.
+            other.algorithm.SetKMode(other.algorithm.K_AUTOMATIC)
+            other.algorithm.SetTargetError(0)
             other.algorithm.SetMediumMemory(4)
     set_up(properties)
     give(0, own_data())
