@@ -65,7 +65,7 @@ user.event(SEARCH + "SearchLineEdit", "set_string", "legend")
 look("assert set(LEGEND) <= set(seen()[0]) and seen()[1] == ['Schlieren'], seen()")
 # What the filter inside has, however long it is searched for.
 for text, found, other in (("quality", "Quality", "IndexModel"), ("KNIFE edge ang", "KnifeEdgeAngle", "KMode"),
-                           ("step si", "StepSize", "Density"), ("nothing of this kind", None, "Quality")):
+                           ("length sc", "LengthScale", "Density"), ("nothing of this kind", None, "Quality")):
     user.event(SEARCH + "SearchLineEdit", "set_string", text)
     user.python(f"""
 bench = GetDisplayProperties(FindSource("flow")).SchlierenBench

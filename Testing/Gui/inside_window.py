@@ -205,7 +205,17 @@ def _run_step(name, path, number):
         print(f"Step {number} of {name} is done.", flush=True)
     except Exception:  # PyQt would end the window
         traceback.print_exc()
+        if not _failed:
+            _close_waiting()
         _failed.add(name)
+
+
+def _close_waiting(before=None):
+    """From the first failure on closes dialogs that wait for ten seconds: what would answer them may be skipped."""
+    dialog = QApplication.activeModalWidget()
+    if dialog and dialog is before:
+        dialog.close()
+    QTimer.singleShot(10000, lambda: _close_waiting(dialog))
 
 
 def confirm():
