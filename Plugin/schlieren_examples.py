@@ -40,7 +40,7 @@ def bow_shock():
     """Bow shock. A sphere, 20 mm wide, flies at Mach 2. The shock stands 3.5 mm before it; a fit to measurements (Billig 1967) says
     3.2 mm. The data are half a plane, which is revolved. There is no friction: a real wake is turbulent."""
     flow = read("bow_shock.vts")
-    return Schlieren(Input=flow, Symmetry="Axisymmetric", Cutoff="Shadowgraph", SmoothingRadius=5,
+    return Schlieren(Input=flow, Symmetry="Axisymmetric", Cutoff="Shadowgraph", SmoothingRadius=5, Quality="Interactive",
                      FocalPoint=[0.0095, 0, 0], ParallelScale=0.03, ImageSize=[480, 480])
 
 
