@@ -266,9 +266,9 @@ void EdgeStage<Real>::expose(const TracedPass& traced, std::size_t first, std::s
   }
   edges.images.resize(end);
   parallelFor(static_cast<std::int64_t>(end - first), 1, scene_.threads,
-    [&](std::int64_t begin, std::int64_t end)
+    [&](std::int64_t from, std::int64_t to)
     {
-      for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n)
+      for (auto n = static_cast<std::size_t>(from); n < static_cast<std::size_t>(to); ++n)
       {
         const Patch& tile = edges.tiles[first + n];
         PatchFilm film(
