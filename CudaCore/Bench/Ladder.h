@@ -141,14 +141,14 @@ public:
     const int measured = std::min(atEdges, mostCompared);
     const Cutoff cutoff = pilot_.scene().cutoff;
     const int more = manyMoreThan(samples, cutoff), moreAtEdges = manyMoreThan(measured, cutoff);
-    return differenceOf({ longest(), samples, measured, samples },
-      { longest(), more, moreAtEdges, more }, errorIn, 1 / gainFrom(measured, atEdges));
+    return differenceOf({ longest(), samples, measured, true },
+      { longest(), more, moreAtEdges, true }, errorIn, 1 / gainFrom(measured, atEdges));
   }
 
   /// See Pilot::partOfEdges(); 1 where that is unknown.
   double partOfEdges(int samples)
   {
-    return pilot_.partOfEdges({ longest(), samples, samples, samples }, monitor_).value_or(1);
+    return pilot_.partOfEdges(longest(), samples, monitor_).value_or(1);
   }
 
 private:

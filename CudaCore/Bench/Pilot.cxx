@@ -266,15 +266,15 @@ Differences Pilot<Real>::compare(Patches patches, const PatchSettings& a, const 
     {
       isDone = compareRays(a.samples, b.samples, {});
     }
-    else if (a.samplesBesideEdges == 0)
+    else if (!a.areAtEdges)
     {
       isDone = compareRays(a.samplesAtBodies, b.samplesAtBodies, {});
     }
     else
     {
-      const RaySet beside{ a.step, a.samplesBesideEdges };
+      const RaySet beside{ a.step, a.samples };
       isDone = compareRays(a.samplesAtBodies, b.samplesAtBodies, Choice{ beside, true }) &&
-        compareRays(a.samplesBesideEdges, b.samplesBesideEdges, Choice{ beside, false });
+        compareRays(a.samples, b.samples, Choice{ beside, false });
     }
     if (!isDone)
     {
@@ -291,16 +291,14 @@ bool Pilot<Real>::maySplitRays() const
 }
 
 template <class Real>
-std::optional<double> Pilot<Real>::partOfEdges(
-  const PatchSettings& settings, const Monitor& monitor)
+std::optional<double> Pilot<Real>::partOfEdges(double step, int samples, const Monitor& monitor)
 {
   Group& bodies = groups_[0][static_cast<std::size_t>(PatchPlace::Body)];
   if (!maySplitRays())
   {
     return {};
   }
-  const std::vector<PatchPixels>* exposed =
-    expose(bodies, { settings.step, settings.samplesBesideEdges }, monitor);
+  const std::vector<PatchPixels>* exposed = expose(bodies, { step, samples }, monitor);
   if (!exposed)
   {
     return {};

@@ -38,10 +38,11 @@ inline double adaptiveToleranceFor(double step, double tolerance)
 /// What patches are made with.
 struct PatchSettings
 {
-  double step;                ///< voxels
-  int samples;                ///< rays per pixel
-  int samplesAtBodies;        ///< likewise, of patches there
-  int samplesBesideEdges = 0; ///< likewise, of these where no edge of a body is; 0: as many
+  double step;         ///< voxels
+  int samples;         ///< rays per pixel
+  int samplesAtBodies; ///< likewise, of patches there
+  bool areAtEdges =
+    false; ///< the latter are of those that an edge of a body crosses, and others have `samples`
 };
 
 /// Images of patches of pixels, see PatchLayout. Rays are traced once for each setting.
@@ -102,7 +103,7 @@ public:
 
   /// About how many rays a pass of the pixels where edges of bodies are has, by one of all pixels; see EdgeStage. Unknown
   /// where edges may not have rays of their own, aborted, or paused.
-  std::optional<double> partOfEdges(const PatchSettings& settings, const Monitor& monitor);
+  std::optional<double> partOfEdges(double step, int samples, const Monitor& monitor);
 
   /// What a shift of the light by a pixel would change at edges of bodies. Aborted or paused: empty.
   Differences slopesAtEdges(Patches patches, const PatchSettings& settings, const Monitor& monitor);

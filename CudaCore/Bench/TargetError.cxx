@@ -310,11 +310,10 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
     const int samples = settings.samples, atEdges = settings.samplesAtEdges;
     const auto compare = [&](int fewer, int more)
     {
-      return atEdges > 0
-        ? pilot.compare(Patches::ToVerify, { steps.longest, fewer, atEdges, fewer },
-            { steps.longest, more, 2 * atEdges, more }, monitor)
-        : pilot.compare(Patches::ToVerify, { steps.longest, fewer, fewer },
-            { steps.longest, more, more }, monitor);
+      const bool isSplit = atEdges > 0;
+      return pilot.compare(Patches::ToVerify,
+        { steps.longest, fewer, isSplit ? atEdges : fewer, isSplit },
+        { steps.longest, more, isSplit ? 2 * atEdges : more, isSplit }, monitor);
     };
     constexpr int few = 4;
     // Where the image is the patch, that would take longer than the image, and these rays are traced.
