@@ -200,21 +200,33 @@ void LatticeSampling::findKinds(
       lattice.first[1] + at.j * lattice.spacing[1], lattice.first[2] + at.k * lattice.spacing[2] };
   };
   const auto stateOf = [](Place place) { return place == Place::Wall ? InWall : InWindow; };
+  if (decided)
+  {
+    this->forPoints(
+      [&](const Index& at)
+      {
+        const std::size_t p = this->numberOf(at);
+        const std::optional<Place> place =
+          this->States[p] == Unknown ? decided->at(pointAt(at)) : std::nullopt;
+        this->States[p] = place ? stateOf(*place) : this->States[p];
+      });
+  }
+  // Known points that have unknown ones beside them.
   std::vector<Index> known;
   this->forPoints(
     [&](const Index& at)
     {
       const std::size_t p = this->numberOf(at);
-      const Point point = pointAt(at);
-      if (this->States[p] == Unknown && decided)
+      if (this->States[p] == InGas || this->States[p] == Unknown || this->Distances[p] >= -smallest)
       {
-        const std::optional<Place> place = decided->at(point);
-        this->States[p] = place ? stateOf(*place) : Unknown;
+        return;
       }
-      const bool isKnown =
-        this->States[p] != InGas && this->States[p] != Unknown && this->Distances[p] < -smallest;
+      bool isBeside = false;
+      this->forNeighbours(at,
+        [&](const Index&, std::size_t beside)
+        { isBeside = isBeside || this->States[beside] == Unknown; });
       // Beyond the mesh no face divides what is beside a body from the body.
-      if (isKnown && !(decided && decided->isBeyond(point)))
+      if (isBeside && !(decided && decided->isBeyond(pointAt(at))))
       {
         known.push_back(at);
       }

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace filters
@@ -63,6 +64,20 @@ private:
     int i, j, k;
   };
 
+  /// A point with gas beside a solid.
+  struct GasBeside
+  {
+    std::size_t number;
+    Point place;
+    Point side; // the normal of the nearest solid, turned to it
+    const Near* near;
+    mutable std::optional<bool> IsOver{};
+
+    double heightOf(const Point& other) const { return dot(side, other - near->corners[0]); }
+    Point foot() const { return place - heightOf(place) * side; }
+    bool isOver() const; // the nearest triangle, else beyond an edge
+  };
+
   void add(Kind kind, const Triangles& surface, std::int32_t triangle);
   void measure(const unsigned char* isInCell, const std::vector<unsigned char>& isInBody);
   bool isWallNearer(const Index& at, std::int32_t wall, std::int32_t window) const;
@@ -70,9 +85,9 @@ private:
   void findGaps();
   void spread(std::vector<Index>& known);
   void thickenPlates();
+  void findBeside();
   static bool isOver(const Near& near, const Point& place, double slack);
   void separate(const Index& low);
-  Point sideOf(std::size_t p, const Point& place) const;
   bool isThin(const Index& at) const;
 
   template <class Visit>
@@ -117,7 +132,9 @@ private:
   std::vector<float> Distances;
   std::vector<float> SquaredToSolid;      // to walls and bodies
   std::vector<std::int32_t> NearestSolid; // -1: none within reach
-  std::vector<unsigned char> Marked;      // will become walls
+  std::vector<std::int32_t> BesideAt;     // the number of each point in the next; -1: not there
+  std::vector<GasBeside> Beside;
+  std::vector<unsigned char> Marked; // will become walls
 };
 
 } // namespace filters

@@ -22,19 +22,6 @@ constexpr float onSurface =
 
 } // namespace
 
-/// Returns the normal of the nearest solid, turned to a point with gas beside it; else 0.
-Point LatticeSampling::sideOf(std::size_t p, const Point& place) const
-{
-  if (this->States[p] != InGas || this->SquaredToSolid[p] > squaredDiagonal)
-  {
-    return Point{};
-  }
-  const Near& near = this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
-  const bool isBehind = dot(near.normal, place - near.corners[0]) < 0 &&
-    this->SquaredToSolid[p] > onSurface * onSurface;
-  return isBehind ? -1. * near.normal : near.normal;
-}
-
 /// Returns whether a place is over a triangle, or no farther beside it than `slack` voxels.
 bool LatticeSampling::isOver(const Near& near, const Point& place, double slack)
 {
@@ -49,47 +36,80 @@ bool LatticeSampling::isOver(const Near& near, const Point& place, double slack)
   return true;
 }
 
+/// Finds the points with gas beside a solid.
+void LatticeSampling::findBeside()
+{
+  this->BesideAt.assign(this->States.size(), -1);
+  this->Beside.clear();
+  this->forPoints(
+    [&](const Index& at)
+    {
+      const std::size_t p = this->numberOf(at);
+      if (this->States[p] != InGas || this->SquaredToSolid[p] > squaredDiagonal)
+      {
+        return;
+      }
+      const Point place = placeOf(at);
+      const Near& near = this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
+      const bool isBehind = dot(near.normal, place - near.corners[0]) < 0 &&
+        this->SquaredToSolid[p] > onSurface * onSurface;
+      this->BesideAt[p] = static_cast<std::int32_t>(this->Beside.size());
+      this->Beside.push_back({ p, place, isBehind ? -1. * near.normal : near.normal, &near });
+    });
+}
+
+bool LatticeSampling::GasBeside::isOver() const
+{
+  if (!this->IsOver)
+  {
+    this->IsOver = LatticeSampling::isOver(*this->near, this->place, besideThin);
+  }
+  return *this->IsOver;
+}
+
 /// Marks points, so that no wall separates corners with gas of the voxel from `low` to low + (1, 1,
 /// 1).
 void LatticeSampling::separate(const Index& low)
 {
-  struct Corner // with gas beside a solid
-  {
-    std::size_t number;
-    Point place, side;
-    const Near* near;
-    bool isOver; // else beyond an edge
-    double heightOf(const Point& other) const { return dot(side, other - near->corners[0]); }
-    Point foot() const { return place - heightOf(place) * side; }
-  };
-  std::array<Corner, 8> corners;
+  std::array<const GasBeside*, 8> corners{};
   std::size_t count = 0;
+  bool areOfOne = true; // side of one triangle, that separates none of them
   for (int c = 0; c < (this->Lattice.points[2] > 1 ? 8 : 4); ++c)
   {
-    const Index at{ low.i + (c & 1), low.j + (c >> 1 & 1), low.k + (c >> 2) };
-    const std::size_t p = this->numberOf(at);
-    const Point side = this->sideOf(p, placeOf(at));
-    if (dot(side, side) > 0)
+    const std::size_t p =
+      this->numberOf({ low.i + (c & 1), low.j + (c >> 1 & 1), low.k + (c >> 2) });
+    if (const std::int32_t n = this->BesideAt[p]; n >= 0)
     {
-      const Near& near = this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
-      corners[count++] = { p, placeOf(at), side, &near, isOver(near, placeOf(at), besideThin) };
+      const GasBeside& corner = this->Beside[static_cast<std::size_t>(n)];
+      corners[count++] = &corner;
+      areOfOne = areOfOne && corner.near == corners[0]->near && corner.side == corners[0]->side;
     }
+  }
+  if (areOfOne)
+  {
+    return;
   }
   // Finds which corners are behind the walls that others are in front of.
   double heights[8][8]; // over the wall of the first, of the second
+  bool isAnyBehind = false;
   for (std::size_t a = 0; a < count; ++a)
   {
     for (std::size_t b = 0; b < count; ++b)
     {
-      heights[a][b] = corners[a].heightOf(corners[b].place);
+      heights[a][b] = corners[a]->heightOf(corners[b]->place);
+      isAnyBehind = isAnyBehind || (a != b && heights[a][b] < onSurface);
     }
+  }
+  if (!isAnyBehind)
+  {
+    return;
   }
   // Whether a line from one to the other enters the one's wall before it leaves the other's.
   const auto areApart = [&](std::size_t a, std::size_t b, double cosine)
   {
     return heights[a][b] < onSurface && heights[b][a] < onSurface &&
       heights[a][a] * heights[b][b] <= heights[a][b] * heights[b][a] + onSurface &&
-      dot(corners[a].side, corners[b].side) < cosine;
+      dot(corners[a]->side, corners[b]->side) < cosine;
   };
   std::array<unsigned, 8> together{}; // bits of the others that each corner is not apart from
   for (std::size_t a = 0; a < count; ++a)
@@ -105,12 +125,12 @@ void LatticeSampling::separate(const Index& low)
   {
     for (std::size_t b = 0; b < count; ++b)
     {
-      const Corner &one = corners[a], &other = corners[b];
+      const GasBeside &one = *corners[a], &other = *corners[b];
       // Around an edge a third corner sees both.
       const bool areOpposite = a != b && ((together[a] >> b) & 1) == 0 &&
         ((together[a] & together[b]) == 0 || areApart(a, b, cosineOfThin));
       // Either is behind what the other is in front of, or one is between two walls.
-      const bool areSeparated = one.isOver && other.isOver &&
+      const bool areSeparated = one.isOver() && other.isOver() &&
         (areOpposite ? a < b : heights[a][b] < -onSurface && isOver(*one.near, other.place, 0));
       if (!areSeparated)
       {
@@ -122,16 +142,16 @@ void LatticeSampling::separate(const Index& low)
       double front = 0, behind = 0;
       for (std::size_t n = 0; n < count; ++n)
       {
-        const double over = dot(across, corners[n].place - on);
-        front = std::max(front, corners[n].isOver ? over : 0);
-        behind = std::max(behind, corners[n].isOver ? -over : 0);
+        const double over = dot(across, corners[n]->place - on);
+        front = std::max(front, corners[n]->isOver() ? over : 0);
+        behind = std::max(behind, corners[n]->isOver() ? -over : 0);
       }
       for (std::size_t n = 0; n < count; ++n)
       {
-        const double over = dot(across, corners[n].place - on);
-        if (corners[n].isOver && std::abs(over) <= (over >= 0 ? behind : front) + onSurface)
+        const double over = dot(across, corners[n]->place - on);
+        if (corners[n]->isOver() && std::abs(over) <= (over >= 0 ? behind : front) + onSurface)
         {
-          this->Marked[corners[n].number] = 1;
+          this->Marked[corners[n]->number] = 1;
         }
       }
     }
@@ -145,9 +165,15 @@ bool LatticeSampling::isThin(const Index& at) const
   {
     const int i = axis == 0 ? 1 : 0, j = axis == 1 ? 1 : 0, k = axis == 2 ? 1 : 0;
     const Index one{ at.i - i, at.j - j, at.k - k }, other{ at.i + i, at.j + j, at.k + k };
-    if (this->holds(one) && this->holds(other) &&
-      dot(this->sideOf(this->numberOf(one), placeOf(one)),
-        this->sideOf(this->numberOf(other), placeOf(other))) < -0.5)
+    if (!this->holds(one) || !this->holds(other))
+    {
+      continue;
+    }
+    const std::int32_t a = this->BesideAt[this->numberOf(one)],
+                       b = this->BesideAt[this->numberOf(other)];
+    if (a >= 0 && b >= 0 &&
+      dot(this->Beside[static_cast<std::size_t>(a)].side,
+        this->Beside[static_cast<std::size_t>(b)].side) < -0.5)
     {
       return true;
     }
@@ -157,12 +183,12 @@ bool LatticeSampling::isThin(const Index& at) const
 
 void LatticeSampling::thickenPlates()
 {
-  this->Marked.assign(this->States.size(), 0);
-  std::vector<unsigned char> isBeside(this->States.size());
-  for (std::size_t p = 0; p < isBeside.size(); ++p)
+  this->findBeside();
+  if (this->Beside.empty())
   {
-    isBeside[p] = this->States[p] == InGas && this->SquaredToSolid[p] <= squaredDiagonal ? 1 : 0;
+    return; // and no wall is between two of them
   }
+  this->Marked.assign(this->States.size(), 0);
   const auto& points = this->Lattice.points;
   // Allows for flat lattices, whose voxels are squares.
   const auto row = static_cast<std::size_t>(points[0]);
@@ -176,7 +202,7 @@ void LatticeSampling::thickenPlates()
         int beside = 0;
         for (const std::size_t corner : { p, p + row, p + layer, p + layer + row })
         {
-          beside += isBeside[corner] + isBeside[corner + 1];
+          beside += (this->BesideAt[corner] >= 0) + (this->BesideAt[corner + 1] >= 0);
         }
         if (beside > 1)
         {
