@@ -19,6 +19,25 @@ namespace
 
 constexpr double distanceUnits = 8192;
 
+/// What is beyond the edge next to a point of gas: a window if no neighbour is a wall.
+bool endsAtWindow(const BrickSamples& samples, const std::array<int, 3>& point)
+{
+  const bool isLayer = samples.layers == 1;
+  const std::size_t at = samples.index(point[0], point[1], point[2]);
+  bool isWindow = samples.places[at] == Place::Window, isBesideWall = false;
+  if (samples.places[at] == Place::Gas && samples.distances[at] < 2)
+  {
+    for (int neighbour = 0; neighbour < (isLayer ? 9 : 27); ++neighbour)
+    {
+      const Place there = samples.places[samples.index(point[0] + neighbour % 3 - 1,
+        point[1] + neighbour / 3 % 3 - 1, isLayer ? 0 : point[2] + neighbour / 9 - 1)];
+      isWindow = isWindow || there == Place::Window;
+      isBesideWall = isBesideWall || there == Place::Wall;
+    }
+  }
+  return isWindow && !isBesideWall;
+}
+
 } // namespace
 
 /// The kind of a leaf that may have walls or windows, its map and what it needs to be finer. Returns whether gas
@@ -101,6 +120,9 @@ void BrickMaker<Real>::storeGasDistances(const BrickSamples& samples, Brick<Real
   const int stored = edge + 2 * apron_;
   const int skipped = samples.margin - apron_;
   brick.gasDistances.reserve(static_cast<std::size_t>(samplesPerBrick()));
+  const bool hasWindow =
+    std::find(samples.places.begin(), samples.places.end(), Place::Window) != samples.places.end();
+  constexpr auto reach = static_cast<double>(MediumSource::reach);
   for (int k = 0; k < layersOf(stored); ++k)
   {
     for (int j = 0; j < stored; ++j)
@@ -111,23 +133,10 @@ void BrickMaker<Real>::storeGasDistances(const BrickSamples& samples, Brick<Real
         const std::array<int, 3> nearest =
           samples.nearestWithin({ i + skipped, j + skipped, isLayer ? 0 : k + skipped });
         const std::size_t at = samples.index(nearest[0], nearest[1], nearest[2]);
-        // What is beyond the edge next to a point of gas: a window if no neighbour is a wall.
-        bool isWindow = samples.places[at] == Place::Window;
-        if (samples.places[at] == Place::Gas && samples.distances[at] < 2)
-        {
-          bool isBesideWall = false;
-          for (int neighbour = 0; neighbour < (isLayer ? 9 : 27); ++neighbour)
-          {
-            const Place there = samples.places[samples.index(nearest[0] + neighbour % 3 - 1,
-              nearest[1] + neighbour / 3 % 3 - 1, isLayer ? 0 : nearest[2] + neighbour / 9 - 1)];
-            isWindow = isWindow || there == Place::Window;
-            isBesideWall = isBesideWall || there == Place::Wall;
-          }
-          isWindow = isWindow && !isBesideWall;
-        }
-        const double limited = std::clamp(static_cast<double>(samples.distances[at]),
-          -static_cast<double>(MediumSource::reach), static_cast<double>(MediumSource::reach));
-        const int even = 2 * static_cast<int>(std::lround(limited * distanceUnits / 2));
+        const double units =
+          std::clamp(static_cast<double>(samples.distances[at]), -reach, reach) * distanceUnits / 2;
+        const int even = 2 * static_cast<int>(units + (units < 0 ? -0.5 : 0.5));
+        const bool isWindow = hasWindow && endsAtWindow(samples, nearest);
         brick.gasDistances.push_back(static_cast<std::int16_t>(even + (isWindow ? 1 : 0)));
       }
     }

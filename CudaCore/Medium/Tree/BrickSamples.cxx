@@ -73,23 +73,26 @@ void BrickSamples::findGas()
       return;
     }
   }
-  isGas.resize(nu.size());
-  for (int k = 0; k < layers; ++k)
+  isGas.assign(nu.size(), 0);
+  double low = lowest, high = highest;
+  for (int k = begin[2]; k < end[2]; ++k)
   {
-    for (int j = 0; j < n; ++j)
+    for (int j = begin[1]; j < end[1]; ++j)
     {
-      const bool isRowWithin = j >= begin[1] && j < end[1] && k >= begin[2] && k < end[2];
-      for (int i = 0; i < n; ++i)
+      const std::size_t row = index(0, j, k);
+      for (std::size_t at = row + static_cast<std::size_t>(begin[0]);
+           at < row + static_cast<std::size_t>(end[0]); ++at)
       {
-        const std::size_t at = index(i, j, k);
-        const bool is = isRowWithin && i >= begin[0] && i < end[0] && places[at] == Place::Gas &&
-          std::isfinite(nu[at]);
+        const double value = nu[at];
+        const bool is = places[at] == Place::Gas && value - value == 0; // finite
         isGas[at] = is ? 1 : 0;
-        lowest = is && nu[at] < lowest ? nu[at] : lowest;
-        highest = is && nu[at] > highest ? nu[at] : highest;
+        low = is && value < low ? value : low;
+        high = is && value > high ? value : high;
       }
     }
   }
+  lowest = low;
+  highest = high;
 }
 
 void BrickSamples::continueGas()

@@ -90,13 +90,13 @@ std::int32_t BrickStore<Value>::add(const std::vector<Value>& values)
     const std::size_t needed = values_.size() + layout_.perBrick;
     reserve(needed);
     number = static_cast<std::int32_t>(count());
-    values_.resize(needed);
+    values_.resize(needed - layout_.perBrick - layout_.behind);
+    values_.insert(values_.end(), values.begin(), values.end());
+    values_.resize(needed, Value(0));
+    return number;
   }
-  else
-  {
-    number = free_.back();
-    free_.pop_back();
-  }
+  number = free_.back();
+  free_.pop_back();
   std::copy(values.begin(), values.end(), brick(number));
   return number;
 }

@@ -93,8 +93,10 @@ void LatticeSampling::measure(
   this->States.resize(size);
   this->SquaredToSolid.resize(size);
   this->NearestSolid.resize(size);
-  const std::vector<float> far(static_cast<std::size_t>(this->Lattice.points[0]), reach * reach);
-  const std::vector<std::int32_t> none(far.size(), -1);
+  const auto width = static_cast<std::size_t>(this->Lattice.points[0]);
+  const std::vector<float> far(width, reach * reach);
+  const std::vector<std::int32_t> none(width, -1);
+  const std::vector<unsigned char> outsideOfBodies(isInBody.empty() ? width : 0, 0);
   for (int k = 0; k < this->Lattice.points[2]; ++k)
   {
     for (int j = 0; j < this->Lattice.points[1]; ++j)
@@ -108,35 +110,39 @@ void LatticeSampling::measure(
         nearest[kind] = field ? field->nearestInRow(j, k) : none.data();
       }
       const std::size_t row = this->numberOf({ 0, j, k });
-      for (int i = 0; i < this->Lattice.points[0]; ++i)
+      const unsigned char* inCell = isInCell + row;
+      const unsigned char* inBody =
+        isInBody.empty() ? outsideOfBodies.data() : isInBody.data() + row;
+      for (std::size_t i = 0; i < width; ++i)
       {
-        const std::size_t p = row + static_cast<std::size_t>(i);
         const float toWall = squared[Wall][i], toWindow = squared[Window][i],
                     toBody = squared[Body][i];
         const bool isBodyNearer = toBody < toWall;
-        this->SquaredToSolid[p] = isBodyNearer ? toBody : toWall;
-        this->NearestSolid[p] = nearest[isBodyNearer ? Body : Wall][i];
-
-        const bool isWithinBody = !isInBody.empty() && isInBody[p];
+        this->SquaredToSolid[row + i] = isBodyNearer ? toBody : toWall;
+        this->NearestSolid[row + i] = isBodyNearer ? nearest[Body][i] : nearest[Wall][i];
         const float toMesh = std::max(std::sqrt(std::min(toWall, toWindow)), smallest);
         const float fromBody = std::max(std::sqrt(toBody), smallest);
-        this->Distances[p] =
-          std::min(isInCell[p] ? toMesh : -toMesh, isWithinBody ? -fromBody : fromBody);
-        State state = isWithinBody ? InWall : InGas;
-        if (!isWithinBody && !isInCell[p])
+        this->Distances[row + i] =
+          std::min(inCell[i] ? toMesh : -toMesh, inBody[i] ? -fromBody : fromBody);
+        this->States[row + i] = inBody[i] ? InWall : InGas;
+      }
+      for (std::size_t i = 0; i < width; ++i)
+      {
+        if (inBody[i] || inCell[i])
         {
-          const std::int32_t wall = nearest[Wall][i], window = nearest[Window][i];
-          const bool isTie =
-            wall >= 0 && window >= 0 && std::abs(std::sqrt(toWall) - std::sqrt(toWindow)) < tie;
-          // Accepts open bodies whose surface is where cells end, such as a hole in a mesh.
-          const bool isBody = window >= 0 && nearest[Body][i] >= 0 &&
-            std::abs(std::sqrt(toBody) - std::sqrt(toWindow)) < tie;
-          const bool isWall = isBody ||
-            (isTie ? this->isWallNearer({ i, j, k }, wall, window)
-                   : wall >= 0 && toWall < toWindow);
-          state = isWall ? InWall : (window >= 0 ? InWindow : Unknown);
+          continue;
         }
-        this->States[p] = state;
+        const float toWall = squared[Wall][i], toWindow = squared[Window][i];
+        const std::int32_t wall = nearest[Wall][i], window = nearest[Window][i];
+        const bool isTie =
+          wall >= 0 && window >= 0 && std::abs(std::sqrt(toWall) - std::sqrt(toWindow)) < tie;
+        // Accepts open bodies whose surface is where cells end, such as a hole in a mesh.
+        const bool isBody = window >= 0 && nearest[Body][i] >= 0 &&
+          std::abs(std::sqrt(squared[Body][i]) - std::sqrt(toWindow)) < tie;
+        const bool isWall = isBody ||
+          (isTie ? this->isWallNearer({ static_cast<int>(i), j, k }, wall, window)
+                 : wall >= 0 && toWall < toWindow);
+        this->States[row + i] = isWall ? InWall : (window >= 0 ? InWindow : Unknown);
       }
     }
   }
@@ -145,21 +151,18 @@ void LatticeSampling::measure(
 /// Finds gaps between cells: outside points that no face separates from gas beside them.
 void LatticeSampling::findGaps()
 {
-  this->forPoints(
-    [&](const Index& at)
+  unsigned char* const states = this->States.data();
+  const float* const distances = this->Distances.data();
+  // Skips points so near to a face that rounding decides their side.
+  this->forPoints([=](std::size_t p) { return states[p] != InGas && distances[p] < -1 - tie; },
+    [&](const Index& at, std::size_t p)
     {
-      const std::size_t p = this->numberOf(at);
-      // Skips points so near to a face that rounding decides their side.
-      if (this->States[p] == InGas || this->Distances[p] >= -1 - tie)
-      {
-        return;
-      }
       this->forNeighbours(at,
         [&](const Index&, std::size_t beside)
         {
-          if (this->States[beside] == InGas)
+          if (states[beside] == InGas)
           {
-            this->States[p] = InWindow;
+            states[p] = InWindow;
             this->Distances[p] = -smallest;
           }
         });
@@ -189,10 +192,6 @@ void LatticeSampling::findKinds(
   const std::function<Place(const Point&)>& kindAt, const OutsidePlaces* decided)
 {
   this->findGaps();
-  if (std::find(this->States.begin(), this->States.end(), Unknown) == this->States.end())
-  {
-    return;
-  }
   const auto pointAt = [&](const Index& at)
   {
     const schlieren::Lattice& lattice = this->Lattice;
@@ -200,31 +199,29 @@ void LatticeSampling::findKinds(
       lattice.first[1] + at.j * lattice.spacing[1], lattice.first[2] + at.k * lattice.spacing[2] };
   };
   const auto stateOf = [](Place place) { return place == Place::Wall ? InWall : InWindow; };
-  if (decided)
-  {
-    this->forPoints(
-      [&](const Index& at)
-      {
-        const std::size_t p = this->numberOf(at);
-        const std::optional<Place> place =
-          this->States[p] == Unknown ? decided->at(pointAt(at)) : std::nullopt;
-        this->States[p] = place ? stateOf(*place) : this->States[p];
-      });
-  }
-  // Known points that have unknown ones beside them.
-  std::vector<Index> known;
-  this->forPoints(
-    [&](const Index& at)
+  unsigned char* const states = this->States.data();
+  const float* const distances = this->Distances.data();
+  const auto isUnknown = [=](std::size_t p) { return states[p] == Unknown; };
+  bool areLeft = false;
+  this->forPoints(isUnknown,
+    [&](const Index& at, std::size_t p)
     {
-      const std::size_t p = this->numberOf(at);
-      if (this->States[p] == InGas || this->States[p] == Unknown || this->Distances[p] >= -smallest)
-      {
-        return;
-      }
+      const std::optional<Place> place = decided ? decided->at(pointAt(at)) : std::nullopt;
+      states[p] = place ? stateOf(*place) : Unknown;
+      areLeft = areLeft || !place;
+    });
+  if (!areLeft)
+  {
+    return;
+  }
+  std::vector<Index> known;
+  this->forPoints([=](std::size_t p)
+    { return states[p] != InGas && states[p] != Unknown && distances[p] < -smallest; },
+    [&](const Index& at, std::size_t)
+    {
       bool isBeside = false;
-      this->forNeighbours(at,
-        [&](const Index&, std::size_t beside)
-        { isBeside = isBeside || this->States[beside] == Unknown; });
+      this->forNeighbours(
+        at, [&](const Index&, std::size_t beside) { isBeside = isBeside || isUnknown(beside); });
       // Beyond the mesh no face divides what is beside a body from the body.
       if (isBeside && !(decided && decided->isBeyond(pointAt(at))))
       {
@@ -232,16 +229,12 @@ void LatticeSampling::findKinds(
       }
     });
   this->spread(known);
-  this->forPoints(
-    [&](const Index& at)
+  this->forPoints(isUnknown,
+    [&](const Index& at, std::size_t p)
     {
-      const std::size_t p = this->numberOf(at);
-      if (this->States[p] == Unknown)
-      {
-        this->States[p] = stateOf(kindAt(pointAt(at)));
-        known.push_back(at);
-        this->spread(known);
-      }
+      states[p] = stateOf(kindAt(pointAt(at)));
+      known.push_back(at);
+      this->spread(known);
     });
 }
 

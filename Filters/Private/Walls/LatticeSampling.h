@@ -67,6 +67,7 @@ private:
   /// A point with gas beside a solid.
   struct GasBeside
   {
+    Index at;
     std::size_t number;
     Point place;
     Point side; // the normal of the nearest solid, turned to it
@@ -88,18 +89,23 @@ private:
   void findBeside();
   static bool isOver(const Near& near, const Point& place, double slack);
   void separate(const Index& low);
-  bool isThin(const Index& at) const;
+  void markThin(const GasBeside& one);
 
-  template <class Visit>
-  void forPoints(const Visit& visit) const
+  /// Calls visit(index, number) for the points whose number passes a test.
+  template <class Test, class Visit>
+  void forPoints(const Test& test, const Visit& visit) const
   {
+    std::size_t p = 0;
     for (int k = 0; k < this->Lattice.points[2]; ++k)
     {
       for (int j = 0; j < this->Lattice.points[1]; ++j)
       {
-        for (int i = 0; i < this->Lattice.points[0]; ++i)
+        for (int i = 0; i < this->Lattice.points[0]; ++i, ++p)
         {
-          visit(Index{ i, j, k });
+          if (test(p))
+          {
+            visit(Index{ i, j, k }, p);
+          }
         }
       }
     }

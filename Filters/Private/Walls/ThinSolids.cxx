@@ -15,6 +15,7 @@ namespace
 constexpr float depthOfThin = 0.5f;
 constexpr float squaredDiagonal = 3.001f; // of a voxel
 constexpr double cosineOfThin = -0.1;     // of the sides of a thin solid
+constexpr double cosineOfSides = -0.5;    // of gas beside a point in a wall
 constexpr double cosineOfPlane = 0.9;     // of a nearly plane wall
 constexpr double besideThin = 0.5;        // voxels
 constexpr float onSurface =
@@ -41,20 +42,18 @@ void LatticeSampling::findBeside()
 {
   this->BesideAt.assign(this->States.size(), -1);
   this->Beside.clear();
-  this->forPoints(
-    [&](const Index& at)
+  const unsigned char* const states = this->States.data();
+  const float* const squared = this->SquaredToSolid.data();
+  this->forPoints([=](std::size_t p)
+    { return states[p] == InGas && squared[p] <= squaredDiagonal; },
+    [&](const Index& at, std::size_t p)
     {
-      const std::size_t p = this->numberOf(at);
-      if (this->States[p] != InGas || this->SquaredToSolid[p] > squaredDiagonal)
-      {
-        return;
-      }
       const Point place = placeOf(at);
       const Near& near = this->Nearby[static_cast<std::size_t>(this->NearestSolid[p])];
       const bool isBehind = dot(near.normal, place - near.corners[0]) < 0 &&
         this->SquaredToSolid[p] > onSurface * onSurface;
       this->BesideAt[p] = static_cast<std::int32_t>(this->Beside.size());
-      this->Beside.push_back({ p, place, isBehind ? -1. * near.normal : near.normal, &near });
+      this->Beside.push_back({ at, p, place, isBehind ? -1. * near.normal : near.normal, &near });
     });
 }
 
@@ -158,27 +157,26 @@ void LatticeSampling::separate(const Index& low)
   }
 }
 
-/// Returns whether there is gas on two opposite sides of a point in a wall.
-bool LatticeSampling::isThin(const Index& at) const
+/// Marks points in walls that have gas on two opposite sides.
+void LatticeSampling::markThin(const GasBeside& one)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const int i = axis == 0 ? 1 : 0, j = axis == 1 ? 1 : 0, k = axis == 2 ? 1 : 0;
-    const Index one{ at.i - i, at.j - j, at.k - k }, other{ at.i + i, at.j + j, at.k + k };
-    if (!this->holds(one) || !this->holds(other))
+    const Index& at = one.at;
+    const Index other{ at.i + 2 * i, at.j + 2 * j, at.k + 2 * k };
+    if (!this->holds(other))
     {
       continue;
     }
-    const std::int32_t a = this->BesideAt[this->numberOf(one)],
-                       b = this->BesideAt[this->numberOf(other)];
-    if (a >= 0 && b >= 0 &&
-      dot(this->Beside[static_cast<std::size_t>(a)].side,
-        this->Beside[static_cast<std::size_t>(b)].side) < -0.5)
+    const std::size_t between = this->numberOf({ at.i + i, at.j + j, at.k + k });
+    const std::int32_t beside = this->BesideAt[this->numberOf(other)];
+    if (beside >= 0 && this->States[between] == InWall && this->Distances[between] > -depthOfThin &&
+      dot(one.side, this->Beside[static_cast<std::size_t>(beside)].side) < cosineOfSides)
     {
-      return true;
+      this->Marked[between] = 1;
     }
   }
-  return false;
 }
 
 void LatticeSampling::thickenPlates()
@@ -189,31 +187,22 @@ void LatticeSampling::thickenPlates()
     return; // and no wall is between two of them
   }
   this->Marked.assign(this->States.size(), 0);
-  const auto& points = this->Lattice.points;
-  // Allows for flat lattices, whose voxels are squares.
-  const auto row = static_cast<std::size_t>(points[0]);
-  const std::size_t layer = points[2] > 1 ? row * static_cast<std::size_t>(points[1]) : 0;
-  this->forPoints(
-    [&](const Index& at)
+  std::vector<unsigned char> corners(this->States.size(), 0); // of the voxel from each point on
+  const bool isLayer = this->Lattice.points[2] == 1;          // whose voxels are squares
+  for (const GasBeside& beside : this->Beside)
+  {
+    const Index& at = beside.at;
+    for (int c = 0; c < (isLayer ? 4 : 8); ++c)
     {
-      const std::size_t p = this->numberOf(at);
-      if (at.i + 1 < points[0] && at.j + 1 < points[1] && (at.k + 1 < points[2] || layer == 0))
+      const Index low{ at.i - (c & 1), at.j - (c >> 1 & 1), at.k - (c >> 2) };
+      const Index high{ low.i + 1, low.j + 1, low.k + (isLayer ? 0 : 1) };
+      if (this->holds(low) && this->holds(high) && ++corners[this->numberOf(low)] == 2)
       {
-        int beside = 0;
-        for (const std::size_t corner : { p, p + row, p + layer, p + layer + row })
-        {
-          beside += (this->BesideAt[corner] >= 0) + (this->BesideAt[corner + 1] >= 0);
-        }
-        if (beside > 1)
-        {
-          this->separate(at);
-        }
+        this->separate(low);
       }
-      if (this->States[p] == InWall && this->Distances[p] > -depthOfThin && this->isThin(at))
-      {
-        this->Marked[p] = 1;
-      }
-    });
+    }
+    this->markThin(beside);
+  }
   for (std::size_t p = 0; p < this->Marked.size(); ++p)
   {
     if (this->Marked[p])
