@@ -104,6 +104,23 @@ struct SharedMedia::Entries
     return found != all.end() ? std::get<WeakMedium<Real>>(found->medium).lock() : nullptr;
   }
 
+  /// Gives a medium another key. False where others use it.
+  template <class Real>
+  bool rename(const std::shared_ptr<MediumOnDevices<Real>>& medium, const MediumKey& key)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (medium.use_count() > 1)
+    {
+      return false;
+    }
+    for (Entry& entry : all)
+    {
+      const auto* own = std::get_if<WeakMedium<Real>>(&entry.medium);
+      entry.key = own && own->lock() == medium ? key : entry.key;
+    }
+    return true;
+  }
+
   template <class Real>
   void add(const MediumKey& key, const std::shared_ptr<MediumOnDevices<Real>>& medium)
   {
@@ -159,7 +176,7 @@ std::shared_ptr<MediumOnDevices<Real>> MediumCache::make(const Field& field, con
 template <class Real>
 MediumOfBench<Real>& MediumCache::mediumOf(const Field& field, const Scene& scene)
 {
-  if (!holds(field, scene))
+  if (!holds(field, scene) && !refineWhatIsThere<Real>(field, scene))
   {
     key_.reset();
     medium_ = std::monostate{};
@@ -181,6 +198,24 @@ MediumOfBench<Real>& MediumCache::mediumOf(const Field& field, const Scene& scen
     key_ = key;
   }
   return std::get<MediumOfBench<Real>>(medium_);
+}
+
+template <class Real>
+bool MediumCache::refineWhatIsThere(const Field& field, const Scene& scene)
+{
+  const MediumKey key = MediumKey::of(field, scene);
+  MediumKey like = key;
+  like.tolerance = key_ ? key_->tolerance : 0;
+  auto* current = std::get_if<MediumOfBench<Real>>(&medium_);
+  if (!key_ || key_->tie() != like.tie() || !(key.tolerance < like.tolerance) || !current ||
+    (media_ && !media_->entries_->rename(current->shared, key)))
+  {
+    return false;
+  }
+  current->shared->medium.tree->lowerTolerance(key.tolerance);
+  current->refinedFor.reset();
+  key_ = key;
+  return true;
 }
 
 template <class Real>

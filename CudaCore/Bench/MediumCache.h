@@ -117,6 +117,10 @@ public:
   void leaveDevice();
 
 private:
+  /// Lowers the tolerance of the medium that is there, where nothing else has changed and others do not use it: what has been
+  /// made stays.
+  template <class Real>
+  bool refineWhatIsThere(const Field& field, const Scene& scene);
   template <class Real>
   std::shared_ptr<MediumOnDevices<Real>> make(const Field& field, const Scene& scene);
 

@@ -59,6 +59,8 @@ public:
   /// the last bit as if there had been no stop.
   bool refine(
     const Column& column, const Monitor& monitor = {}, Unneeded unneeded = Unneeded::Goes);
+  /// Leaves are finer from the next call of refine() on.
+  void lowerTolerance(double tolerance) { settings_.tolerance = tolerance; }
   /// Looks at parts of the image of the last view again, with a lower tolerance from now on.
   void refineFurther(double tolerance, std::vector<Column::Part> parts, const Monitor& monitor);
   /// Whether the last call has left leaves that the view needs because of Unneeded::Stays.
