@@ -265,6 +265,10 @@ void Planner::spread(const Cells& cells, std::size_t most, PatchPlace where)
     {
       layout_.ofVoxels[static_cast<std::size_t>(where)].push_back(patch);
     }
+    if (n % (3 * everyOfVoxels_) == 0)
+    {
+      layout_.someOfVoxels[static_cast<std::size_t>(where)].push_back(patch);
+    }
   }
 }
 

@@ -44,8 +44,9 @@ using PatchSet = std::array<PatchList, patchPlaces>;
 struct PatchLayout
 {
   PatchSet sets[2];
-  PatchSet ofVoxels;    ///< those that are looked at with finer voxels: some of the first set
-  bool isWhole = false; ///< both sets are the image, set 0
+  PatchSet ofVoxels;     ///< those that are looked at with finer voxels: some of the first set
+  PatchSet someOfVoxels; ///< a third of these
+  bool isWhole = false;  ///< both sets are the image, set 0
 };
 
 /// `margin`: pixels around the image from which light may be bent into it; `wantsAllPixels`: the image is the patch.

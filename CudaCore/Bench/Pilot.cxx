@@ -30,8 +30,13 @@ Pilot<Real>::Pilot(const ViewSetup<Real>& setup, const Scene& scene)
     {
       groups_[set][place].patches = &layout_.sets[set][place];
       withVoxels_[set][place].patches = &layout_.ofVoxels[place];
-      withVoxels_[set][place].isOfFiner = set > 0;
+      someWithVoxels_[set][place].patches = &layout_.someOfVoxels[place];
     }
+  }
+  for (std::size_t place = 0; place < patchPlaces; ++place)
+  {
+    withVoxels_[1][place].ofFiner = Part::All;
+    someWithVoxels_[1][place].ofFiner = Part::Some;
   }
 }
 
@@ -101,12 +106,12 @@ bool Pilot<Real>::trace(Group& group, const PassNumber& first, const Monitor& mo
     together.resize(passes);
     group.keysUnderWay = keys;
   }
-  if (group.isOfFiner && !makeFiner(monitor))
+  if (group.ofFiner && !makeFiner(*group.ofFiner, monitor))
   {
     return false;
   }
-  MediumOnDevices<Real>& medium = group.isOfFiner ? *finer_ : setup_.medium;
-  const Tracer<Real> tracer = group.isOfFiner ? setup_.tracer.in(medium) : setup_.tracer;
+  MediumOnDevices<Real>& medium = group.ofFiner ? *finer_ : setup_.medium;
+  const Tracer<Real> tracer = group.ofFiner ? setup_.tracer.in(medium) : setup_.tracer;
   const bool isTraced = tracer.trace(taskFor(first.set->step, medium.medium), passes, together,
     { {}, monitor.aborted, monitor.paused });
   isPaused_ = monitor.paused && monitor.paused();
@@ -341,14 +346,14 @@ Differences Pilot<Real>::slopesAtEdges(
 }
 
 template <class Real>
-bool Pilot<Real>::makeFiner(const Monitor& monitor)
+bool Pilot<Real>::makeFiner(Part part, const Monitor& monitor)
 {
-  if (!finer_)
+  if (!finer_ || finerPart_ < part)
   {
     const Frame& frame = setup_.key.frame;
     constexpr double mostBent = 4; // pixels, away from straight light
     std::vector<Column::Part> parts;
-    for (const PatchList& list : layout_.ofVoxels)
+    for (const PatchList& list : part == Part::All ? layout_.ofVoxels : layout_.someOfVoxels)
     {
       for (const Patch& patch : list)
       {
@@ -357,20 +362,22 @@ bool Pilot<Real>::makeFiner(const Monitor& monitor)
         const double bent = std::min(mostBent,
           scouts_.largestDeflectionAround(from[0], from[1], size[0], size[1]) *
             (frame.exit - frame.entry) / frame.pixelSize);
-        Column::Part part{};
+        Column::Part around{};
         for (std::size_t axis = 0; axis < 2; ++axis)
         {
           const double half = 0.5 * static_cast<double>(size[axis]);
-          part.middle[axis] =
+          around.middle[axis] =
             frame.origin[axis] + (static_cast<double>(from[axis]) + half - 0.5) * frame.pixelSize;
-          part.halfWidth[axis] =
+          around.halfWidth[axis] =
             (half + static_cast<double>(patch.margin) + bent) * frame.pixelSize;
         }
-        parts.push_back(part);
+        parts.push_back(around);
       }
     }
     finer_ = std::make_unique<MediumOnDevices<Real>>(
-      finerIn(setup_.medium.medium, further_, std::move(parts), { {}, monitor.aborted, {} }));
+      finerIn(finer_ ? std::move(finer_->medium) : copyOf(setup_.medium.medium), further_,
+        std::move(parts), { {}, monitor.aborted, {} }));
+    finerPart_ = part;
     if (monitor.aborted && monitor.aborted())
     {
       finer_.reset();
@@ -381,8 +388,9 @@ bool Pilot<Real>::makeFiner(const Monitor& monitor)
 
 template <class Real>
 Differences Pilot<Real>::ofVoxels(
-  const PatchSettings& settings, double tolerance, const Monitor& monitor)
+  const PatchSettings& settings, double tolerance, Part part, const Monitor& monitor)
 {
+  auto& groups = part == Part::All ? withVoxels_ : someWithVoxels_;
   further_ = tolerance;
   Differences all;
   for (std::size_t n = 0; n < patchPlaces; ++n)
@@ -390,13 +398,16 @@ Differences Pilot<Real>::ofVoxels(
     const bool isAtBodies = static_cast<PatchPlace>(n) == PatchPlace::Body;
     const int samples = isAtBodies ? settings.samplesAtBodies : settings.samples;
     const RaySet rays{ settings.step, samples };
-    if (!compare({ withVoxels_[0][n], rays }, { withVoxels_[1][n], rays }, 1, Edges::DoNotCount,
-          monitor, all))
+    if (!compare(
+          { groups[0][n], rays }, { groups[1][n], rays }, 1, Edges::DoNotCount, monitor, all))
     {
       return {};
     }
   }
-  finer_.reset(); // its rays stay
+  if (part == Part::All)
+  {
+    finer_.reset(); // its rays stay
+  }
   return all;
 }
 

@@ -66,7 +66,7 @@ public:
     cutoff_ = cutoffs_.cutoffOf(scene, k, setup_.pixels);
     resume(tracer);
     scene_ = scene;
-    for (auto* sets : { &groups_, &withVoxels_ })
+    for (auto* sets : { &groups_, &withVoxels_, &someWithVoxels_ })
     {
       for (auto& set : *sets)
       {
@@ -109,8 +109,14 @@ public:
   Differences slopesAtEdges(Patches patches, const PatchSettings& settings, const Monitor& monitor);
 
   /// What a medium within a lower tolerance would change: see MediumTree::refineFurther(). Edges of bodies do not count, of
-  /// which it moves rays by whole pixels at the most. Aborted or paused: empty.
-  Differences ofVoxels(const PatchSettings& settings, double tolerance, const Monitor& monitor);
+  /// which it moves rays by whole pixels at the most. Aborted or paused: empty. `part`: of the patches for it.
+  enum class Part
+  {
+    Some,
+    All
+  };
+  Differences ofVoxels(
+    const PatchSettings& settings, double tolerance, Part part, const Monitor& monitor);
 
   /// Whether the monitor has paused it since then. What it has done is kept.
   bool isPaused() const { return isPaused_; }
@@ -160,7 +166,7 @@ private:
   struct Group
   {
     const PatchList* patches;
-    bool isOfFiner = false;                            ///< voxels
+    std::optional<Part> ofFiner;                       ///< voxels
     std::map<PassKey, std::vector<TracedPass>> traced; ///< of each patch
     TracedPass underWay;                               ///< some that a pause has interrupted
     std::vector<PassKey> keysUnderWay;
@@ -169,7 +175,7 @@ private:
 
   RayTask<Real> taskFor(double step, const Medium<Real>& medium) const;
   /// Makes finer voxels where some patches' light is. False if aborted.
-  bool makeFiner(const Monitor& monitor);
+  bool makeFiner(Part part, const Monitor& monitor);
   Pass passOf(const Patch& patch, std::int64_t number) const;
   /// Traces a pass of all patches of a group where that has not been done, and some of those that come next. False if aborted
   /// or paused.
@@ -200,7 +206,9 @@ private:
   PatchLayout layout_;
   Group groups_[2][patchPlaces];     ///< of each set
   Group withVoxels_[2][patchPlaces]; ///< of the image, and finer ones
+  Group someWithVoxels_[2][patchPlaces];
   std::unique_ptr<MediumOnDevices<Real>> finer_;
+  Part finerPart_ = Part::Some;
   double further_ = 0; ///< its tolerance
   bool isPaused_ = false;
 };

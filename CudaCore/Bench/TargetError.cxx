@@ -250,6 +250,11 @@ StepRange stepsFor(const Pilot<Real>& pilot)
   return stepsFor(medium, hasWalls(medium), !needsOneRay(pilot));
 }
 
+bool hasFinerMedium(const Scene& scene, bool isMemoryShort)
+{
+  return scene.mediumTolerance > refinedTolerance && !isMemoryShort;
+}
+
 template <class Real>
 KnownErrors knownErrors(Pilot<Real>& pilot, const Monitor& monitor)
 {
@@ -260,15 +265,28 @@ KnownErrors knownErrors(Pilot<Real>& pilot, const Monitor& monitor)
     constexpr double roundingOfPath = 1.7e-7; // of itself
     known.rounding = roundingOfPath * pilot.view().path / scene.wavelength;
   }
-  if (pilot.setup().medium.medium.tree)
+  if (const MediumTree<Real>* tree = pilot.setup().medium.medium.tree.get())
   {
     const double tolerance = scene.mediumTolerance;
     const double further = tolerance * (tolerance > refinedTolerance ? 1. / 8 : 1. / 3);
     constexpr double step = 0.5;
-    // What is compared errs, too, in proportion to its tolerance.
-    known.voxels =
-      exceededBy(mayExceed, pilot.ofVoxels(stepsFor(pilot).with(step), further, monitor)) /
-      (1 - further / tolerance);
+    using Part = typename Pilot<Real>::Part;
+    const auto lookAt = [&](Part part)
+    {
+      // What is compared errs, too, in proportion to its tolerance.
+      known.voxels =
+        exceededBy(mayExceed, pilot.ofVoxels(stepsFor(pilot).with(step), further, part, monitor)) /
+        (1 - further / tolerance);
+    };
+    // Finer voxels take long, and some may show that those of the image do not suffice.
+    if (hasFinerMedium(scene, tree->statistics().isMemoryShort))
+    {
+      lookAt(Part::Some);
+    }
+    if (!(known.voxels > scene.targetError) && !pilot.isPaused())
+    {
+      lookAt(Part::All);
+    }
   }
   return known;
 }
@@ -282,8 +300,7 @@ bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene)
     scene.precision = Precision::Double;
     return true;
   }
-  if (known.voxels > scene.targetError && scene.mediumTolerance > refinedTolerance &&
-    !isMemoryShort)
+  if (known.voxels > scene.targetError && hasFinerMedium(scene, isMemoryShort))
   {
     scene.mediumTolerance = refinedTolerance;
     return true;

@@ -45,15 +45,22 @@ bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor, 
 }
 
 template <class Real>
-Medium<Real> finerIn(const Medium<Real>& medium, double tolerance, std::vector<Column::Part> parts,
-  const Monitor& monitor)
+Medium<Real> copyOf(const Medium<Real>& medium)
 {
-  Medium<Real> finer{ PaddedVolume<Real>({ 1, 1, 1 }), {},
+  Medium<Real> copy{ PaddedVolume<Real>({ 1, 1, 1 }), {},
     std::make_unique<MediumTree<Real>>(*medium.tree) };
-  finer.ambient = medium.ambient;
-  finer.tree->refineFurther(tolerance, std::move(parts), monitor);
-  summarize(finer);
-  return finer;
+  copy.ambient = medium.ambient;
+  summarize(copy);
+  return copy;
+}
+
+template <class Real>
+Medium<Real> finerIn(
+  Medium<Real> medium, double tolerance, std::vector<Column::Part> parts, const Monitor& monitor)
+{
+  medium.tree->refineFurther(tolerance, std::move(parts), monitor);
+  summarize(medium);
+  return medium;
 }
 
 namespace
@@ -97,10 +104,10 @@ template Medium<float> buildTree(const Field&, const TreeSettings&);
 template Medium<double> buildTree(const Field&, const TreeSettings&);
 template bool refine(Medium<float>&, const Column&, const Monitor&, Unneeded);
 template bool refine(Medium<double>&, const Column&, const Monitor&, Unneeded);
-template Medium<float> finerIn(
-  const Medium<float>&, double, std::vector<Column::Part>, const Monitor&);
-template Medium<double> finerIn(
-  const Medium<double>&, double, std::vector<Column::Part>, const Monitor&);
+template Medium<float> copyOf(const Medium<float>&);
+template Medium<double> copyOf(const Medium<double>&);
+template Medium<float> finerIn(Medium<float>, double, std::vector<Column::Part>, const Monitor&);
+template Medium<double> finerIn(Medium<double>, double, std::vector<Column::Part>, const Monitor&);
 template struct Medium<float>;
 template struct Medium<double>;
 

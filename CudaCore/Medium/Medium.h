@@ -50,9 +50,13 @@ template <class Real>
 bool refine(Medium<Real>& medium, const Column& column, const Monitor& monitor,
   Unneeded ofOthers = Unneeded::Goes);
 
-/// A copy of it with finer voxels in parts of the image of the last view: see MediumTree::refineFurther().
+/// A copy of one with a tree.
 template <class Real>
-Medium<Real> finerIn(const Medium<Real>& medium, double tolerance, std::vector<Column::Part> parts,
-  const Monitor& monitor);
+Medium<Real> copyOf(const Medium<Real>& medium);
+
+/// The same with finer voxels in parts of the image of the last view: see MediumTree::refineFurther().
+template <class Real>
+Medium<Real> finerIn(
+  Medium<Real> medium, double tolerance, std::vector<Column::Part> parts, const Monitor& monitor);
 
 } // namespace schlieren

@@ -83,7 +83,8 @@ void MediumTree<Real>::refineFurther(
 {
   settings_.tolerance = tolerance;
   constexpr std::size_t leastMemory = std::size_t{ 1 } << 26;
-  settings_.memory += std::max(settings_.memory, leastMemory);
+  const bool isFirst = work_.column.parts.empty();
+  settings_.memory += isFirst ? std::max(settings_.memory, leastMemory) : 0;
   Column column = work_.column;
   column.parts = std::move(parts);
   refine(column, monitor, Unneeded::Stays);
