@@ -281,6 +281,50 @@ TEST(TargetErrors, KeepTheMedium)
   EXPECT_EQ(bench.work().mediumBuilds, builds);
 }
 
+/// A medium that is too coarse for its target is refined, unless others use it: as fine as one that is made so at once.
+TEST(TargetErrors, RefineTheMediumThatIsThere)
+{
+  constexpr double usual = 0.006, refined = 0.001; // tolerances
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
+  scene.targetError = 1. / 1024;
+  const Field field = fieldOf(std::make_shared<BallsSource>(threeBalls(1e-3), 1., 0.01));
+  Bench bench;
+  const Image image = bench.render(field, scene);
+  EXPECT_EQ(bench.work().mediumBuilds, 1);
+  EXPECT_TRUE(image.accuracy.isKept());
+  const auto withTolerance = [&](double tolerance)
+  {
+    Scene same = scene;
+    same.targetError = 0;
+    same.interpolation = Interpolation::Cubic;
+    same.kScale = image.kScale;
+    same.mediumTolerance = tolerance;
+    same.stepSize = image.stepSize;
+    same.samplesPerPixel = image.samplesPerPixel;
+    return Bench().render(field, same);
+  };
+  const Image atOnce = withTolerance(refined);
+  const auto voxels = static_cast<double>(atOnce.medium->voxels);
+  EXPECT_GT(voxels, 1.2 * static_cast<double>(withTolerance(usual).medium->voxels));
+  EXPECT_NEAR(static_cast<double>(image.medium->voxels), voxels, 0.05 * voxels);
+  EXPECT_LT(
+    trueError(image, atOnce, scene, [](std::size_t) { return true; }), 0.25 * scene.targetError);
+
+  const auto media = std::make_shared<SharedMedia>();
+  Bench first, second;
+  first.setMedia(media);
+  second.setMedia(media);
+  Scene coarse = scene;
+  coarse.targetError = 0;
+  coarse.interpolation = Interpolation::Cubic;
+  coarse.mediumTolerance = usual;
+  const Image before = first.render(field, coarse);
+  EXPECT_TRUE(second.render(field, scene).accuracy.isKept());
+  EXPECT_EQ(second.work().mediumBuilds, 1); // the one that it began with is the first's
+  EXPECT_EQ(media->count(), 2);
+  EXPECT_EQ(first.render(field, coarse).medium->voxels, before.medium->voxels);
+}
+
 /// Another knife edge takes the rays of the image before, also where something is shown before the settings are found.
 TEST(TargetErrors, KeepTheRays)
 {
