@@ -132,9 +132,7 @@ Image Bench::Stages::imageOf(const UnfinishedImage& request) const
   image.momentumDrift = request.momentumDrift;
   image.accuracy = request.accuracy;
   image.traceSeconds = request.traceSeconds;
-  const bool areOthersUsed =
-    processes && (request.device == Device::Cpu || processes->ofRays().hasCuda.value_or(false));
-  image.processes = areOthersUsed ? processes->others() + 1 : 1;
+  image.processes = processes && request.device == Device::Cpu ? processes->others() + 1 : 1;
   return image;
 }
 

@@ -16,10 +16,7 @@ bool Tracer<Real>::trace(const RayTask<Real>& task, const Passes& passes, Traced
     using Exits = typename CudaTracer<Real>::Exits;
     const Exits exits = isWantedOnHost ? Exits::OnHost : Exits::OnDevice;
     CudaTracer<Real>& tracer = medium_->cudaTracer();
-    return processes_ && ProcessTracer<Real>::haveCuda(*processes_)
-      ? medium_->processTracer().traceOnCuda(
-          tracer, exits, task, passes, *processes_, traced, monitor)
-      : tracer.trace(task, passes, exits, traced, monitor);
+    return tracer.trace(task, passes, exits, traced, monitor);
   }
   return processes_
     ? medium_->processTracer().trace(task, passes, *processes_, traced, threads_, monitor)

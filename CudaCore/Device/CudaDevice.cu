@@ -24,19 +24,4 @@ bool cudaAvailable(std::string* reason)
   return false;
 }
 
-int cudaCapability()
-{
-  int device = 0, first = 0, second = 0;
-  if (!cudaAvailable(nullptr))
-  {
-    return 0;
-  }
-  checkCuda(cudaGetDevice(&device), "Asking for the device");
-  checkCuda(cudaDeviceGetAttribute(&first, cudaDevAttrComputeCapabilityMajor, device),
-    "Asking for the device");
-  checkCuda(cudaDeviceGetAttribute(&second, cudaDevAttrComputeCapabilityMinor, device),
-    "Asking for the device");
-  return 10 * first + second;
-}
-
 } // namespace schlieren

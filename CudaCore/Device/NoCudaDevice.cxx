@@ -16,6 +16,4 @@ bool cudaAvailable(std::string* reason)
   return false;
 }
 
-int cudaCapability() { return 0; }
-
 } // namespace schlieren

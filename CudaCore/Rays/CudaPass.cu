@@ -199,15 +199,6 @@ RayExits CudaPass::toHost() const
   return exits;
 }
 
-void CudaPass::put(std::size_t first, const char* exits, std::size_t count) const
-{
-  const CudaStream stream; // of its own: it waits for no launch
-  checkCuda(cudaMemcpyAsync(
-              exits_ + first, exits, count * sizeof(RayExit), cudaMemcpyHostToDevice, stream.get()),
-    "Sending rays");
-  stream.wait("Sending rays");
-}
-
 double CudaPass::largestDeflection(const Pass& pass, int width, int height) const
 {
   const CudaBuffer<long long> largest(1);

@@ -31,8 +31,6 @@ public:
   RayExit* exits() const { return exits_; } ///< in the device's memory
   std::size_t size() const { return size_; }
   RayExits toHost() const;
-  /// Puts rays of the host, as their bytes, beside the others while these are traced.
-  void put(std::size_t first, const char* exits, std::size_t count) const;
 
   /// The largest component of deflection of the rays that start in an image of this size and reach the film; the rays
   /// are those of `pass`.

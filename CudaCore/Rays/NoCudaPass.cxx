@@ -25,8 +25,6 @@ void CudaPass::makeUndisturbed() {}
 
 RayExits CudaPass::toHost() const { return {}; }
 
-void CudaPass::put(std::size_t, const char*, std::size_t) const {}
-
 double CudaPass::largestDeflection(const Pass&, int, int) const { return 0; }
 
 void CudaPass::countDeflections(

@@ -16,10 +16,10 @@ namespace schlieren
 
 /// Squares of pixels that a thread of a CPU takes at once: their rays read the same samples of the medium.
 constexpr std::int64_t tileEdge = 16;
-/// Rows of a pass that are always traced by the same GPU: a band.
+/// Rows of a pass that a launch on a GPU has at least: a band.
 constexpr std::int64_t bandRows = 8;
 
-/// Tiles or bands: first, first + step, and so on, up to the end.
+/// Tiles: first, first + step, and so on, up to the end.
 struct Tiles
 {
   std::int64_t first, end;
@@ -111,23 +111,6 @@ public:
     const PlacedPass& of = before(band, &PlacedPass::firstBand);
     return static_cast<std::size_t>(
       of.firstRay + (band - of.firstBand) * bandRows * of.pass.columns);
-  }
-  /// Consecutive bands as passes of their own, with the same rays.
-  Passes ofBands(const Tiles& bands) const
-  {
-    std::vector<Pass> some;
-    for (const PlacedPass& of : placed_)
-    {
-      const std::int64_t first = std::max<std::int64_t>(0, bands.first - of.firstBand);
-      const std::int64_t end = std::min(of.bands(), bands.end - of.firstBand);
-      if (first < end)
-      {
-        some.push_back(of.pass);
-        some.back().firstRow += first * bandRows;
-        some.back().rows = std::min(of.pass.rows, end * bandRows) - first * bandRows;
-      }
-    }
-    return some;
   }
 
 private:

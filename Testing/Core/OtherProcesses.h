@@ -59,9 +59,7 @@ public:
             {
               throw Error("lost");
             }
-            answers[n] = n == 0 && kind == RayWorker::AskDevice && hasOtherDevice
-              ? messageOf(int{ 75 })
-              : workers_[n]->answer(message, 2);
+            answers[n] = workers_[n]->answer(message, 2);
           }
           catch (...)
           {
@@ -97,9 +95,8 @@ public:
   std::size_t bytes = 0;  ///< of requests
   int arrays = 0;         ///< pieces of arrays that were sent
   int traces = 0;         ///< requests of rays
-  std::int64_t tiles = 0; ///< of these, or bands
+  std::int64_t tiles = 0; ///< of these
   int failing = -1;       ///< the one that fails
-  bool hasOtherDevice = false;
 
 private:
   std::vector<std::unique_ptr<RayWorker>> workers_;

@@ -42,38 +42,7 @@ void addTotals(const MarchTotals& totals, TracedPass& traced)
 } // namespace
 
 template <class Real>
-MediumArrays<Real> MediumArrays<Real>::of(const Medium<Real>& medium)
-{
-  const auto arrayOf = [](const auto& values)
-  {
-    using T = std::decay_t<decltype(values[0])>;
-    return Array<T>{ values.data(), values.size() };
-  };
-  MediumArrays arrays;
-  arrays.view = medium.view();
-  arrays.solid = arrayOf(medium.solid);
-  if (!medium.tree)
-  {
-    arrays.samples = arrayOf(medium.volume.samples);
-    return arrays;
-  }
-  const MediumTree<Real>& tree = *medium.tree;
-  arrays.samples = arrayOf(tree.samples());
-  arrays.leaves = arrayOf(tree.leaves());
-  arrays.roots = arrayOf(tree.roots());
-  arrays.children = arrayOf(tree.children());
-  arrays.gasDistances = arrayOf(tree.gasDistances());
-  return arrays;
-}
-
-template <class Real>
 CudaTracer<Real>::CudaTracer(const Medium<Real>& medium)
-  : CudaTracer(MediumArrays<Real>::of(medium))
-{
-}
-
-template <class Real>
-CudaTracer<Real>::CudaTracer(const MediumArrays<Real>& medium)
   : memory_(std::make_unique<DeviceMemory>(medium))
 {
 }
@@ -84,18 +53,6 @@ CudaTracer<Real>::~CudaTracer() = default;
 template <class Real>
 bool CudaTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes, Exits exits,
   TracedPass& traced, const Monitor& monitor)
-{
-  begin(passes, exits, traced);
-  const bool isTraced = traceBands(task, passes, exits, { 0, passes.bands() }, traced, monitor);
-  if (exits == Exits::OnHost)
-  {
-    traced.onDevice.reset();
-  }
-  return isTraced;
-}
-
-template <class Real>
-void CudaTracer<Real>::begin(const Passes& passes, Exits exits, TracedPass& traced) const
 {
   checkCuda(cudaSetDevice(memory_->device), "Choosing a device"); // of this thread
   std::unique_ptr<CudaPass> there = std::move(traced.onDevice);   // its memory serves again
@@ -114,18 +71,10 @@ void CudaTracer<Real>::begin(const Passes& passes, Exits exits, TracedPass& trac
   {
     traced = {};
   }
-  traced.onDevice = std::move(there);
-}
-
-template <class Real>
-bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Passes& passes, Exits exits,
-  const Tiles& bands, TracedPass& traced, const Monitor& monitor)
-{
   RayTask<Real> onDevice = task;
   onDevice.medium = memory_->view;
   const CudaBuffer<PlacedPass> passesThere(
     passes.all().data(), passes.all().size(), "Copying the passes");
-  const CudaPass* there = traced.onDevice.get();
   memory_->clearTotals();
   memory_->findPace(task);
 
@@ -135,16 +84,16 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Passes& passe
     typename DeviceMemory::Lane* lane;
     std::size_t firstRay, endRay;
   };
-  std::int64_t nextBand = bands.first;
+  std::int64_t nextBand = 0;
   /// Launches the next bands, if there are any.
   const auto launch = [&](std::int64_t number) -> std::optional<Launch>
   {
-    if (nextBand >= bands.end)
+    if (nextBand >= passes.bands())
     {
       return {};
     }
     const std::int64_t firstBand = nextBand;
-    nextBand = std::min(bands.end, nextBand + bandsAtOnce(passes, *memory_->pace));
+    nextBand = std::min(passes.bands(), nextBand + bandsAtOnce(passes, *memory_->pace));
     auto& lane = memory_->lanes[static_cast<std::size_t>(number % 2)];
     lane.begin.record(lane.stream);
     visitScheme(task.kernel.interpolation,
@@ -182,8 +131,7 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Passes& passe
     fetch(*current);
     if (monitor.progress)
     {
-      const std::size_t toCome = passes.raysBefore(bands.end) - current->endRay;
-      monitor.progress(1 - static_cast<double>(toCome) / static_cast<double>(passes.rays()));
+      monitor.progress(static_cast<double>(current->endRay) / static_cast<double>(passes.rays()));
     }
     if (monitor.aborted && monitor.aborted())
     {
@@ -198,6 +146,10 @@ bool CudaTracer<Real>::traceBands(const RayTask<Real>& task, const Passes& passe
   for (const auto& lane : memory_->lanes)
   {
     addTotals(lane.fetchTotals(), traced);
+  }
+  if (exits == Exits::OnDevice)
+  {
+    traced.onDevice = std::move(there);
   }
   return true;
 }

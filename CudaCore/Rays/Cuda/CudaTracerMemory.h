@@ -32,14 +32,15 @@ template <class Real>
 struct CudaTracer<Real>::DeviceMemory
 {
   /// Sends the medium.
-  explicit DeviceMemory(const MediumArrays<Real>& medium)
-    : view(medium.view)
-    , samples(medium.samples.first, medium.samples.count, "Copying the medium")
+  explicit DeviceMemory(const Medium<Real>& medium)
+    : view(medium.view())
+    , samples(medium.tree ? bufferOf(medium.tree->samples()) : bufferOf(medium.volume.samples))
   {
-    view.samples = samples.data() + (view.samples - medium.samples.first);
-    if (medium.leaves.count > 0)
+    const Real* onHost = medium.tree ? medium.tree->samples().data() : medium.volume.samples.data();
+    view.samples = samples.data() + (view.samples - onHost);
+    if (medium.tree)
     {
-      tree = std::make_unique<Tree>(medium);
+      tree = std::make_unique<Tree>(*medium.tree);
       const std::int64_t ghost = view.samples - samples.data();
       view.leaves = tree->leaves.data();
       view.finder.roots = tree->roots.data();
@@ -47,12 +48,19 @@ struct CudaTracer<Real>::DeviceMemory
       view.gasDistances =
         view.gasDistances != nullptr ? tree->gasDistances->data() + ghost : nullptr;
     }
-    if (medium.solid.count > 0)
+    else if (!medium.solid.empty())
     {
       solid = std::make_unique<CudaBuffer<std::uint32_t>>(
-        medium.solid.first, medium.solid.count, "Copying the solids");
+        medium.solid.data(), medium.solid.size(), "Copying the solids");
       view.solid = solid->data();
     }
+  }
+
+  template <class Values>
+  static auto bufferOf(const Values& values)
+  {
+    return CudaBuffer<typename Values::value_type>(
+      values.data(), values.size(), "Copying the medium");
   }
 
   static int currentDevice()
@@ -69,15 +77,15 @@ struct CudaTracer<Real>::DeviceMemory
 
   struct Tree
   {
-    explicit Tree(const MediumArrays<Real>& medium)
-      : leaves(medium.leaves.first, medium.leaves.count, "Copying the medium's leaves")
-      , roots(medium.roots.first, medium.roots.count, "Copying the medium's tree")
-      , children(medium.children.first, medium.children.count, "Copying the medium's tree")
+    explicit Tree(const MediumTree<Real>& of)
+      : leaves(bufferOf(of.leaves()))
+      , roots(bufferOf(of.roots()))
+      , children(bufferOf(of.children()))
     {
-      if (medium.gasDistances.count > 0)
+      if (!of.gasDistances().empty())
       {
         gasDistances = std::make_unique<CudaBuffer<std::int16_t>>(
-          medium.gasDistances.first, medium.gasDistances.count, "Copying the walls");
+          of.gasDistances().data(), of.gasDistances().size(), "Copying the walls");
       }
     }
     CudaBuffer<Leaf<Real>> leaves;

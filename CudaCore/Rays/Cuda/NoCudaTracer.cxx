@@ -18,25 +18,7 @@ CudaTracer<Real>::CudaTracer(const Medium<Real>&)
 }
 
 template <class Real>
-CudaTracer<Real>::CudaTracer(const MediumArrays<Real>&)
-{
-  throw DeviceError(builtWithoutCuda);
-}
-
-template <class Real>
 CudaTracer<Real>::~CudaTracer() = default;
-
-template <class Real>
-void CudaTracer<Real>::begin(const Passes&, Exits, TracedPass&) const
-{
-}
-
-template <class Real>
-bool CudaTracer<Real>::traceBands(
-  const RayTask<Real>&, const Passes&, Exits, const Tiles&, TracedPass&, const Monitor&)
-{
-  return false;
-}
 
 template <class Real>
 bool CudaTracer<Real>::trace(

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rays/Ranks/ProcessTracer.h"
 
-#include "Device/CudaDevice.h"
 #include "Device/Parallel.h"
 #include "Rays/Ranks/RayMessages.h"
 
@@ -12,7 +11,6 @@
 #include <chrono>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -59,25 +57,6 @@ void putTiles(
       std::memcpy(traced.exits.data() + first, exits, count * sizeof(RayExit));
       exits += count * sizeof(RayExit);
     });
-}
-
-/// The same of bands, whose rays are consecutive.
-void putBands(const std::vector<char>& answer, const Passes& passes, const Tiles& bands,
-  bool isWantedOnHost, TracedPass& traced)
-{
-  const std::size_t first = passes.raysBefore(bands.first);
-  const std::size_t rays = passes.raysBefore(bands.end) - first;
-  if (rays == 0)
-  {
-    return;
-  }
-  const char* exits = exitsOf(answer, rays, traced);
-  if (!isWantedOnHost)
-  {
-    traced.onDevice->put(first, exits, rays);
-    return;
-  }
-  std::memcpy(traced.exits.data() + first, exits, rays * sizeof(RayExit));
 }
 
 } // namespace
@@ -132,11 +111,10 @@ struct ProcessTracer<Real>::State
 
   /// What processes are to do, but for the tiles.
   TraceMessage<Real> requestFor(
-    const Medium<Real>& medium, const RayTask<Real>& task, const Passes& passes, Device device)
+    const Medium<Real>& medium, const RayTask<Real>& task, const Passes& passes)
   {
     locate(medium);
     TraceMessage<Real> message;
-    message.device = device;
     message.simd = bestSimd();
     message.passes = passes.all().size();
     message.task = task;
@@ -184,7 +162,7 @@ template <class Real>
 bool ProcessTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes, Processes& others,
   TracedPass& traced, int threads, const Monitor& monitor)
 {
-  TraceMessage<Real> request = state_->requestFor(medium_, task, passes, Device::Cpu);
+  TraceMessage<Real> request = state_->requestFor(medium_, task, passes);
   state_->sendArrays(others, request);
   const std::int64_t all = passes.tiles(), processes = others.others() + 1;
   const std::int64_t least = 4 * threadCount(threads) * processes;
@@ -218,63 +196,6 @@ bool ProcessTracer<Real>::trace(const RayTask<Real>& task, const Passes& passes,
   }
   traced.tilesDone = 0;
   return true;
-}
-
-template <class Real>
-bool ProcessTracer<Real>::haveCuda(Processes& processes)
-{
-  std::optional<bool>& haveCuda = processes.ofRays().hasCuda;
-  if (!haveCuda)
-  {
-    const int own = cudaCapability();
-    const auto answers = processes.request(messageOf(std::uint32_t{ RayWorker::AskDevice }), {});
-    haveCuda = std::all_of(answers.begin(), answers.end(),
-      [own](const std::vector<char>& answer)
-      {
-        int other = 0;
-        return read(answer, other) && other == own;
-      });
-  }
-  return *haveCuda;
-}
-
-template <class Real>
-bool ProcessTracer<Real>::traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
-  const RayTask<Real>& task, const Passes& passes, Processes& others, TracedPass& traced,
-  const Monitor& monitor)
-{
-  constexpr std::int64_t raysAtOnce = std::int64_t{ 1 } << 21; // of each process
-  constexpr auto onHost = CudaTracer<Real>::Exits::OnHost;
-  TraceMessage<Real> request = state_->requestFor(medium_, task, passes, Device::Cuda);
-  state_->sendArrays(others, request);
-  own.begin(passes, exits, traced);
-  const std::int64_t all = passes.bands(), processes = others.others() + 1;
-  const std::int64_t atOnce =
-    std::max<std::int64_t>(1, raysAtOnce * processes / (bandRows * passes.columns()));
-  bool isTraced = true;
-  for (request.first = 0; request.first < all && isTraced; request.first = request.end)
-  {
-    request.end = std::min(all, request.first + atOnce);
-    const auto bandsOf = [&](std::int64_t process)
-    { return bandsOfProcess(request.first, request.end, process, processes); };
-    const auto answers = others.request(messageOf(request, passes.all()),
-      [&] { own.traceBands(task, passes, exits, bandsOf(0), traced, {}); });
-    for (std::size_t n = 0; n < answers.size(); ++n)
-    {
-      putBands(
-        answers[n], passes, bandsOf(static_cast<std::int64_t>(n) + 1), exits == onHost, traced);
-    }
-    if (monitor.progress)
-    {
-      monitor.progress(static_cast<double>(request.end) / static_cast<double>(all));
-    }
-    isTraced = request.end == all || !(monitor.aborted && monitor.aborted());
-  }
-  if (exits == onHost)
-  {
-    traced.onDevice.reset();
-  }
-  return isTraced;
 }
 
 template class ProcessTracer<float>;

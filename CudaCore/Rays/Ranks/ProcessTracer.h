@@ -6,15 +6,16 @@
 // Whoever traces a tile, its rays are the same to the last bit.
 #pragma once
 
-#include "Rays/Cuda/CudaTracer.h"
+#include "Rays/March/RayTask.h"
 #include "Rays/Ranks/Processes.h"
+#include "Rays/TracedPass.h"
 
 #include <memory>
 
 namespace schlieren
 {
 
-/// Traces rays with the CPUs or the CUDA devices of this rank and of others, never with both: they round differently.
+/// Traces rays with the CPUs of this rank and of others.
 template <class Real>
 class ProcessTracer
 {
@@ -26,13 +27,6 @@ public:
   /// Traces passes, or resumes them, as traceOnCpu() does.
   bool trace(const RayTask<Real>& task, const Passes& passes, Processes& processes,
     TracedPass& traced, int threads, const Monitor& monitor);
-
-  /// Whether all ranks have CUDA devices, of the same compute capability. Asks them once.
-  static bool haveCuda(Processes& processes);
-  /// Traces passes on these, where all have them. `own` is this rank's, with the medium.
-  bool traceOnCuda(CudaTracer<Real>& own, typename CudaTracer<Real>::Exits exits,
-    const RayTask<Real>& task, const Passes& passes, Processes& processes, TracedPass& traced,
-    const Monitor& monitor);
 
 private:
   struct State;

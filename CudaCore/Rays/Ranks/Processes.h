@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace schlieren
@@ -32,7 +31,6 @@ public:
   struct KnownOfRays
   {
     std::array<std::uint64_t, 6> arrays{}; ///< versions of those of a RayTask that they have
-    std::optional<bool> hasCuda;           ///< whether all have CUDA devices like this process's
     double secondsPerTile = 0;             ///< of all processes together; 0: not known yet
   };
   KnownOfRays& ofRays() { return ofRays_; }

@@ -84,17 +84,15 @@ struct TraceHead
   std::uint32_t bytesOfReal = 0;
 };
 
-/// What a worker needs to trace tiles, besides the arrays. On a CUDA device it traces bands in place of tiles. The passes
-/// follow.
+/// What a worker needs to trace tiles, besides the arrays. The passes follow.
 template <class Real>
 struct TraceMessage
 {
   TraceHead head{ RayWorker::Trace, sizeof(Real) };
   std::int64_t first = 0, end = 0; ///< tiles of all ranks
-  Device device = Device::Cpu;
-  Simd simd = Simd::None;   ///< of the CPU
-  std::uint64_t passes = 0; ///< how many
-  RayTask<Real> task{};     ///< its pointers mean nothing
+  Simd simd = Simd::None;          ///< of the CPU
+  std::uint64_t passes = 0;        ///< how many
+  RayTask<Real> task{};            ///< its pointers mean nothing
   /// Versions of the arrays, and from their beginnings to where the task's pointers point, in values.
   std::array<std::uint64_t, arraysOfTask> versions{};
   std::array<std::int64_t, arraysOfTask> offsets{};
@@ -102,7 +100,7 @@ struct TraceMessage
 constexpr std::int64_t nowhere =
   std::numeric_limits<std::int64_t>::min(); // the offset of a null pointer
 
-/// The beginning of an answer with rays: of those of each tile, or of all bands, row by row.
+/// The beginning of an answer with rays: of those of each tile, row by row.
 struct RaysHead
 {
   std::int64_t crossed = 0;
@@ -162,14 +160,6 @@ bool readPasses(
   passes.resize(static_cast<std::size_t>(request.passes));
   std::memcpy(passes.data(), message.data() + sizeof(request), bytes);
   return true;
-}
-
-/// Which of the bands first ... end - 1 one rank traces: a device is busiest with consecutive ones.
-inline Tiles bandsOfProcess(
-  std::int64_t first, std::int64_t end, std::int64_t process, std::int64_t processes)
-{
-  const std::int64_t count = end - first;
-  return { first + count * process / processes, first + count * (process + 1) / processes };
 }
 
 /// Calls visit(first ray of all, how many) for the rows of tiles.

@@ -21,11 +21,10 @@ public:
   enum Kind : std::uint32_t
   {
     Array = 100, ///< to be kept: a piece of an array of the medium
-    Trace,       ///< tiles
-    AskDevice    ///< which CUDA device the process has
+    Trace        ///< tiles
   };
   static std::uint32_t kindOf(const std::vector<char>& request);
-  static bool isFor(std::uint32_t kind) { return kind >= Array && kind <= AskDevice; }
+  static bool isFor(std::uint32_t kind) { return kind >= Array && kind <= Trace; }
 
   /// Does what a request says. Throws Error where it cannot.
   std::vector<char> answer(const std::vector<char>& request, int threads);

@@ -71,34 +71,6 @@ public:
     return isComplete;
   }
 
-  /// The arrays of the medium, where bind() finds all of them.
-  template <class Real>
-  MediumArrays<Real> ofMedium(const TraceMessage<Real>& request) const
-  {
-    const auto set = [&](std::size_t n, auto& array)
-    {
-      if (request.offsets[n] != nowhere)
-      {
-        using Value = std::remove_reference_t<decltype(*array.first)>;
-        const void* first = arrays_[n].bytes.data();
-        array.first = static_cast<Value*>(first);
-        array.count = arrays_[n].bytes.size() / sizeof(Value);
-      }
-    };
-    MediumArrays<Real> arrays;
-    arrays.view = request.task.medium;
-    set(samplesOfTask, arrays.samples);
-    set(solidOfTask, arrays.solid);
-    if (request.task.medium.leaves != nullptr)
-    {
-      set(leavesOfTask, arrays.leaves);
-      set(rootsOfTask, arrays.roots);
-      set(childrenOfTask, arrays.children);
-      set(gasDistancesOfTask, arrays.gasDistances);
-    }
-    return arrays;
-  }
-
 private:
   struct Array
   {
