@@ -87,8 +87,7 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   {
     DOTS = 0,
     STRIPES = 1,
-    PICTURE = 2,
-    SCENE = 3
+    PICTURE = 2
   };
 
   /// Values of LightModel.

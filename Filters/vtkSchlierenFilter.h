@@ -270,18 +270,16 @@ public:
   {
     DOTS = 0,
     STRIPES = 1,
-    PICTURE = 2,
-    SCENE = 3
+    PICTURE = 2
   };
 
-  /// The pattern behind the flow: Dots, Stripes, a Picture, which is Background Image, or the
-  /// Scene: what the view shows behind the flow, where it draws the flow as Schlieren. Default:
+  /// The pattern behind the flow: Dots, Stripes or a Picture, which is Background Image. Default:
   /// Dots.
-  vtkSetClampMacro(BackgroundPattern, int, DOTS, SCENE);
+  vtkSetClampMacro(BackgroundPattern, int, DOTS, PICTURE);
   vtkGetMacro(BackgroundPattern, int);
 
   /// Distance from where the data begin to the pattern behind them, data units; negative: one data
-  /// depth, and of the Scene the distance of its middle. Default: -1.
+  /// depth. Default: -1.
   vtkSetMacro(BackgroundDistance, double);
   vtkGetMacro(BackgroundDistance, double);
 
@@ -543,11 +541,6 @@ public:
   virtual void SetGradedFilter(vtkPiecewiseFunction* function);
   vtkPiecewiseFunction* GetGradedFilter() const;
   ///@}
-
-  /// Sets the image that the camera sees behind the flow, for BACKGROUND_ORIENTED with SCENE: RGB
-  /// bytes as on a screen, stretched over the image. `distance` is used if BackgroundDistance is
-  /// negative; negative: one data depth. Null (the default): images with this pattern fail.
-  void SetBackgroundScene(vtkImageData* image, double distance);
 
   /// Sets the pupil of a view's camera instead of FNumber and FocusDistance: its diameter and the
   /// distance of what is in focus, data units. `diameter` 0 (the default): there is none.

@@ -111,7 +111,6 @@ bool vtkSchlierenActor::LookThrough(const View& view)
 
 void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
 {
-  this->UseGreyScene();
   if (!this->HasSeen)
   {
     this->Reduction = reductionAtFirst;

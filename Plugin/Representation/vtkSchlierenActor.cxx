@@ -3,7 +3,6 @@
 #include "vtkSchlierenActor.h"
 
 #include "Guarded.h"
-#include "SceneBehind.h"
 #include "vtkSchlierenFilter.h"
 #include "vtkSchlierenLegend.h"
 
@@ -57,7 +56,6 @@ vtkStandardNewMacro(vtkSchlierenActor);
 vtkSchlierenActor::vtkSchlierenActor()
 {
   vtkMath::UninitializeBounds(this->ViewBounds);
-  vtkMath::UninitializeBounds(this->FlowBounds);
   this->UseBoundsOff();
   this->PickableOff();
   this->DragableOff();
@@ -134,7 +132,7 @@ void vtkSchlierenActor::SetBench(vtkSchlierenFilter* bench)
     this->Bench->RemoveObserver(this->Silence);
   }
   this->Bench = bench;
-  this->HasData = this->HasSeen = this->HasDrawnScene = false;
+  this->HasData = this->HasSeen = false;
   this->FailedTime = 0;
   if (bench)
   {
@@ -213,7 +211,6 @@ int vtkSchlierenActor::DrawImage(vtkViewport* viewport)
     : renderer->GetRenderWindow()->GetDesiredUpdateRate() > 1 ? TURNED
                                                               : STILL;
   const View view = ViewOf(renderer);
-  this->UpdateScene(renderer, view);
   if (!this->MakeImage(view, occasion))
   {
     return 0;
@@ -250,55 +247,10 @@ void vtkSchlierenActor::UpdatePixels()
   }
 }
 
-bool vtkSchlierenActor::HasScene() const
-{
-  return this->Bench && vtkSchlierenFilter::CutoffHasBackground(this->Bench->GetCutoff()) &&
-    this->Bench->GetBackgroundPattern() == vtkSchlierenFilter::SCENE;
-}
-
-void vtkSchlierenActor::UseGreyScene()
-{
-  if (this->HasScene() && !this->HasDrawnScene && !this->HasOtherRanks)
-  {
-    constexpr int grey = 128;
-    vtkNew<vtkImageData> pixel;
-    pixel->SetDimensions(1, 1, 1);
-    pixel->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    pixel->GetPointData()->GetScalars()->Fill(grey);
-    this->Bench->SetBackgroundScene(pixel, -1);
-  }
-}
-
-double vtkSchlierenActor::DepthOfImage(vtkCamera* camera) const
+double vtkSchlierenActor::DepthOfImage(vtkCamera* camera)
 {
   const double* range = camera->GetClippingRange();
-  const double margin = beforeFarPlane * (range[1] - range[0]);
-  const bool isBehindFlow = this->HasScene() && vtkMath::AreBoundsInitialized(this->FlowBounds);
-  const double wanted = isBehindFlow ? backOf(this->FlowBounds, camera) + margin : range[1];
-  return std::clamp(wanted, range[0] + margin, range[1] - margin);
-}
-
-void vtkSchlierenActor::UpdateScene(vtkRenderer* renderer, const View& view)
-{
-  if (!this->HasScene() || this->HasOtherRanks || !vtkMath::AreBoundsInitialized(this->FlowBounds))
-  {
-    return;
-  }
-  // Uses the aspect of all tiles of a large screenshot.
-  vtkCamera* camera = renderer->GetActiveCamera();
-  auto whole = vtkSmartPointer<vtkCamera>::Take(renderer->MakeCamera());
-  whole->DeepCopy(camera);
-  whole->SetWindowCenter(0, 0);
-  whole->SetParallelScale(view.ParallelScale);
-  if (!camera->GetParallelProjection())
-  {
-    whole->SetViewAngle(view.ViewAngle);
-  }
-  const double depth = this->DepthOfImage(camera);
-  const SceneBehind scene(renderer);
-  const auto image = scene.Draw(whole, view.Size.data(), depth);
-  this->Bench->SetBackgroundScene(image, scene.GetDistance(depth));
-  this->HasDrawnScene = true;
+  return range[1] - beforeFarPlane * (range[1] - range[0]);
 }
 
 // Places the quad by the view's coordinates: x to the right, y upwards.

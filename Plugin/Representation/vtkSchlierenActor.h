@@ -5,8 +5,7 @@
  * @brief   an image of vtkSchlierenFilter that fills a view, behind everything else
  *
  * Traces the image during rendering, because only then camera and size are those of the rendering,
- * on servers and in larger screenshots, too. The image lies just before the far plane, so that all surfaces hide it; with the background pattern SCENE it
- * lies at the back of the flow and replaces what is behind. With a perspective camera each pixel
+ * on servers and in larger screenshots, too. The image lies just before the far plane, so that all surfaces hide it. With a perspective camera each pixel
  * has its own direction.
  */
 #ifndef vtkSchlierenActor_h
@@ -16,7 +15,6 @@
 #include "vtkOpenGLActor.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
 #include <array>
 
 class vtkCallbackCommand;
@@ -58,9 +56,6 @@ public:
 
   /// Returns whether another actor is drawn instead: light cannot pass through both flows.
   bool IsHidden(vtkRenderer* renderer);
-
-  /// Sets the flow's bounds, behind which the scene of the background pattern SCENE begins.
-  void SetFlowBounds(const double bounds[6]) { std::copy_n(bounds, 6, this->FlowBounds); }
 
   /// Adds the actor, and disables FXAA, which would blur the image, while it is visible.
   void AddTo(vtkRenderer* renderer);
@@ -131,11 +126,7 @@ private:
   /// Returns whether the image failed for any view, so that an error is reported once.
   bool HasFailed() const;
   void UpdatePixels();
-  /// Returns whether the background is the view's scene.
-  bool HasScene() const;
-  void UpdateScene(vtkRenderer* renderer, const View& view);
-  void UseGreyScene(); ///< until the first rendering
-  double DepthOfImage(vtkCamera* camera) const;
+  static double DepthOfImage(vtkCamera* camera);
   void PlaceQuad(vtkRenderer* renderer);
 
   vtkSmartPointer<vtkSchlierenFilter> Bench;
@@ -152,7 +143,6 @@ private:
   vtkMTimeType FailedTime = 0; // of the bench at a failure; 0: none
   View Seen;
   bool HasSeen = false; // whether there was a rendering
-  bool HasDrawnScene = false;
   bool HasData = false;
   bool Finished = true;
   bool HasMore = false; // than was drawn
@@ -162,7 +152,6 @@ private:
   double SecondsPerPixel = 2e-7; // measured by previews, at first a guess
   int Reduction = 1;
   double ViewBounds[6];
-  double FlowBounds[6];
 };
 
 #endif

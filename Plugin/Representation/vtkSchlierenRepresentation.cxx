@@ -157,7 +157,6 @@ int vtkSchlierenRepresentation::RequestData(
     }
     bench->SetInputConnection(0, this->GetInputConnection(0, 0));
     this->PassTimeToBench();
-    this->Actor->SetFlowBounds(this->Bounds);
     this->Actor->UpdateImage(renderer);
     this->IncludeMedium();
   }
@@ -174,7 +173,6 @@ void vtkSchlierenRepresentation::IncludeMedium()
     medium.GetDiagonalLength() > (1 + rounding) * data.GetDiagonalLength())
   {
     medium.GetBounds(this->Bounds);
-    this->Actor->SetFlowBounds(this->Bounds);
   }
 }
 

@@ -62,34 +62,6 @@ for event, shift, button, buttons in ((QEvent.Type.MouseButtonPress, 0, left, le
     pause(0.1)
 """ + SAVE.format("dragged", SETTINGS))
 
-# What lies behind the flow is seen through it, also from elsewhere, and nothing is drawn without need.
-user.python("""
-camera = GetActiveView().GetActiveCamera()
-ahead, up = np.array(camera.GetDirectionOfProjection()), np.array(camera.GetViewUp())
-middle, right = np.array(camera.GetFocalPoint()) + 70 * ahead, 200 * np.cross(ahead, up)
-board = Plane(registrationName="board", Origin=list(middle - right), Point1=list(middle + right),
-              Point2=list(middle - right + 200 * up))  # the upper half
-Show(board).DiffuseColor = [1, 0, 0]
-SetActiveSource(FindSource("flow"))
-""")
-user.event(BENCH + "/Cutoff/ComboBox", "set_string", "Background Oriented")
-user.event(BENCH + "/BackgroundPattern/ComboBox", "set_string", "Scene")
-user.drag_view(0, (0.5, 0.5), (0.5, 0.48), (0.5, 0.46))
-user.python("""
-import inside_window
-view, display = GetActiveView(), GetDisplayProperties(FindSource("flow"), GetActiveView())
-until(lambda: information(display, "SchlierenFinished") == 1 and information(display, "SchlierenReduction") == 1)
-image = display.SchlierenBench.GetClientSideObject().GetOutputDataObject(0)
-color = vtk_to_numpy(image.GetPointData().GetArray("Color")).reshape(*view.ViewSize[::-1], 3).astype(int)
-middle = color[:, view.ViewSize[0] // 2]
-assert middle[-1, 0] > 200 and middle[-1, 1] < 20, middle[-1]
-assert abs(middle[0] - 255 * np.array(view.Background)).max() < 2, (middle[0], view.Background)
-pause(0.5)
-drawn = len(inside_window.LOG)
-pause(1)
-assert len(inside_window.LOG) == drawn, "It is drawn again and again"
-Delete(FindSource("board"))
-""")
 user.play("""
 import inside_window
 from inside_window import information

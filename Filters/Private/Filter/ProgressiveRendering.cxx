@@ -271,7 +271,6 @@ schlieren::Image vtkSchlierenFilter::Begin(
   schlieren::Scene scene =
     sceneFrom(this->SettingsFor(inside.Refractivity->FlatAxis), field.grid, inside.RgbImages);
   addObjects(scene, this->GradedFilter, this->GetMaker());
-  addBackground(scene, *this, inside.Scene);
   if (inside.Pupil.aperture > 0)
   {
     scene.lens.aperture = inside.Pupil.aperture;

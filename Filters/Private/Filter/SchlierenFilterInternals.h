@@ -58,7 +58,6 @@ struct vtkSchlierenFilter::Internals
   filters::TimeSlicedImage Images;
   filters::LastImage Shown[2]; // at each output
   filters::RgbImageReader RgbImages;
-  filters::BackgroundScene Scene;
   schlieren::Lens Pupil; // of a view's camera, where it has an aperture
   std::shared_ptr<const MadeRefractivity> Refractivity = std::make_shared<MadeRefractivity>();
   std::string Grid; // text about the grid of a source

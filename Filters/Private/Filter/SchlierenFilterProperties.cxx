@@ -158,42 +158,11 @@ bool vtkSchlierenFilter::CutoffHasColor(int cutoff, bool whiteLight, int backgro
     case schlieren::Coloring::InWhiteLight:
       return whiteLight;
     case schlieren::Coloring::OfBackgroundImage:
-      return backgroundPattern == PICTURE || backgroundPattern == SCENE;
+      return backgroundPattern == PICTURE;
     case schlieren::Coloring::None:
       break;
   }
   return false;
-}
-
-void vtkSchlierenFilter::SetBackgroundScene(vtkImageData* image, double distance)
-{
-  BackgroundScene& scene = this->Inside->Scene;
-  auto* bytes =
-    image ? vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetScalars()) : nullptr;
-  if (!bytes || bytes->GetNumberOfComponents() != 3)
-  {
-    if (scene.image)
-    {
-      scene = {};
-      this->Modified();
-    }
-    return;
-  }
-  const unsigned char* first = bytes->GetPointer(0);
-  const unsigned char* end = first + bytes->GetNumberOfValues();
-  const int* size = image->GetDimensions();
-  const bool isSame = scene.image && scene.image->width == size[0] &&
-    scene.image->height == size[1] && std::equal(first, end, scene.image->rgb.begin());
-  if (!isSame)
-  {
-    scene.image = std::make_shared<schlieren::RgbImage>(
-      schlieren::RgbImage{ size[0], size[1], { first, end } });
-  }
-  if (!isSame || scene.distance != distance)
-  {
-    scene.distance = distance;
-    this->Modified();
-  }
 }
 
 void vtkSchlierenFilter::SetPupil(double diameter, double focusDistance)

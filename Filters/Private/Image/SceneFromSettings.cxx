@@ -55,10 +55,6 @@ schlieren::BackgroundPattern backgroundFrom(
   const SchlierenSettings& settings, RgbImageReader& images)
 {
   schlieren::BackgroundPattern pattern;
-  if (settings.BackgroundPattern == SchlierenSettings::SCENE)
-  {
-    return pattern; // addBackground() sets it
-  }
   pattern.kind = static_cast<schlieren::PatternKind>(settings.BackgroundPattern);
   if (!(settings.BackgroundDistance < 0))
   {
@@ -296,32 +292,6 @@ void addObjects(
   if (scene.fringes.whiteLight)
   {
     scene.fringes.dispersion = dispersionOfGases(medium.choice().settings, scene.wavelength);
-  }
-}
-
-void addBackground(
-  schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background)
-{
-  if (!schlieren::isOfCamera(scene.cutoff) ||
-    settings.BackgroundPattern != SchlierenSettings::SCENE)
-  {
-    return;
-  }
-  if (!background.image)
-  {
-    throw std::runtime_error("BackgroundPattern is Scene, but what is behind the flow is not "
-                             "known: it is for flows that a "
-                             "view draws as Schlieren, in one process. Set BackgroundPattern to "
-                             "Dots, Stripes or Picture.");
-  }
-  schlieren::BackgroundPattern& pattern = scene.background;
-  pattern.kind = schlieren::PatternKind::Image;
-  pattern.image = background.image;
-  const double distance =
-    settings.BackgroundDistance < 0 ? background.distance : settings.BackgroundDistance;
-  if (!(distance < 0))
-  {
-    pattern.distance = distance;
   }
 }
 

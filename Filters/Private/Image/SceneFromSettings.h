@@ -19,13 +19,6 @@ class RgbImageReader;
 /// Bins along each axis of the histogram.
 constexpr int histogramBins = 256;
 
-/// The image of the view behind the flow.
-struct BackgroundScene
-{
-  std::shared_ptr<const schlieren::RgbImage> image; ///< null: unknown
-  double distance = -1;                             ///< data units; negative: one data depth
-};
-
 /// Converts settings to the tracer's scene. Validates only what is converted; the tracer validates
 /// the rest. Throws std::runtime_error with a message for the user.
 
@@ -40,10 +33,6 @@ schlieren::LightModel lightModelOf(const SchlierenSettings& settings);
 /// the dispersion for white light.
 void addObjects(
   schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumMaker& medium);
-
-/// Adds the image behind the flow, if the settings use it.
-void addBackground(
-  schlieren::Scene& scene, const SchlierenSettings& settings, const BackgroundScene& background);
 
 /// Turns the view to the plane of flat data if the default direction lies in it; see
 /// vtkSchlierenFilter::SetFaceFlatData(). `flatAxis`: across the plane, or -1.

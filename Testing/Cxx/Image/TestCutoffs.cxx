@@ -43,37 +43,3 @@ TEST(Cutoffs, ABackgroundImageFillsWhatIsSeen)
       color->GetComponent(pixels / 2 * pixels + pixels / 2, channel), expected[channel], 1.1);
   }
 }
-
-// What a view shows behind the flow: its bytes, where nothing bends light, and nothing is traced for another scene.
-TEST(Cutoffs, AScenesBytesAreKept)
-{
-  auto filter = benchWith(Filter::SCENE);
-  vtkNew<vtkImageData> scene;
-  scene->SetDimensions(pixels, pixels, 1);
-  scene->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  auto* bytes = vtkUnsignedCharArray::SafeDownCast(scene->GetPointData()->GetScalars());
-  for (vtkIdType i = 0; i < bytes->GetNumberOfValues(); ++i)
-  {
-    bytes->SetValue(i, static_cast<unsigned char>(i % 3 * 60 + i / (3 * pixels)));
-  }
-  filter->SetBackgroundScene(scene, -1);
-  filter->Update();
-  vtkDataArray* color = arrayOf(filter, "Color");
-  ASSERT_NE(color, nullptr);
-  ASSERT_EQ(color->GetNumberOfValues(), bytes->GetNumberOfValues());
-  for (vtkIdType i = 0; i < bytes->GetNumberOfValues(); ++i)
-  {
-    EXPECT_NEAR(color->GetComponent(i / 3, static_cast<int>(i % 3)), bytes->GetValue(i), 1) << i;
-  }
-
-  const vtkMTimeType time = filter->GetMTime();
-  filter->SetBackgroundScene(scene, -1);
-  EXPECT_EQ(filter->GetMTime(), time);
-  const vtkTypeInt64 rays = filter->GetTotalRaysTraced();
-  bytes->Fill(200);
-  filter->SetBackgroundScene(scene, 3);
-  EXPECT_GT(filter->GetMTime(), time);
-  filter->Update();
-  EXPECT_EQ(filter->GetTotalRaysTraced(), rays);
-  EXPECT_NEAR(arrayOf(filter, "Color")->GetComponent(0, 0), 200, 1);
-}

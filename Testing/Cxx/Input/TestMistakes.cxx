@@ -222,14 +222,6 @@ std::vector<Mistake> mistakes()
       },
       { "BackgroundImage", "no complete PNG" },
       [](Filter* f) { f->SetBackgroundPattern(Filter::DOTS); } },
-    { "ASceneThatNobodyKnows",
-      [](Filter* f)
-      {
-        f->SetCutoff(Filter::BACKGROUND_ORIENTED);
-        f->SetBackgroundPattern(Filter::SCENE);
-      },
-      { "BackgroundPattern is Scene", "Picture" },
-      [](Filter* f) { f->SetBackgroundPattern(Filter::DOTS); } },
     { "NanAmbient", [](Filter* f) { f->SetAmbientRefractivity(nan); }, { "ambient" },
       [](Filter* f) { f->SetAmbientRefractivity(0); } },
     { "NoLength", [](Filter* f) { f->SetLengthScale(0); }, { "LengthScale" },
