@@ -29,7 +29,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -72,10 +71,6 @@ struct Fringes
   bool finite = false; ///< else undisturbed light has no fringes
   double spacing = 0;  ///< data units on the film, positive; of finite fringes
   double angle = 0;    ///< degrees: direction in which the carrier's phase grows, from u to v
-  bool whiteLight =
-    false; ///< all wavelengths of equal energy, seen as the CIE's standard observer does
-  /// N at a wavelength (metres) by N at Scene::wavelength; of white light. Unset: 1.
-  std::function<double(double wavelength)> dispersion;
 };
 
 /// A disc in the plane where undisturbed light is a point, which delays and weakens what meets it (Zernike 1942).
@@ -158,7 +153,7 @@ struct Scene
   double exitRefractivity = airRefractivity;  ///< n - 1, of ExitInto::Custom
 
   /// Waves are for Cutoff::Shadowgraph, and of collimated light for KnifeEdge, BrightField, DarkField, GradedFilter,
-  /// PhaseContrast and Interferogram without white light: the light of each pixel is then that of a wave, for which there is one
+  /// PhaseContrast and Interferogram: the light of each pixel is then that of a wave, for which there is one
   /// ray in each pixel. All else of the image remains that of rays.
   LightModel lightModel = LightModel::Rays;
   double smoothingRadius =
@@ -227,8 +222,8 @@ struct Legend
 
 /// The legend of a scene that has been validated, for its sensitivity k > 0 (where it has one). A knife edge's, a graded
 /// filter's and a stop's goes from all of one end of their light to the other; a shadowgraph's from 0 to 2; an
-/// interferogram's from a fringe below to one above undisturbed light, in white light from three to three at
-/// Scene::wavelength. What is shown is the formula of the cutoff, without a carrier.
+/// interferogram's from a fringe below to one above undisturbed light. What is shown is the formula of the cutoff,
+/// without a carrier.
 Legend legendOf(const Scene& scene, double k);
 
 /// What a Bench has done so far: lets a caller (and the tests) see that nothing is done twice.

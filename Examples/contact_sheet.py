@@ -246,8 +246,7 @@ def take_tiles(take, frame, options, scratch):
 
     def fringe_tile(name, title, line, **settings):
         shot = take.shoot(Cutoff="Interferogram", **settings)
-        pixels = shot["Color"] if "Color" in shot.arrays else grey(shot["Intensity"], 1)
-        add(name, title, line, pixels, shot)
+        add(name, title, line, grey(shot["Intensity"], 1), shot)
         return shot
 
     wavelength = take.bench.Wavelength
@@ -260,7 +259,7 @@ def take_tiles(take, frame, options, scratch):
                 FringeAngle=90)
     fringe_tile("upright", "Finite fringes", f"{length(spacing)} apart, upright",
                 FringeSpacing=spacing, FringeAngle=0)
-    fringe_tile("white", "White light", "colours of the first few orders", WhiteLight=1)
+    fringe_tile("violet", "At 405 nm", "more fringes, and other ones but for the zeroth", Wavelength=405)
 
     away = 8 * pixel / strong
     dots = {"Cutoff": "Background Oriented", "BackgroundDistance": away}

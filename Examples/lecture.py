@@ -35,7 +35,7 @@ FIGURES = (
     ("4. Fringes count wavelengths", (
         ("infinite fringes", {"Cutoff": "Interferogram"}),
         ("finite fringes", {"Cutoff": "Interferogram", "FringeSpacing": 0.0008, "FringeAngle": 90}),
-        ("white light", {"Cutoff": "Interferogram", "WhiteLight": 1}))),
+        ("finite fringes, upright", {"Cutoff": "Interferogram", "FringeSpacing": 0.0008}))),
     ("5. One flow, three stops", (
         ("bright field", {"Cutoff": "Bright Field"}),
         ("dark field", {"Cutoff": "Dark Field"}),

@@ -117,7 +117,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
   std::string ColorFilterImage;
   double FringeSpacing = 0;
   double FringeAngle = 0;
-  bool WhiteLight = false;
   int BackgroundPattern = 0;
   double BackgroundDistance = -1;
   double BackgroundPeriod = 0;
@@ -167,7 +166,6 @@ struct SchlierenSettings : ViewSettings, AccuracySettings
     use("ColorFilterImage", &S::ColorFilterImage);
     use("FringeSpacing", &S::FringeSpacing);
     use("FringeAngle", &S::FringeAngle);
-    use("WhiteLight", &S::WhiteLight);
     use("BackgroundPattern", &S::BackgroundPattern);
     use("BackgroundDistance", &S::BackgroundDistance);
     use("BackgroundPeriod", &S::BackgroundPeriod);

@@ -14,7 +14,7 @@
  * Vectors have a third component, 0:
  * - `Intensity` (float, active scalars): see Cutoff; the luminance of a coloured image;
  * - `Color` (3 unsigned chars, then the active scalars), of coloured images: in sRGB with
- *   COLOR_FILTER, WhiteLight or a background's PICTURE;
+ *   COLOR_FILTER or a background's PICTURE;
  * - `Deflection` (3 floats): direction cosines along u and v of the emerging light; light bends
  *   towards higher index;
  * - `OpticalPathDifference` (double): metres, relative to undisturbed light;
@@ -31,8 +31,8 @@
  * (fraction of the rays at the cutoff's darkest or brightest level), `LightEmitted`, `LightOnFilm`
  * and `LightOutside` (behind the cutoff, in units of full light of all pixels; the first is the sum
  * of the others), `PatternPixel` (with BACKGROUND_ORIENTED: the side of a pixel where the pattern is, data units),
- * `FringeSpacing` (data units) and `FringeAngle` (degrees) of finite fringes, `Wavelength` (metres, of an INTERFEROGRAM without
- * WhiteLight), `AmbientRefractivity` and `ExitRefractivity`
+ * `FringeSpacing` (data units) and `FringeAngle` (degrees) of finite fringes, `Wavelength` (metres, of an INTERFEROGRAM),
+ * `AmbientRefractivity` and `ExitRefractivity`
  * (the values used), `RaysTraced`, `RaysLost` (trapped in the medium, turned back by it, or totally
  * reflected at the exit), `StepsTaken` (of all rays), `TraceSeconds` (0 without tracing), and the
  * accuracy: `MomentumDrift` (maximum relative error of |p| = n at the exit of refracted rays; else 0). For a
@@ -260,11 +260,6 @@ public:
   vtkSetMacro(FringeAngle, double);
   vtkGetMacro(FringeAngle, double);
 
-  /// Make the interferogram in white light, as the array Color. Default: off.
-  vtkSetMacro(WhiteLight, bool);
-  vtkGetMacro(WhiteLight, bool);
-  vtkBooleanMacro(WhiteLight, bool);
-
   /// Values of BackgroundPattern.
   enum BackgroundPatterns
   {
@@ -491,7 +486,7 @@ public:
   static bool CutoffHasFringes(int cutoff);
   static bool CutoffHasScreen(int cutoff);
   static bool CutoffHasBackground(int cutoff);
-  static bool CutoffHasColor(int cutoff, bool whiteLight, int backgroundPattern);
+  static bool CutoffHasColor(int cutoff, int backgroundPattern);
   bool HasOwnColor() const;
   ///@}
 

@@ -107,17 +107,7 @@ Cutoffs CutoffMaker::interferogram(const Scene& scene, double pixelSize)
     ? Carrier::of(fringes.spacing / pixelSize, fringes.angle,
         { 0.5 * (scene.view.width - 1), 0.5 * (scene.view.height - 1) })
     : Carrier{};
-  if (!fringes.whiteLight)
-  {
-    return Interferogram{ 1 / scene.wavelength, carrier };
-  }
-  const WhiteLight light = WhiteLight::of(scene.wavelength, fringes.dispersion, carrier);
-  if (!WhiteLightTable::canDo(light))
-  {
-    return light;
-  }
-  table_ = WhiteLightTable::colorsOf(light);
-  return WhiteLightTable{ { table_.data(), table_.size() }, carrier, scene.wavelength };
+  return Interferogram{ 1 / scene.wavelength, carrier };
 }
 
 Table CutoffMaker::linearImage(const std::shared_ptr<const RgbImage>& image)

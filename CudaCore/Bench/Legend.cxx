@@ -46,8 +46,7 @@ Legend emptyLegendOf(const Scene& scene, double k)
   }
   else if (technique.hasFringes)
   {
-    const double most = (scene.fringes.whiteLight ? 3 : 1) * scene.wavelength;
-    range(Legend::Quantity::Path, -most, most);
+    range(Legend::Quantity::Path, -scene.wavelength, scene.wavelength);
   }
   else if (technique.plane != RecordedPlane::Background)
   {

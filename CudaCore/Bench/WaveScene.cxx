@@ -58,12 +58,6 @@ std::string problemOfWaves(const Scene& scene, const Frame& frame)
     return std::string("LightModel is Waves, but Cutoff is ") + techniqueOf(scene.cutoff).name +
       ", of which no waves are made. Set Cutoff to another technique," + orRays(scene);
   }
-  if (techniqueOf(scene.cutoff).hasFringes && scene.fringes.whiteLight)
-  {
-    return std::string("LightModel is Waves, but white light has too many wavelengths. Set "
-                       "WhiteLight to off,") +
-      orRays(scene);
-  }
   const bool isDiverging = frame.pupil > 0 || scene.source.distance;
   const bool isPlain =
     scene.cutoff == Cutoff::Shadowgraph && scene.source.shape == SourceShape::Point;

@@ -29,20 +29,8 @@ SCHLIEREN_HD double sinPiByX(double x)
 /// sin(pi x) for x in -1/2 ... 1/2; error 4e-14.
 SCHLIEREN_HD double sinPi(double x) { return x * sinPiByX(x); }
 
-/// sin(pi x) / x for x in -1/2 ... 1/2, in single precision; error 3e-7.
-SCHLIEREN_HD float sinPiByX(float x)
-{
-  const float s = x * x;
-  float sum = 0.07722012898868064f;
-  sum = sum * s - 0.5980451741424171f;
-  sum = sum * s + 2.5500313772843572f;
-  sum = sum * s - 5.16770687892666f;
-  return sum * s + 3.1415925800447293f;
-}
-
-/// Added to a number and taken away again, it leaves the nearest whole one (|x| < 2^51 or 2^22).
+/// Added to a number and taken away again, it leaves the nearest whole one (|x| < 2^51).
 constexpr double wholes = 6755399441055744.; // 1.5 * 2^52
-constexpr float wholesOfFloat = 12582912.f;  // 1.5 * 2^23
 
 /// How far x is from the nearest whole number, -1/2 ... 1/2. Where x is too large to have a fraction, or not
 /// finite: 0.

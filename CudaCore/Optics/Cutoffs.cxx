@@ -12,8 +12,6 @@ namespace
 {
 
 const Carrier* carrierOf(const Interferogram& kind) { return &kind.carrier; }
-const Carrier* carrierOf(const WhiteLight& kind) { return &kind.carrier; }
-const Carrier* carrierOf(const WhiteLightTable& kind) { return &kind.carrier; }
 template <class Kind>
 const Carrier* carrierOf(const Kind&)
 {

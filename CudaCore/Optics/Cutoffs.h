@@ -10,7 +10,6 @@
 #include "Optics/NumericalSchlieren.h"
 #include "Optics/Pattern.h"
 #include "Optics/RayAtFilm.h"
-#include "Optics/WhiteLight.h"
 
 #include <type_traits>
 #include <variant>
@@ -29,9 +28,8 @@ struct Shadowgraph
 
 /// All that there are. Each turns a ray into light, 0 ... 1 in each of its channels: one, or linear red,
 /// green and blue.
-using Cutoffs =
-  std::variant<KnifeEdge, Shadowgraph, BrightField, DarkField, GradedFilter, ColorWheel, ColorImage,
-    Interferogram, WhiteLight, WhiteLightTable, Dots, Stripes, BackgroundImage, NumericalSchlieren>;
+using Cutoffs = std::variant<KnifeEdge, Shadowgraph, BrightField, DarkField, GradedFilter,
+  ColorWheel, ColorImage, Interferogram, Dots, Stripes, BackgroundImage, NumericalSchlieren>;
 
 inline int channelsOf(const Cutoffs& cutoff)
 {
@@ -41,7 +39,6 @@ inline int channelsOf(const Cutoffs& cutoff)
 /// Where a kind keeps its table, null if it has none.
 inline Table* tableOf(GradedFilter& kind) { return &kind.table; }
 inline Table* tableOf(ColorWheel& kind) { return &kind.linear; }
-inline Table* tableOf(WhiteLightTable& kind) { return &kind.colors; }
 inline Table* tableOf(ColorImage& kind) { return &kind.linear; }
 inline Table* tableOf(BackgroundImage& kind) { return &kind.image.linear; }
 template <class Kind>

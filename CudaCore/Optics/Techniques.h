@@ -43,7 +43,6 @@ enum class Coloring
 {
   None,
   Always,
-  InWhiteLight,      ///< of Fringes::whiteLight
   OfBackgroundImage, ///< where the pattern is PatternKind::Image
 };
 
@@ -71,8 +70,7 @@ constexpr std::array<Technique, 10> techniques = { {
   { Cutoff::DarkField, "Dark Field", 1, false, false, RecordedPlane::Focus, Coloring::None },
   { Cutoff::GradedFilter, "Graded Filter", 0.5, true, false, RecordedPlane::Focus, Coloring::None },
   { Cutoff::ColorFilter, "Color Filter", 1, false, false, RecordedPlane::Focus, Coloring::Always },
-  { Cutoff::Interferogram, "Interferogram", 0, false, true, RecordedPlane::Focus,
-    Coloring::InWhiteLight },
+  { Cutoff::Interferogram, "Interferogram", 0, false, true, RecordedPlane::Focus, Coloring::None },
   { Cutoff::Background, "Background Oriented", 0, false, false, RecordedPlane::Background,
     Coloring::OfBackgroundImage },
   { Cutoff::NumericalSchlieren, "Numerical Schlieren", 1, false, false, RecordedPlane::Focus,

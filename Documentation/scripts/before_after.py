@@ -34,7 +34,6 @@ PAIRS = (
     ("LightModel", "Rays", "Waves", {**SHADOW, "ScreenDistance": 0.2, "Wavelength": 532}),
     ("SourceShape", "Point", "Disc", {**SHADOW, "MirrorFocalLength": 1, "SourceWidth": 5, "SamplesPerPixel": 64}),
     ("FringeSpacing", 0, 0.0008, {**FRINGES, "FringeAngle": 90}),
-    ("WhiteLight", 0, 1, FRINGES),
     ("Symmetry", "None", "Axisymmetric", {**KNIFE, "KnifeEdgeAngle": 0}),
     ("BackgroundDistance", 0.02, 0.3, STRIPES),
     ("ViewDirection", [0, 0, -1], [0.9, 0, -0.4], KNIFE),

@@ -18,7 +18,7 @@ from load_schlieren import load_schlieren  # noqa: E402
 load_schlieren(globals())
 SIZE = (420, 300)
 BENCHES = ({"Cutoff": "Knife Edge", "KnifeEdgeAngle": 90}, {"Cutoff": "Shadowgraph"}, {"Cutoff": "Interferogram"},
-           {"Cutoff": "Bright Field"}, {"Cutoff": "Color Filter"}, {"Cutoff": "Interferogram", "WhiteLight": 1})
+           {"Cutoff": "Bright Field"}, {"Cutoff": "Color Filter"}, {"Cutoff": "Interferogram", "FringeSpacing": 0.0008})
 
 folder = sys.argv[1] if len(sys.argv) > 1 else "."
 jet = OpenDataFile(os.path.join(ROOT, "Testing", "Data", "ladenburg_jet_3d.vti"))

@@ -24,7 +24,6 @@ const std::vector<PresetSetting> defaults = {
   { "ColorFilterImage", 0, "" },
   { "FringeSpacing", 0, nullptr },
   { "FringeAngle", 0, nullptr },
-  { "WhiteLight", 0, nullptr },
   { "BackgroundPattern", Filter::DOTS, nullptr },
   { "BackgroundDistance", -1, nullptr },
   { "BackgroundPeriod", 0, nullptr },
@@ -68,8 +67,6 @@ const std::vector<BenchPreset>& benchPresets()
     preset("Interferogram, finite fringes",
       { { "Cutoff", Filter::INTERFEROGRAM, nullptr }, { "FringeSpacing", -10, nullptr },
         { "FringeAngle", 90, nullptr } }),
-    preset("Interferogram, white light",
-      { { "Cutoff", Filter::INTERFEROGRAM, nullptr }, { "WhiteLight", 1, nullptr } }),
     preset("Phase Contrast, laser", { { "Cutoff", Filter::PHASE_CONTRAST, nullptr } }),
     preset("Background Oriented, dots", { { "Cutoff", Filter::BACKGROUND_ORIENTED, nullptr } }),
   };

@@ -91,8 +91,7 @@ void ImageDisplay::applyToPhotograph(vtkSMProxy* representation, vtkPVArrayInfor
 double ImageDisplay::white(vtkSMProxy* filter)
 {
   const int cutoff = valueOf(filter, "Cutoff");
-  const bool isColored = Filter::CutoffHasColor(
-    cutoff, valueOf(filter, "WhiteLight") != 0, valueOf(filter, "BackgroundPattern"));
+  const bool isColored = Filter::CutoffHasColor(cutoff, valueOf(filter, "BackgroundPattern"));
   return isColored ? 0 : Filter::CutoffWhite(cutoff);
 }
 

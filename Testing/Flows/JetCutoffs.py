@@ -56,7 +56,6 @@ shoot("JetColorFilter", None, array="Color", Cutoff="Color Filter",
 
 shoot("JetInterferogram", Cutoff="Interferogram", Wavelength=546.1)
 shoot("JetFiniteFringes", Cutoff="Interferogram", Wavelength=546.1, FringeSpacing=1e-3)
-shoot("JetWhiteLight", array="Color", Cutoff="Interferogram", WhiteLight=1)
 
 shoot("JetBehindStripes", Cutoff="Background Oriented", BackgroundPattern="Stripes",
       BackgroundDistance=0.3)

@@ -12,7 +12,7 @@ from window_testing import FOLDER, ViewsSession
 OF_TECHNIQUE = {
     "Knife Edge": ["KnifeEdgeAngle", "CutoffOffset", "KMode", "Sensitivity"],
     "Shadowgraph": ["ScreenDistance"],
-    "Interferogram": ["Sensitivity", "FringeSpacing", "WhiteLight"],
+    "Interferogram": ["Sensitivity", "FringeSpacing"],
     "Background Oriented": ["Sensitivity", "BackgroundPattern", "BackgroundDistance", "BackgroundPeriod"],
 }
 CAMERA = ["FNumber", "SensorWidth"]

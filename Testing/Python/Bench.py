@@ -38,7 +38,7 @@ SETTINGS = {"Wavelength": 500.0, "Cutoff": "Color Filter", "KnifeEdgeAngle": 30.
             "KMode": "Bench", "KScale": 500.0, "MirrorFocalLength": 2.0,
             "SourceWidth": 0.5, "SourceLength": 5.0, "ColorFilterImage": FILTER,
             "FringeSpacing": 0.125, "FringeAngle": 45.0,
-            "WhiteLight": 1, "ScreenDistance": 3.0, "FocusOffset": 0.5, "SourceDistance": 30.0, "SourceShape": "Slit", "LightModel": "Waves",
+            "ScreenDistance": 3.0, "FocusOffset": 0.5, "SourceDistance": 30.0, "SourceShape": "Slit", "LightModel": "Waves",
             "PhasePlateDiameter": 0.5, "PhasePlateDelay": -0.25,
             "PhasePlateTransmission": 0.5, "BackgroundPattern": "Picture",
             "BackgroundDistance": 4.0, "BackgroundPeriod": 0.25,
@@ -120,7 +120,8 @@ del plain, made
 comes_back("bench.pvsm", script, check)
 
 # So do state files with properties that there are no more, without a word.
-GONE = ("InvertCutoff", "CutoffPosition", "HomogeneityTolerance", "FullWell", "BitDepth", "Bandwidth", "MaskedSide")
+GONE = ("InvertCutoff", "CutoffPosition", "HomogeneityTolerance", "FullWell", "BitDepth", "Bandwidth", "MaskedSide",
+        "WhiteLight")
 with open("bench.pvsm", encoding="utf-8") as file:
     older, count = re.subn(r'<Proxy group="filters" type="Schlieren" id="(\d+)"[^>]*>', lambda proxy: proxy[0] + "".join(
         f'<Property name="{name}" id="{proxy[1]}.{name}" number_of_elements="1"><Element index="0" value="1"/></Property>'

@@ -69,7 +69,7 @@ for shown, names in (
         (WITH_K | WITH_FRINGES | WITH_BACKGROUND, "Sensitivity"),
         (WITH_EDGE, "KnifeEdgeAngle CutoffOffset"),
         ({vtkSchlierenFilter.PHASE_CONTRAST}, "PhasePlateDiameter PhasePlateDelay PhasePlateTransmission"),
-        (WITH_FRINGES | {vtkSchlierenFilter.PHASE_CONTRAST}, "Wavelength"), (WITH_FRINGES, "FringeSpacing WhiteLight"), (WITH_FRINGES | WITH_BACKGROUND, "FringeAngle"),
+        (WITH_FRINGES | {vtkSchlierenFilter.PHASE_CONTRAST}, "Wavelength"), (WITH_FRINGES, "FringeSpacing"), (WITH_FRINGES | WITH_BACKGROUND, "FringeAngle"),
         (WITH_SCREEN, "ScreenDistance"), (set(CUTOFFS.values()) - WITH_SCREEN, "FocusOffset"),
         (WITH_BACKGROUND, "BackgroundPattern BackgroundDistance BackgroundPeriod BackgroundImage"),
         ({vtkSchlierenFilter.GRADED_FILTER}, "GradedFilter"), ({vtkSchlierenFilter.COLOR_FILTER}, "ColorFilterImage")):

@@ -125,7 +125,6 @@ column.GetClientSideObject().SetPreviewReduction(1)
 flow = Schlieren(Input=gaussian_column(16), Density=["POINTS", "rho"], ImageSize=[32, 32], LightModel="Waves",
                 Cutoff="Color Filter")
 for settings, words in (({}, "Cutoff to another technique"),
-                        ({"Cutoff": "Interferogram", "WhiteLight": 1}, "WhiteLight to off"),
                         ({"Cutoff": "Phase Contrast", "LightModel": "Rays", "ViewAngle": 30},
                          "ViewAngle to less (0 is parallel light), or Cutoff"),
                         ({"Cutoff": "Shadowgraph", "LightModel": "Waves"}, "ViewAngle to less"),

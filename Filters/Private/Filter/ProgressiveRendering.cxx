@@ -270,7 +270,10 @@ schlieren::Image vtkSchlierenFilter::Begin(
   field.lengthScale = this->LengthScale;
   schlieren::Scene scene =
     sceneFrom(this->SettingsFor(inside.Refractivity->FlatAxis), field.grid, inside.RgbImages);
-  addObjects(scene, this->GradedFilter, this->GetMaker());
+  if (scene.cutoff == schlieren::Cutoff::GradedFilter)
+  {
+    scene.gradedFilter = gradedFilterFrom(this->GradedFilter);
+  }
   if (inside.Pupil.aperture > 0)
   {
     scene.lens.aperture = inside.Pupil.aperture;

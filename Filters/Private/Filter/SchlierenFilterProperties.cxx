@@ -149,20 +149,11 @@ bool vtkSchlierenFilter::CutoffHasBackground(int cutoff)
   return techniqueOf(cutoff).plane == schlieren::RecordedPlane::Background;
 }
 
-bool vtkSchlierenFilter::CutoffHasColor(int cutoff, bool whiteLight, int backgroundPattern)
+bool vtkSchlierenFilter::CutoffHasColor(int cutoff, int backgroundPattern)
 {
-  switch (techniqueOf(cutoff).coloring)
-  {
-    case schlieren::Coloring::Always:
-      return true;
-    case schlieren::Coloring::InWhiteLight:
-      return whiteLight;
-    case schlieren::Coloring::OfBackgroundImage:
-      return backgroundPattern == PICTURE;
-    case schlieren::Coloring::None:
-      break;
-  }
-  return false;
+  const schlieren::Coloring coloring = techniqueOf(cutoff).coloring;
+  return coloring == schlieren::Coloring::Always ||
+    (coloring == schlieren::Coloring::OfBackgroundImage && backgroundPattern == PICTURE);
 }
 
 void vtkSchlierenFilter::SetPupil(double diameter, double focusDistance)
@@ -178,7 +169,7 @@ void vtkSchlierenFilter::SetPupil(double diameter, double focusDistance)
 
 bool vtkSchlierenFilter::HasOwnColor() const
 {
-  return CutoffHasColor(this->Cutoff, this->WhiteLight, this->BackgroundPattern);
+  return CutoffHasColor(this->Cutoff, this->BackgroundPattern);
 }
 
 void vtkSchlierenFilter::SetQuality(int quality)

@@ -204,37 +204,6 @@ bool usesWavelength(const MediumSettings& settings)
     std::any_of(names.begin(), names.end(), schlieren::findGas);
 }
 
-std::function<double(double)> dispersionOfGases(const MediumSettings& settings, double reference)
-{
-  if (kindOf(settings.IndexModel).gases == IndexGases::MoistAir)
-  {
-    const auto at = [](double wavelength) { return schlieren::MoistAir::at(wavelength).dry; };
-    return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };
-  }
-  if (kindOf(settings.IndexModel).gases == IndexGases::Water)
-  {
-    const auto at = [](double wavelength)
-    { return schlieren::waterRefractivity(293.15, wavelength); };
-    return [at, whole = at(reference)](double wavelength) { return at(wavelength) / whole; };
-  }
-  if (kindOf(settings.IndexModel).arrays == IndexArrays::Electrons)
-  {
-    if (settings.Arrays[MediumSettings::DensityArray].isNamed())
-    {
-      return nullptr; // electrons and gas disperse differently
-    }
-    return [reference](double wavelength) { return std::pow(wavelength / reference, 2); };
-  }
-  const std::vector<std::string> names = namesUsed(settings);
-  const schlieren::Gas* gas = names.empty() ? nullptr : schlieren::findGas(names.back());
-  if (!gas)
-  {
-    return nullptr;
-  }
-  return [gas, whole = gas->constantAt(reference)](double wavelength)
-  { return gas->constantAt(wavelength) / whole; };
-}
-
 std::string noteOnGases(const MediumSettings& settings)
 {
   std::string notes;

@@ -4,7 +4,6 @@
 
 #include "Schlieren.h"
 
-#include <functional>
 #include <string>
 
 struct MediumSettings;
@@ -35,12 +34,6 @@ double wavelengthOfGases(const MediumSettings& settings);
 
 /// Returns whether the refractivity depends on the wavelength: moist air, electrons, and gases chosen by name.
 bool usesWavelength(const MediumSettings& settings);
-
-/// Returns the ratio of the refractivity at a wavelength to that at `reference` (both in metres)
-/// for the gas of the index model: of a mixture, its background; of moist air, dry air, from whose
-/// dispersion that of vapour differs by percents. Null for unknown gases, and for electrons beside a gas.
-std::function<double(double wavelength)> dispersionOfGases(
-  const MediumSettings& settings, double reference);
 
 /// Returns a warning about gases whose constants were not measured at the wavelength; mostly empty.
 std::string noteOnGases(const MediumSettings& settings);

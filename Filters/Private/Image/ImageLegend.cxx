@@ -59,11 +59,6 @@ std::string labelOf(
     case Quantity::Light:
       return "light (undisturbed: 1)";
     case Quantity::Path:
-      if (scene.fringes.whiteLight)
-      {
-        unit = "m";
-        return "optical path";
-      }
       return "optical path in wavelengths of " +
         textOf("%.4g nm", scene.wavelength / metresPerNanometre);
     case Quantity::None:

@@ -209,10 +209,7 @@ void addColor(vtkImageData* output, const schlieren::Image& image)
 
 void addFringes(vtkImageData* output, const schlieren::Scene& scene)
 {
-  if (!scene.fringes.whiteLight)
-  {
-    addWithUnit(output, "Wavelength", scene.wavelength, "m");
-  }
+  addWithUnit(output, "Wavelength", scene.wavelength, "m");
   if (scene.fringes.finite)
   {
     addWithUnit(output, "FringeSpacing", scene.fringes.spacing, dataUnits);

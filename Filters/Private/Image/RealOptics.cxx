@@ -159,10 +159,8 @@ std::string sensitivityInWords(const SchlierenSettings& settings, double k, bool
 {
   if (techniqueOf(settings).hasFringes)
   {
-    return settings.WhiteLight
-      ? "white light: a fringe of each colour is its wavelength of optical path"
-      : "a fringe is " + textOf(settings.Wavelength, 4) +
-        " nm of optical path: Wavelength, in the group Medium";
+    return "a fringe is " + textOf(settings.Wavelength, 4) +
+      " nm of optical path: Wavelength, in the group Medium";
   }
   if (!usesK(settings) || !(k > 0))
   {

@@ -3,7 +3,6 @@
 #include "Image/SceneFromSettings.h"
 #include "Common/AvailableMemory.h"
 #include "Common/Threads.h"
-#include "Sources/MediumMaker.h"
 
 #include "Gas/GasChoices.h"
 #include "Image/Preview.h"
@@ -47,7 +46,6 @@ schlieren::Fringes fringesFrom(
     fringes.spacing = fringeSpacingFrom(settings, frame, height);
     fringes.angle = settings.FringeAngle;
   }
-  fringes.whiteLight = settings.WhiteLight;
   return fringes;
 }
 
@@ -132,6 +130,16 @@ schlieren::View viewFrom(const SchlierenSettings& settings, const schlieren::Gri
   return view;
 }
 
+/// Returns whether the default view direction lies in the plane of flat data.
+bool looksAlong(const ViewSettings& settings, int flatAxis)
+{
+  const ViewSettings byDefault;
+  return settings.FaceFlatData && (flatAxis == 0 || flatAxis == 1) &&
+    std::equal(settings.ViewDirection, settings.ViewDirection + 3, byDefault.ViewDirection);
+}
+
+} // namespace
+
 std::vector<double> gradedFilterFrom(vtkPiecewiseFunction* function)
 {
   if (!function || function->GetSize() == 0)
@@ -142,16 +150,6 @@ std::vector<double> gradedFilterFrom(vtkPiecewiseFunction* function)
   function->GetTable(0, 1, gradedFilterSamples, values.data());
   return values;
 }
-
-/// Returns whether the default view direction lies in the plane of flat data.
-bool looksAlong(const ViewSettings& settings, int flatAxis)
-{
-  const ViewSettings byDefault;
-  return settings.FaceFlatData && (flatAxis == 0 || flatAxis == 1) &&
-    std::equal(settings.ViewDirection, settings.ViewDirection + 3, byDefault.ViewDirection);
-}
-
-} // namespace
 
 schlieren::LightModel lightModelOf(const SchlierenSettings& settings)
 {
@@ -280,19 +278,6 @@ schlieren::Scene sceneFrom(
     makePreview(scene, frame, settings.PreviewReduction);
   }
   return scene;
-}
-
-void addObjects(
-  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumMaker& medium)
-{
-  if (scene.cutoff == schlieren::Cutoff::GradedFilter)
-  {
-    scene.gradedFilter = gradedFilterFrom(gradedFilter);
-  }
-  if (scene.fringes.whiteLight)
-  {
-    scene.fringes.dispersion = dispersionOfGases(medium.choice().settings, scene.wavelength);
-  }
 }
 
 } // namespace filters

@@ -5,7 +5,7 @@
 #include "Schlieren.h"
 
 #include <array>
-#include <memory>
+#include <vector>
 
 class vtkPiecewiseFunction;
 struct SchlierenSettings;
@@ -13,7 +13,6 @@ struct SchlierenSettings;
 namespace filters
 {
 
-class MediumMaker;
 class RgbImageReader;
 
 /// Bins along each axis of the histogram.
@@ -22,17 +21,15 @@ constexpr int histogramBins = 256;
 /// Converts settings to the tracer's scene. Validates only what is converted; the tracer validates
 /// the rest. Throws std::runtime_error with a message for the user.
 
-/// Converts everything that does not come from objects. `grid`: the medium's.
+/// Converts everything but the graded filter, which is an object. `grid`: the medium's.
 schlieren::Scene sceneFrom(
   const SchlierenSettings& settings, const schlieren::Grid& grid, RgbImageReader& images);
 
+/// Returns the transmission over the width of a graded filter; null, or without points: a straight line.
+std::vector<double> gradedFilterFrom(vtkPiecewiseFunction* function);
+
 /// Returns how light continues behind the flow: as LightModel says, but Phase Contrast is of waves alone.
 schlieren::LightModel lightModelOf(const SchlierenSettings& settings);
-
-/// Adds what comes from objects and the scene needs: the graded filter (null: a straight line) and
-/// the dispersion for white light.
-void addObjects(
-  schlieren::Scene& scene, vtkPiecewiseFunction* gradedFilter, const MediumMaker& medium);
 
 /// Turns the view to the plane of flat data if the default direction lies in it; see
 /// vtkSchlierenFilter::SetFaceFlatData(). `flatAxis`: across the plane, or -1.

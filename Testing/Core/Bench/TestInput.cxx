@@ -101,14 +101,6 @@ std::vector<Mistake> mistakes()
           s.fringes.spacing = 1;
           s.fringes.angle = nan;
         }) },
-    { "gas without dispersion", "dispersion",
-      fringes(
-        [=](Scene& s)
-        {
-          s.fringes.finite = false;
-          s.fringes.whiteLight = true;
-          s.fringes.dispersion = [=](double) { return nan; };
-        }) },
     { "negative histogram", "HistogramSize", [](Field&, Scene& s) { s.histogramSize = -1; } },
     { "huge histogram", "HistogramSize", [](Field&, Scene& s) { s.histogramSize = 1 << 30; } },
     { "negative source", "SourceWidth", [](Field&, Scene& s) { s.source.width = -1; } },

@@ -183,10 +183,6 @@ TEST_F(HostAndDeviceFilm, IsTheSameForEveryCutoff)
   check();
   scene.cutoff = Cutoff::Interferogram;
   check();
-  scene.fringes.finite = scene.fringes.whiteLight = true;
-  check();
-  scene.fringes.dispersion = [](double wavelength) { return 1 + 1e-8 / wavelength; };
-  check();
   scene.cutoff = Cutoff::Background;
   scene.background.image = image;
   for (const PatternKind kind : { PatternKind::Dots, PatternKind::Stripes, PatternKind::Image })

@@ -401,12 +401,6 @@ TEST(WaveStage, WhatCannotBeMadeIsAnError)
   };
   for (const Case& each :
     { Case{ [](Scene& scene) { scene.cutoff = Cutoff::ColorFilter; }, "Cutoff is Color Filter" },
-      Case{ [](Scene& scene)
-        {
-          scene.cutoff = Cutoff::Interferogram;
-          scene.fringes.whiteLight = true;
-        },
-        "WhiteLight" },
       Case{ [](Scene& scene) { scene.view.viewAngle = 40; }, "or LightModel to Rays" },
       Case{ [](Scene& scene)
         {

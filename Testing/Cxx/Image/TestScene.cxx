@@ -6,7 +6,6 @@
 #include "Image/RealOptics.h"
 #include "Image/RgbImages.h"
 #include "Image/SceneFromSettings.h"
-#include "Sources/MediumMaker.h"
 
 #include "vtkMath.h"
 #include "vtkPiecewiseFunction.h"
@@ -39,7 +38,7 @@ protected:
   schlieren::Scene scene()
   {
     schlieren::Scene made = sceneFrom(this->filter->GetSettings(), this->grid, this->images);
-    addObjects(made, this->filter->GetGradedFilter(), this->medium->GetMaker());
+    made.gradedFilter = gradedFilterFrom(this->filter->GetGradedFilter());
     return made;
   }
 
@@ -57,7 +56,6 @@ protected:
   }
 
   vtkNew<Filter> filter;
-  vtkNew<vtkRefractiveIndex> medium;
   schlieren::Grid grid;
   RgbImageReader images;
 };
@@ -153,8 +151,6 @@ TEST_F(Scene, SensitivityOfAnInterferogramIsItsWavelength)
   EXPECT_EQ(
     sensitivityInWords(this->filter->GetSettings(), 0).find("a fringe is 500 nm of optical path"),
     0u);
-  this->filter->SetWhiteLight(true);
-  EXPECT_EQ(sensitivityInWords(this->filter->GetSettings(), 0).find("white light"), 0u);
 }
 
 TEST_F(Scene, OpticsThatCannotBeAreRefused)
@@ -295,46 +291,6 @@ TEST_F(Scene, FringesHaveASpacingOrANumber)
   EXPECT_DOUBLE_EQ(this->scene().fringes.spacing, 0.6); // the image is 6 high
   this->filter->SetFringeSpacing(0.125);
   EXPECT_DOUBLE_EQ(this->scene().fringes.spacing, 0.125);
-}
-
-// Constants and equations of the models are tested on their own: here, that they are the right ones.
-TEST_F(Scene, WhiteLightDispersesAsTheGasDoes)
-{
-  this->filter->SetCutoff(Filter::INTERFEROGRAM);
-  this->filter->SetWavelength(589.3);
-  EXPECT_FALSE(this->scene().fringes.whiteLight);
-  this->filter->SetWhiteLight(true);
-  EXPECT_TRUE(this->scene().fringes.whiteLight);
-  const auto atBlue = [this]()
-  {
-    const auto dispersion = this->scene().fringes.dispersion;
-    return dispersion ? dispersion(450e-9) : 1;
-  };
-  const auto ofGas = [](const char* name)
-  {
-    const schlieren::Gas* gas = schlieren::findGas(name);
-    return gas->constantAt(450e-9) / gas->constantAt(589.3e-9);
-  };
-  EXPECT_DOUBLE_EQ(atBlue(), ofGas("air"));
-  this->medium->SetGladstoneDaleConstant(2.3e-4);
-  EXPECT_EQ(atBlue(), 1);
-  this->medium->SetGladstoneDaleConstant(0);
-  this->medium->SetGas("argon");
-  EXPECT_DOUBLE_EQ(atBlue(), ofGas("argon"));
-  EXPECT_GT(atBlue(), 1.005);
-  this->medium->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE_MIXTURE);
-  this->medium->AddMixtureGas("helium");
-  EXPECT_DOUBLE_EQ(atBlue(), ofGas("air")); // as the background
-  this->medium->SetBackgroundGas("2.3e-4");
-  EXPECT_EQ(atBlue(), 1);
-  this->medium->SetBackgroundGas("nitrogen");
-  EXPECT_DOUBLE_EQ(atBlue(), ofGas("nitrogen"));
-  this->medium->SetIndexModel(vtkRefractiveIndex::CIDDOR);
-  const auto air = [](double wavelength)
-  { return schlieren::ciddorRefractivity(300, 1e5, 0, 450, wavelength); };
-  EXPECT_NEAR(atBlue(), air(450e-9) / air(589.3e-9), 1e-12);
-  this->medium->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
-  EXPECT_EQ(atBlue(), 1);
 }
 
 TEST_F(Scene, BackgroundIsAPattern)
