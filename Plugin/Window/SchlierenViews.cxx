@@ -67,19 +67,6 @@ vtkSMProxy* drawnAsSchlieren(pqOutputPort* flow, pqView* view)
   return shown && imagesInViews::isDrawn(shown) ? shown->getProxy() : nullptr;
 }
 
-/// Renders a view once, with complete images.
-void renderCompletely(pqRenderView* view, vtkSMProxy* representation)
-{
-  SCOPED_UNDO_EXCLUDE();
-  vtkSMPropertyHelper slice(representation, "SchlierenTimeSlice");
-  const double before = slice.GetAsDouble();
-  slice.Set(0.);
-  representation->UpdateVTKObjects();
-  view->forceRender();
-  slice.Set(before);
-  representation->UpdateVTKObjects();
-}
-
 /// Makes the views of a flow.
 class Builder
 {
@@ -121,12 +108,13 @@ public:
         }
         break;
       case Arrangement::ThreeImages:
-        this->addImages({ "Knife Edge", "Shadowgraph", "Interferogram" }, "Cutoff",
-          { Filter::KNIFE_EDGE, Filter::SHADOWGRAPH, Filter::INTERFEROGRAM });
-        break;
-      case Arrangement::Comparison:
-        this->addImages({ "Straight Rays", "Refracted Rays" }, "PathModel",
-          { Filter::STRAIGHT, Filter::REFRACTED });
+        this->Views = addViewsBeside(this->Scene, { "Knife Edge", "Shadowgraph", "Interferogram" });
+        for (std::size_t i = 0; i < this->Views.size(); ++i)
+        {
+          constexpr int cutoffs[] = { Filter::KNIFE_EDGE, Filter::SHADOWGRAPH,
+            Filter::INTERFEROGRAM };
+          this->addImage(i, [&](vtkSMProxy* bench) { setInt(bench, "Cutoff", cutoffs[i]); });
+        }
         break;
     }
     if (this->Images.empty())
@@ -139,14 +127,7 @@ public:
     {
       this->useCameraOfScene();
     }
-    if (arrangement == Arrangement::Comparison)
-    {
-      this->useOneKOf(1);
-    }
-    else
-    {
-      this->Views[0]->forceRender(); // finds the ambient refractivity
-    }
+    this->Views[0]->forceRender(); // finds the ambient refractivity
     showAsVolume(this->Flow, this->Scene, this->Defaults, benchOf(this->Images[0]));
     pqActiveObjects::instance().setActiveView(this->Views[0]);
     pqActiveObjects::instance().setActivePort(this->Flow);
@@ -194,17 +175,6 @@ private:
       proxy->UpdateVTKObjects();
     }
     addUndoStep(setBack, cameraSetter(proxy, proxy));
-  }
-
-  /// Draws the flow as Schlieren in a view for each value of a property.
-  void addImages(
-    const std::vector<QString>& names, const char* property, const std::vector<int>& values)
-  {
-    this->Views = addViewsBeside(this->Scene, names);
-    for (std::size_t i = 0; i < this->Views.size(); ++i)
-    {
-      this->addImage(i, [&](vtkSMProxy* bench) { setInt(bench, property, values[i]); });
-    }
   }
 
   /// Draws the flow as Schlieren in a view.
@@ -272,33 +242,6 @@ private:
     }
   }
 
-  /// Sets the automatic k of one image in all.
-  void useOneKOf(std::size_t image)
-  {
-    vtkSMProxy* bench = benchOf(this->Images[image]);
-    const int cutoff = vtkSMPropertyHelper(bench, "Cutoff").GetAsInt();
-    if (!Filter::CutoffHasK(cutoff) ||
-      vtkSMPropertyHelper(bench, "KMode").GetAsInt() > Filter::K_AUTOMATIC_KEPT)
-    {
-      return;
-    }
-    renderCompletely(this->Views[image], this->Images[image]);
-    bench->UpdatePropertyInformation(bench->GetProperty("KScaleUsed"));
-    const double k = vtkSMPropertyHelper(bench, "KScaleUsed").GetAsDouble();
-    for (vtkSMProxy* shown : this->Images)
-    {
-      {
-        SCOPED_UNDO_EXCLUDE();
-        vtkSMPropertyHelper(benchOf(shown), "LockedK").Set(0.); // a given k is none that is kept
-        benchOf(shown)->UpdateVTKObjects();
-      }
-      SM_SCOPED_TRACE(PropertiesModified).arg("proxy", benchOf(shown));
-      setInt(benchOf(shown), "KMode", Filter::K_VALUE);
-      vtkSMPropertyHelper(benchOf(shown), "KScale").Set(k);
-      benchOf(shown)->UpdateVTKObjects();
-    }
-  }
-
   pqOutputPort* Flow;
   vtkSMProxy* Pattern;
   FlowDefaults Defaults;
@@ -343,8 +286,7 @@ SchlierenViews::Result SchlierenViews::add(
   }
   QApplication::setOverrideCursor(Qt::WaitCursor);
   const auto cursor = qScopeGuard([] { QApplication::restoreOverrideCursor(); });
-  static const char* const names[] = { "Add Schlieren View", "Three Images",
-    "Compare Straight and Refracted Rays" };
+  static const char* const names[] = { "Add Schlieren View", "Three Images" };
   const HeldInput input;
   traceLoading(flow->getServer());
   BEGIN_UNDO_SET(names[static_cast<int>(arrangement)]);

@@ -16,8 +16,7 @@ namespace SchlierenViews
 enum class Arrangement
 {
   OneImage,
-  ThreeImages, ///< knife edge, shadowgraph and interferogram
-  Comparison   ///< straight and refracted rays at one k
+  ThreeImages ///< knife edge, shadowgraph and interferogram
 };
 
 /// An empty cell of a layout; none: beside the 3-D view.

@@ -150,11 +150,7 @@ std::vector<pqRenderView*> addViewsBeside(pqRenderView* scene, const std::vector
   const int left =
     isCrowded ? layout->SplitVertical(0, 0.5) : layout->SplitHorizontal(cellOfScene, 0.5);
   std::vector<int> cells = { left + 1 };
-  if (isCrowded && names.size() == 2)
-  {
-    cells = { left, left + 1 };
-  }
-  else if (isCrowded) // the first one as wide as the tab
+  if (isCrowded) // the first one as wide as the tab
   {
     const int below = layout->SplitHorizontal(left + 1, 0.5);
     cells = { left, below, below + 1 };
@@ -162,11 +158,8 @@ std::vector<pqRenderView*> addViewsBeside(pqRenderView* scene, const std::vector
   else if (names.size() > 1)
   {
     const int right = layout->SplitVertical(left + 1, 0.5);
-    cells = { right, right + 1 };
-    if (names.size() > 2)
-    {
-      cells.insert(cells.begin() + 1, layout->SplitVertical(left, 0.5) + 1); // below the scene
-    }
+    cells = { right, layout->SplitVertical(left, 0.5) + 1,
+      right + 1 }; // the second one below the scene
   }
   // Activates the 3-D view, because ParaView's toolbar shows the axes of the first active view,
   // which traces would not survive while that is made.

@@ -45,10 +45,6 @@ pqSchlierenToolBar::pqSchlierenToolBar(QWidget* parentObject)
   this->addArrangement("ThreeImages", "&Three Images",
     "Show the selected flow behind a knife edge, as a shadowgraph and as an interferogram",
     Arrangement::ThreeImages);
-  this->addArrangement("Comparison", "&Compare Straight and Refracted Rays",
-    "Show what refraction changes: images of the selected flow by straight and by refracted rays "
-    "at one sensitivity",
-    Arrangement::Comparison);
   this->addMenu();
   pqApplicationCore::instance()->interfaceTracker()->addInterface(this);
   for (QWidget* widget : QApplication::allWidgets())

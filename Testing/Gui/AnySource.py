@@ -6,7 +6,7 @@ a view that draws as Schlieren, a filter."""
 from window_testing import BENCH, MESH, PROPERTIES, ViewsSession
 
 user = ViewsSession()
-for button in ("OneImage", "ThreeImages", "Comparison"):
+for button in ("OneImage", "ThreeImages"):
     user.check_button(button, "enabled", "false")
 
 user.python('SetActiveSource(Sphere(registrationName="ball"))')
@@ -111,7 +111,7 @@ table = Histogram(Input=mesh, registrationName="table")
 table.UpdatePipeline()
 SetActiveSource(table)
 """)
-user.press("Comparison")
+user.press("OneImage")
 user.check_message("'table' has no cells to send light through. Select data that fill a volume.")
 user.python("""
 nothing = Threshold(Input=FindSource("mesh"), registrationName="nothing")

@@ -27,7 +27,7 @@ smtrace.stop_trace()
 assert "CreateView" not in traced and "Schlieren" not in traced and "Split" not in traced, traced
 """
 
-for button in ("OneImage", "ThreeImages", "Comparison"):
+for button in ("OneImage", "ThreeImages"):
     user.python(BEFORE)
     user.press(button)
     user.check_message(f"The server localhost:{port} has not loaded the plugin Schlieren, so no image can be "
