@@ -82,6 +82,9 @@ struct MediumSettings
 
   std::array<ArraySelection, 6> Arrays;
   std::vector<TransferCurve> TransferFunctions;
+  int Symmetry = -1;
+  int SymmetryAxis = 0;
+  double SymmetryOrigin[3] = { 0, 0, 0 };
   double Depth = 0;
   int Outside = 0;
   bool DoublePrecision = false;
@@ -103,9 +106,6 @@ struct MediumSettings
   std::vector<std::string> Fields;
   std::vector<double> FieldRanges;
   double RefractivityScale = 3e-4;
-  int Symmetry = -1;
-  int SymmetryAxis = 0;
-  double SymmetryOrigin[3] = { 0, 0, 0 };
   // end
 
   /// Returns whether the gas is one of the user's own: not what is there before a choice.
@@ -141,6 +141,9 @@ struct MediumSettings
     using S = MediumSettings;
     use("Arrays", &S::Arrays);
     use("TransferFunctions", &S::TransferFunctions);
+    use("Symmetry", &S::Symmetry);
+    use("SymmetryAxis", &S::SymmetryAxis);
+    use("SymmetryOrigin", &S::SymmetryOrigin);
     use("Depth", &S::Depth);
     use("Outside", &S::Outside);
     use("DoublePrecision", &S::DoublePrecision);
@@ -162,9 +165,6 @@ struct MediumSettings
     use("Fields", &S::Fields);
     use("FieldRanges", &S::FieldRanges);
     use("RefractivityScale", &S::RefractivityScale);
-    use("Symmetry", &S::Symmetry);
-    use("SymmetryAxis", &S::SymmetryAxis);
-    use("SymmetryOrigin", &S::SymmetryOrigin);
     // end
   }
 

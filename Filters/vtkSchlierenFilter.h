@@ -136,6 +136,35 @@ public:
   void GetMediumBounds(double bounds[6]) const;
 
   // setters: rest
+  /// Values of Symmetry.
+  enum Symmetries
+  {
+    SYMMETRY_AUTO = -1,
+    SYMMETRY_NONE = 0,
+    SYMMETRY_AXISYMMETRIC = 1
+  };
+
+  /// What 2-D data are a section of. Default: Auto.
+  vtkSetClampMacro(Symmetry, int, SYMMETRY_AUTO, SYMMETRY_AXISYMMETRIC);
+  vtkGetMacro(Symmetry, int);
+
+  /// Values of SymmetryAxis.
+  enum SymmetryAxes
+  {
+    AXIS_AUTO = 0,
+    AXIS_X = 1,
+    AXIS_Y = 2,
+    AXIS_Z = 3
+  };
+
+  /// The direction of the axis of symmetry. Default: Auto.
+  vtkSetClampMacro(SymmetryAxis, int, AXIS_AUTO, AXIS_Z);
+  vtkGetMacro(SymmetryAxis, int);
+
+  /// A point of the axis of symmetry. Default: 0 0 0.
+  vtkSetVector3Macro(SymmetryOrigin, double);
+  vtkGetVector3Macro(SymmetryOrigin, double);
+
   /// Metres per unit of the data's coordinates; 0.001 for data in millimetres. Default: 1.
   vtkSetMacro(LengthScale, double);
   vtkGetMacro(LengthScale, double);
