@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/FieldFromImage.h"
 
-#include "Common/AvailableMemory.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -22,11 +20,10 @@ namespace
 {
 
 constexpr const char* maskName = "vtkValidPointMask";
-constexpr const char* transparentName = "TransparentPointMask";
 
-vtkUnsignedCharArray* bytesOf(vtkImageData* image, const char* name)
+vtkUnsignedCharArray* maskOf(vtkImageData* image)
 {
-  return vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetArray(name));
+  return vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetArray(maskName));
 }
 
 } // namespace
@@ -57,33 +54,20 @@ schlieren::Field fieldFrom(vtkImageData* refractivity)
   {
     field.offset = offset->GetComponent(0, 0);
   }
-  auto* mask = bytesOf(refractivity, maskName);
+  auto* mask = maskOf(refractivity);
   field.valid = mask ? mask->GetPointer(0) : nullptr;
   field.version = refractivity->GetMTime();
   return field;
 }
 
-void mergeMasks(vtkImageData* refractivity)
+void dropFullMask(vtkImageData* refractivity)
 {
-  vtkPointData* arrays = refractivity->GetPointData();
-  auto* valid = bytesOf(refractivity, maskName);
-  const auto count = static_cast<std::size_t>(valid->GetNumberOfValues());
-  if (std::memchr(valid->GetPointer(0), 0, count) == nullptr)
+  auto* valid = maskOf(refractivity);
+  if (std::memchr(valid->GetPointer(0), 0, static_cast<std::size_t>(valid->GetNumberOfValues())) ==
+    nullptr)
   {
-    arrays->RemoveArray(maskName);
+    refractivity->GetPointData()->RemoveArray(maskName);
   }
-  else if (auto* outside = bytesOf(refractivity, transparentName))
-  {
-    vtkNew<vtkUnsignedCharArray> merged; // the others may belong to the input
-    merged->SetName(maskName);
-    setTuples(merged, valid->GetNumberOfValues());
-    std::transform(valid->GetPointer(0), valid->GetPointer(0) + count, outside->GetPointer(0),
-      merged->GetPointer(0),
-      [](unsigned char isValid, unsigned char isOutside)
-      { return isOutside ? schlieren::transparent : isValid; });
-    arrays->AddArray(merged);
-  }
-  arrays->RemoveArray(transparentName);
 }
 
 } // namespace filters

@@ -12,11 +12,10 @@ namespace filters
 /// Converts an image's geometry to the tracer's.
 schlieren::Grid gridFrom(vtkImageData* image);
 
-/// Wraps the image's arrays as the tracer's field. mergeMasks() has been called.
+/// Wraps the image's arrays as the tracer's field.
 schlieren::Field fieldFrom(vtkImageData* refractivity);
 
-/// Merges an image's two masks into one with the tracer's values. Removes a mask that is gas
-/// everywhere: it would cost memory (a fifth of the image's) and time.
-void mergeMasks(vtkImageData* refractivity);
+/// Removes a mask that is gas everywhere: it would cost memory (a fifth of the image's) and time.
+void dropFullMask(vtkImageData* refractivity);
 
 } // namespace filters

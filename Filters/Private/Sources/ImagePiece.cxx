@@ -28,15 +28,9 @@ constexpr double cellBySpacing = 0.5;
 /// Tolerance of indices, so that points halfway between two ranks are not missed.
 constexpr double rounding = 1e-6;
 
-schlieren::Place kindAt(const schlieren::Field& field, std::size_t point)
+bool isGasAt(const schlieren::Field& field, std::size_t point)
 {
-  const unsigned char valid = field.valid ? field.valid[point] : 1;
-  if (valid == schlieren::transparent)
-  {
-    return schlieren::Place::Window;
-  }
-  return valid != 0 && std::isfinite(valueAt(field, point)) ? schlieren::Place::Gas
-                                                            : schlieren::Place::Wall;
+  return (!field.valid || field.valid[point] != 0) && std::isfinite(valueAt(field, point));
 }
 
 /// Transforms a point to the axes that `direction` leads from.
@@ -108,11 +102,7 @@ ImagePiece::ImagePiece(
   this->IsKnown = this->knownOf(field);
   if (std::find(this->IsKnown.begin(), this->IsKnown.end(), 0) != this->IsKnown.end())
   {
-    this->Kinds.resize(this->IsKnown.size(), schlieren::Place::Gas);
-    for (std::size_t at = 0; at < this->Kinds.size(); ++at)
-    {
-      this->Kinds[at] = kindAt(field, at);
-    }
+    this->IsGas = this->IsKnown;
   }
   if (bodies)
   {
@@ -168,7 +158,7 @@ std::vector<unsigned char> ImagePiece::knownOf(const schlieren::Field& field) co
   std::vector<unsigned char> isKnown(volume(this->Points), 1);
   for (std::size_t at = 0; at < isKnown.size(); ++at)
   {
-    isKnown[at] = kindAt(field, at) == schlieren::Place::Gas ? 1 : 0;
+    isKnown[at] = isGasAt(field, at) ? 1 : 0;
   }
   return isKnown;
 }
@@ -204,10 +194,9 @@ double ImagePiece::ambientOf(std::vector<OuterValue> values)
   return schlieren::ambientOf(std::move(weighted));
 }
 
-schlieren::Place ImagePiece::kindOf(const Counts& point) const
+bool ImagePiece::isGas(const Counts& point) const
 {
-  return this->Kinds.empty() ? schlieren::Place::Gas
-                             : this->Kinds[this->all().index(point[0], point[1], point[2])];
+  return this->IsGas.empty() || this->IsGas[this->all().index(point[0], point[1], point[2])];
 }
 
 BoundaryFaces ImagePiece::faces() const
@@ -221,14 +210,13 @@ BoundaryFaces ImagePiece::faces() const
     corner, { { this->Spacing, this->Whole } },
     [&](std::size_t, const Counts& point)
     {
-      const schlieren::Place place = this->kindOf(
-        { point[0] - this->First[0], point[1] - this->First[1], point[2] - this->First[2] });
-      return place == schlieren::Place::Gas ? CellState::Gas
-        : place == schlieren::Place::Wall   ? CellState::Solid
-                                            : CellState::None;
+      return this->isGas(
+               { point[0] - this->First[0], point[1] - this->First[1], point[2] - this->First[2] })
+        ? CellState::Gas
+        : CellState::Solid;
     },
     Extent::Volume);
-  if (!this->Kinds.empty())
+  if (!this->IsGas.empty())
   {
     // Selects the points whose neighbours are all in the piece.
     CellBox inner = this->Own;
@@ -242,10 +230,9 @@ BoundaryFaces ImagePiece::faces() const
     forCells(inner.begin, inner.size(),
       [&](int i, int j, int k)
       {
-        if (const schlieren::Place kind = this->kindOf({ i, j, k }); kind != schlieren::Place::Gas)
+        if (!this->isGas({ i, j, k }))
         {
-          faces.addAround(0, { this->First[0] + i, this->First[1] + j, this->First[2] + k },
-            kind == schlieren::Place::Wall);
+          faces.addAround(0, { this->First[0] + i, this->First[1] + j, this->First[2] + k }, true);
         }
       });
   }
@@ -311,7 +298,7 @@ void ImagePiece::sample(const schlieren::Lattice& lattice, double* refractivity,
       const Counts point{ nearest[0][static_cast<std::size_t>(i)],
         nearest[1][static_cast<std::size_t>(j)], nearest[2][static_cast<std::size_t>(k)] };
       const bool isOwn = *std::min_element(point.begin(), point.end()) != ofOthers;
-      *found++ = isOwn && this->kindOf(point) == schlieren::Place::Gas ? 1 : 0;
+      *found++ = isOwn && this->isGas(point) ? 1 : 0;
     });
   if (!hasOwn)
   {
@@ -352,7 +339,7 @@ bool ImagePiece::holds(const Point& place) const
   {
     isOwn = isOwn && nearest[axis] >= this->Own.begin[axis] && nearest[axis] < this->Own.end[axis];
   }
-  return isOwn && this->kindOf(nearest) == schlieren::Place::Gas;
+  return isOwn && this->isGas(nearest);
 }
 
 } // namespace filters
