@@ -2,23 +2,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The C++ that follows from Plugin/*.xml: members with their defaults, visits, setters, getters and enumerations.
 
-A header has it between a line such as
+Filters/*.h.in become headers, in which it takes the place of lines such as
 
     // members: View             the members of a group of the panel, with their defaults
     // visits: StepSize, Gamma   use("StepSize", &S::StepSize), for these properties
     // values: KMode             the enumeration of a property
-    // setters: rest             setters and getters of what no other section of this file has
+    // setters: rest             setters and getters of what no other line of this file has
 
-and // end. `members` and `visits` of MediumSettings.h are those of RefractiveIndex.xml and of what Schlieren.xml has of
-the medium, which that file declares itself. What a header declares outside of its sections is left out there, and so is
-what a base class declares: a setter that does more than store a value is written by hand.
+`members` and `visits` of MediumSettings.h are those of RefractiveIndex.xml; what Schlieren.xml has of the medium, that
+file declares itself. What a header declares itself is left out there, and so is what a base class declares: a setter
+that does more than store a value is written by hand.
 """
 
 import re
 import textwrap
 
 WIDTH = 100
-SECTION = re.compile(r"^( *)// (members|visits|setters|values): (.*)\n(?:.*\n)*?^ *// end\n", re.MULTILINE)
+SECTION = re.compile(r"^( *)// (members|visits|setters|values): (.*)\n", re.MULTILINE)
 TYPES_OF_RANGES = {"double": "Double", "int": "Int"}
 TYPES = {"Double": "double", "Int": "int", "String": "std::string"}
 
@@ -123,7 +123,7 @@ def setters(item):
 
 
 def declares(text, item, what):
-    """Whether C++ outside of sections has a property's member, visit or setter."""
+    """Whether C++ that is written by hand has a property's member, visit or setter."""
     name = item.name
     if what == "members":
         return re.search(rf"^ +[\w:<>, ]+ {name}(\[\d\])?( = .*)?;", text, re.MULTILINE) is not None
@@ -133,7 +133,7 @@ def declares(text, item, what):
 
 
 def header(text, properties, bases=""):
-    """A header with its sections as they should be. `properties`: in order; `bases`: text that it follows."""
+    """A header of what stands in its template. `properties`: in order; `bases`: text that it follows."""
     by_hand = SECTION.sub("", text) + bases
     named = set()
     for _, what, chosen in SECTION.findall(text):
@@ -160,6 +160,6 @@ def header(text, properties, bases=""):
         for block in filter(None, blocks):
             lines += block + ([""] if what in ("setters", "values") else [])
         body = "".join(f"{indent}{line}\n" if line else "\n" for line in lines)
-        return f"{indent}// {what}: {chosen}\n{body}{indent}// end\n"
+        return body.rstrip("\n") + "\n"
 
     return SECTION.sub(replace, text)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the tables of Documentation/properties.md, photograph.md and wavefront.md, and C++ in Filters/*.h (see
+"""Writes the tables of Documentation/properties.md, photograph.md and wavefront.md, or the headers of Filters/*.h.in (see
 property_code.py), from Plugin/*.xml.
 
-    Utilities/property_tables.py            # write them
-    Utilities/property_tables.py --check    # fail where a file differs from them
+    Utilities/property_tables.py                     # write the tables
+    Utilities/property_tables.py --check             # fail where a page differs from them
+    Utilities/property_tables.py --headers FOLDER    # write the headers into a folder
 
 A table stands between <!-- table: GROUP --> and <!-- end -->, with what is too long for its cells below it; GROUP is the label of a property group, or its attribute table, or one of
 Inputs, Commands, Information and Others, the properties in no group. The rest of the page is written by hand.
@@ -14,6 +15,7 @@ Inputs, Commands, Information and Others, the properties in no group. The rest o
 import collections
 import difflib
 import os
+import pathlib
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -181,34 +183,40 @@ def page(text, properties):
     return result
 
 
-def wanted():
-    """What each file should be, by its name in the project."""
-    with open(PAGE, encoding="utf-8") as file:
-        made = {"Documentation/properties.md": page(file.read(), read())}
-    medium = read(FILES[:1])
-    image = {name: item for name, item in read(FILES[1:]).items() if name not in medium}
-    bases = ""
-    for names, properties in ((("MediumSettings.h", "vtkFlowAlgorithm.h"), medium),
-                              (("SchlierenSettings.h", "vtkSchlierenFilter.h"), image)):
-        for name in names:
-            name = f"Filters/{name}"
-            with open(os.path.join(ROOT, name), encoding="utf-8") as file:
-                made[name] = property_code.header(file.read(), properties, bases if properties is image else "")
-        bases = "".join(made.values())
-    for files, name, headers in ((PHOTOGRAPH_FILES, "photograph", ("PhotographSettings", "vtkCompareWithPhotograph")),
-                                 (WAVEFRONT_FILES, "wavefront", ("WavefrontSettings", "vtkWavefront"))):
-        properties, name = read(files), f"Documentation/{name}.md"
+def pages():
+    """What each page should be, by its name in the project."""
+    made = {}
+    for files, name in ((FILES, "properties"), (PHOTOGRAPH_FILES, "photograph"), (WAVEFRONT_FILES, "wavefront")):
+        name = f"Documentation/{name}.md"
         with open(os.path.join(ROOT, name), encoding="utf-8") as file:
-            made[name] = page(file.read(), properties)
-        for name in (f"Filters/{header}.h" for header in headers):
-            with open(os.path.join(ROOT, name), encoding="utf-8") as file:
-                made[name] = property_code.header(file.read(), properties)
+            made[name] = page(file.read(), read(files))
     return made
 
 
+def write_headers(folder):
+    """Makes the headers of Filters/*.h.in; leaves those alone that are there."""
+    medium = read(FILES[:1])
+    image = {name: item for name, item in read(FILES[1:]).items() if name not in medium}
+    bases = ""
+    for name, properties in (("MediumSettings", medium), ("vtkFlowAlgorithm", medium), ("SchlierenSettings", image),
+                             ("vtkSchlierenFilter", image), ("PhotographSettings", read(PHOTOGRAPH_FILES)),
+                             ("vtkCompareWithPhotograph", read(PHOTOGRAPH_FILES)),
+                             ("WavefrontSettings", read(WAVEFRONT_FILES)), ("vtkWavefront", read(WAVEFRONT_FILES))):
+        with open(os.path.join(ROOT, "Filters", f"{name}.h.in"), encoding="utf-8") as file:
+            made = property_code.header(file.read(), properties, bases if properties is image else "")
+        bases += made if properties is medium else ""
+        path = pathlib.Path(folder, f"{name}.h")
+        if not path.exists() or path.read_text(encoding="utf-8") != made:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(made, encoding="utf-8")
+
+
 def main():
+    if sys.argv[1:2] == ["--headers"]:
+        write_headers(sys.argv[2])
+        return
     differ = []
-    for name, text in wanted().items():
+    for name, text in pages().items():
         path = os.path.join(ROOT, name)
         with open(path, encoding="utf-8") as file:
             there = file.read()
