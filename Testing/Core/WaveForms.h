@@ -68,25 +68,6 @@ inline Numbers halfPlane(const Numbers& places, double wavelength, double distan
   return light;
 }
 
-/// Behind a slit |x| < halfWidth.
-inline Numbers slit(const Numbers& places, double halfWidth, double wavelength, double distance)
-{
-  Numbers upper, lower;
-  const double scale = std::sqrt(2 / (wavelength * distance));
-  for (const double x : places)
-  {
-    upper.push_back(scale * (x + halfWidth));
-    lower.push_back(scale * (x - halfWidth));
-  }
-  const std::vector<Complex> a = fresnelIntegrals(upper), b = fresnelIntegrals(lower);
-  Numbers light;
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    light.push_back(0.5 * std::norm(a[i] - b[i]));
-  }
-  return light;
-}
-
 /// Behind an opaque disc, at a distance from its axis (Fresnel's integral).
 inline double disc(double fromAxis, double radius, double wavelength, double distance)
 {

@@ -175,17 +175,6 @@ TEST_P(Extremes, VeryUnequalSpacings)
     along.deflection[2 * pixelOf(along, 30, 25)], 125 * slope, 125 * 2e-2 * std::abs(slope));
 }
 
-TEST_P(Extremes, SmallestGrid)
-{
-  const SampledField<float> medium(
-    cube(2, 1), [](double x, double y, double) { return 1e-4 + 1e-5 * x + 2e-5 * y; });
-  const Image image = Bench().render(medium.field, smallScene(GetParam()));
-  EXPECT_GT(image.raysTraced, 0);
-  const std::size_t centre = pixelOf(image, image.width / 2, image.height / 2);
-  EXPECT_GT(image.deflection[2 * centre], 0);
-  EXPECT_GT(image.deflection[2 * centre + 1], 0);
-}
-
 /// Light in noise of glass-like strength goes everywhere; it must come to an end and leave numbers.
 TEST_P(Extremes, StrongNoiseEndsAndStaysFinite)
 {

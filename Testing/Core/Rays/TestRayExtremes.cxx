@@ -229,56 +229,6 @@ TEST_P(RayExtremes, LightCrossesThinMatter)
   }
 }
 
-/// Where nothing bends there is no error that would limit a step.
-TEST_P(RayExtremes, AdaptiveCrossesWhatIsUniform)
-{
-  for (const double nu : { 0., 1e-3, 0.5, -0.5 })
-  {
-    for (const Precision precision : bothPrecisions)
-    {
-      for (const Interpolation interpolation : allInterpolations)
-      {
-        SCOPED_TRACE(std::to_string(nu) + " " + name(precision) + " " + name(interpolation));
-        SampledField<double> field(cube(17, 1), [&](double, double, double) { return nu; });
-        field.field.ambient = 0;
-        Scene scene = sceneOf(raysAround({ 0, 0, 0 }, 3, 3, 0.1));
-        scene.integrator = Integrator::Adaptive;
-        scene.precision = precision;
-        scene.interpolation = interpolation;
-        const Image image = Bench().render(field.field, scene);
-        EXPECT_EQ(image.raysLost, 0);
-        EXPECT_NEAR(image.opticalPathDifference[4], 2 * nu, 1e-6);
-      }
-    }
-  }
-}
-
-/// The tolerance is relative to what the medium bends, however little that is.
-TEST_P(RayExtremes, AdaptiveTracesTheFaintest)
-{
-  for (const Precision precision : bothPrecisions)
-  {
-    std::vector<double> contributions;
-    for (const double peak : { 1e-3, 1e-6, 1e-9, 1e-14, 1e-18 })
-    {
-      SCOPED_TRACE(std::string(name(precision)) + " " + std::to_string(std::log10(peak)));
-      SampledField<double> field(cube(25, 1),
-        [&](double x, double y, double z)
-        { return peak * std::exp(-4 * (x * x + y * y + z * z)); });
-      field.field.ambient = 0;
-      Scene scene = sceneOf(raysAround({ 0.3, 0.1, 0 }, 1, 1, 0.1));
-      scene.integrator = Integrator::Adaptive;
-      scene.precision = precision;
-      const Image image = Bench().render(field.field, scene);
-      EXPECT_EQ(image.raysLost, 0);
-      contributions.push_back(image.deflection[0] / peak);
-      // The ball's line integral, with a tenth of the gradient's error and of what the box cuts off.
-      EXPECT_NEAR(contributions.back() / (-std::sqrt(pi) * 4 * 0.3 * std::exp(-4 * 0.1)), 1, 0.02);
-      EXPECT_NEAR(contributions.back() / contributions.front(), 1, 2e-3);
-    }
-  }
-}
-
 /// Light that is guided in zigzags of ever steeper angle, up to going nowhere at all: what takes too long
 /// is abandoned and counted, after a number of steps that is bounded.
 void RayExtremes::expectTrapped(Integrator integrator) const

@@ -30,14 +30,6 @@ double openFraction(double place, double spacing, double edge)
 
 } // namespace
 
-TEST(Waves, FastLengthsHaveSmallFactors)
-{
-  EXPECT_EQ(fastLength(1), 1);
-  EXPECT_EQ(fastLength(7), 8);
-  EXPECT_EQ(fastLength(1001), 1024);
-  EXPECT_EQ(fastLength(2401), 2430);
-}
-
 TEST(Waves, SpectrumOfAShiftedPointIsAWave)
 {
   ComplexField field(15, 8);
@@ -96,22 +88,6 @@ TEST(Waves, HalfPlane)
         0.25, 2e-3);
     }
   }
-}
-
-TEST(Waves, Slit)
-{
-  const double distance = 0.2, width = fresnelWidth(green, distance), spacing = width / 32;
-  const double halfWidth = 1.53 * width;
-  const Numbers x = places(16 * 32, spacing);
-  std::vector<Complex> field;
-  for (const double place : x)
-  {
-    field.push_back(openFraction(-std::abs(place), spacing, -halfWidth));
-  }
-  const Numbers exact = slit(x, halfWidth, green, distance);
-  EXPECT_LT(
-    rms(propagated(field, spacing, distance, 1), exact), 1.8e-3); // which the band limit makes
-  EXPECT_LT(rms(propagated(field, spacing, distance, 2), exact), 3e-4);
 }
 
 TEST(Waves, SpotOfArago)
@@ -220,20 +196,6 @@ Numbers behindPhaseGrating(double amplitude, double distance)
 
 } // namespace
 
-TEST(Waves, GratingIsImagedAtTheDistanceOfTalbot)
-{
-  const double talbot = green / (1 - std::sqrt(1 - std::pow(green / period, 2)));
-  std::vector<Complex> field;
-  Numbers light;
-  for (const double x : gratingPlaces())
-  {
-    field.push_back(0.6 + 0.4 * std::cos(2 * pi * x / period));
-    light.push_back(std::norm(field.back()));
-  }
-  EXPECT_LT(rms(propagated(field, period / perPeriod, talbot), light), 1e-11);
-  EXPECT_GT(rms(propagated(field, period / perPeriod, talbot / 4), light), 0.1);
-}
-
 TEST(Waves, OrdersOfAPhaseGratingAreBesselFunctions)
 {
   for (const double amplitude : { 0.1, 1., 10. })
@@ -262,26 +224,6 @@ TEST(Waves, OrdersOfAPhaseGratingAreBesselFunctions)
   }
 }
 
-TEST(Waves, WeakPhaseIsSeenByTheSineOfItsDistance)
-{
-  const double amplitude = 0.03;
-  const auto contrast = [&](double distance)
-  {
-    const Numbers x = gratingPlaces(), light = behindPhaseGrating(amplitude, distance);
-    double sum = 0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-      sum += 2 * light[i] * std::cos(2 * pi * x[i] / period) / static_cast<double>(x.size());
-    }
-    return sum;
-  };
-  const double distance = 0.05,
-               linear = 2 * amplitude * std::sin(pi * green * distance / (period * period));
-  // What linear theory leaves out is -0.38 A^2.
-  EXPECT_NEAR(contrast(distance) / linear, 1, 4e-4);
-  EXPECT_LT(std::abs(contrast(period * period / green)), 1e-5);
-}
-
 TEST(Waves, FoldIsTheSquareOfAirysFunction)
 {
   const double distance = 0.5, c = 200, half = 8e-3, k = 2 * pi / green;
@@ -307,19 +249,4 @@ TEST(Waves, FoldIsTheSquareOfAirysFunction)
     }
   }
   EXPECT_LT(rms(seen, exact), 1e-3 * rms(exact, Numbers(exact.size(), 0)));
-}
-
-TEST(Waves, DoNotDependOnThreads)
-{
-  const auto light = [](int threads)
-  {
-    ComplexField field(90, 75);
-    for (std::size_t i = 0; i < field.values.size(); ++i)
-    {
-      field.values[i] = std::polar(1., 0.1 * std::sin(static_cast<double>(i * i % 101)));
-    }
-    propagate(field, { green, 0.01, 1e-5 }, threads);
-    return field.values;
-  };
-  EXPECT_EQ(light(1), light(3));
 }

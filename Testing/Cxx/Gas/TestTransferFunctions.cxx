@@ -5,10 +5,8 @@
 #include "Fixtures.h"
 
 #include "vtkAppendFilter.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkWeakPointer.h"
 
 #include <limits>
 
@@ -138,56 +136,6 @@ TEST(TransferFunctions, RangesMayBeGivenAndClamp)
     1e-14);
 }
 
-TEST(TransferFunctions, OfCells)
-{
-  auto image = cube(9);
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    addCellArray(image, names[i].c_str(), fields[i]);
-  }
-  auto filter = mean(image, names);
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    const double ranges[5][2] = { { -1, 1 }, { 95e3, 105e3 }, { 280, 320 }, { -1e-9, 1e-9 },
-      { -1007, -993 } };
-    filter->AddFieldRange(ranges[i][0]);
-    filter->AddFieldRange(ranges[i][1]);
-  }
-  addCurves(filter);
-  EXPECT_LT(largestError(filter, curvedMean), rounding);
-}
-
-// What is left out does not stretch the ranges either.
-TEST(TransferFunctions, BlocksThatLackAFieldAreLeftOut)
-{
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  for (int i = 0; i < 3; ++i)
-  {
-    auto block = cube(5);
-    block->SetOrigin(2 * i - 1, -1, -1);
-    addPointArray(block, "A", [](const Vec& x) { return x[0]; });
-    if (i < 2)
-    {
-      addPointArray(block, "B", [](const Vec& x) { return x[1]; });
-    }
-    blocks->SetBlock(static_cast<unsigned>(i), block);
-  }
-  auto filter = mean(blocks, { "A", "B" });
-  EXPECT_LT(largestError(
-              filter, [](const Vec& x) { return scale * ((1 + x[0]) / 4 + (1 + x[1]) / 2) / 2; }),
-    1e-5);
-  EXPECT_EQ(refractivityOf(filter).size(), 2u * 125); // the third block has none
-
-  filter = mean(blocks, { "A", "none" });
-  expectOneMessage(
-    filter.Get(), [](auto*) {}, { "no array 'none'", "Fields", "A" },
-    [](auto* self)
-    {
-      self->ClearFields();
-      self->AddField("A");
-    });
-}
-
 TEST(TransferFunctions, HiddenAndNotFiniteValuesDoNotStretchTheRange)
 {
   auto image = cube(9);
@@ -213,14 +161,6 @@ TEST(TransferFunctions, AFieldThatIsTheSameEverywhereCountsAsZero)
   EXPECT_LT(
     largestError(mean(image, { "same", "A" }), [](const Vec& x) { return scale * (1 + x[0]) / 4; }),
     1e-14);
-}
-
-TEST(TransferFunctions, RangesNearTheLargestNumbers)
-{
-  auto image = cube(5);
-  addPointArray(image, "A", [](const Vec& x) { return 1.7e308 * x[0]; });
-  EXPECT_LT(
-    largestError(mean(image, { "A" }), [](const Vec& x) { return scale * (1 + x[0]) / 2; }), 1e-14);
 }
 
 // Against vtkPiecewiseFunction itself, in places that are no grid points of the table.
@@ -265,28 +205,6 @@ TEST(TransferFunctions, CurvesAreReadWithinTheirBound)
   // Nodes beyond 0 to 1, and only one.
   EXPECT_LT(largestDifference(curve({ { -1, -1 }, { 3, 3 } }), none), rounding);
   EXPECT_LT(largestDifference(curve({ { 0.5, 0.7 } }), none), rounding);
-}
-
-TEST(TransferFunctions, AFunctionWithoutPointsIsAStraightLine)
-{
-  auto filter = mean(fiveFields(), { "A" });
-  filter->AddTransferFunction(vtkNew<vtkPiecewiseFunction>());
-  EXPECT_LT(largestError(filter, [](const Vec& x) { return scale * (1 + x[0]) / 2; }), 1e-14);
-}
-
-TEST(TransferFunctions, AreReferencedAndReleased)
-{
-  vtkWeakPointer<vtkPiecewiseFunction> watched;
-  auto filter = mean(fiveFields(), { "A" });
-  {
-    auto function = curve({ { 0, 1 }, { 1, 0 } });
-    watched = function;
-    filter->AddTransferFunction(function);
-  }
-  ASSERT_NE(watched, nullptr);
-  EXPECT_LT(largestError(filter, [](const Vec& x) { return scale * (1 - x[0]) / 2; }), rounding);
-  filter->ClearTransferFunctions();
-  EXPECT_EQ(watched, nullptr);
 }
 
 TEST(TransferFunctions, Mistakes)

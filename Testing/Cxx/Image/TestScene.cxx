@@ -62,34 +62,6 @@ protected:
 
 } // namespace
 
-TEST_F(Scene, IsByDefaultThatOfTheTracer)
-{
-  const schlieren::Scene made = this->scene();
-  const schlieren::Scene none;
-  EXPECT_EQ(made.cutoff, none.cutoff);
-  EXPECT_EQ(made.cutoffOffset, none.cutoffOffset);
-  EXPECT_EQ(made.kScale, none.kScale);
-  EXPECT_EQ(made.screenDistance, none.screenDistance);
-  EXPECT_EQ(made.focusOffset, none.focusOffset);
-  EXPECT_EQ(made.source.distance, none.source.distance);
-  EXPECT_EQ(made.source.shape, none.source.shape);
-  EXPECT_EQ(made.source.width, none.source.width);
-  EXPECT_EQ(made.smoothingRadius, none.smoothingRadius);
-  EXPECT_EQ(made.memoryBudget, none.memoryBudget);
-  EXPECT_EQ(made.histogramSize, 256);
-}
-
-TEST_F(Scene, HasWhatIsSet)
-{
-  this->filter->SetCutoffOffset(0.25);
-  this->filter->SetFocusOffset(-0.5);
-  this->filter->SetSmoothingRadius(3.5);
-  const schlieren::Scene made = this->scene();
-  EXPECT_EQ(made.cutoffOffset, 0.25);
-  EXPECT_EQ(made.focusOffset, -0.5);
-  EXPECT_EQ(made.smoothingRadius, 3.5);
-}
-
 // k = f / a, whatever KScale says.
 TEST_F(Scene, SensitivityFollowsFromOptics)
 {

@@ -84,13 +84,6 @@ std::vector<double> progressOf(vtkSchlierenFilter* filter)
 
 } // namespace
 
-TEST(TimeSlices, AreNoneWhereTheLimitIsLong)
-{
-  auto filter = smallBench(columnImage());
-  constexpr double anHour = 3600;
-  EXPECT_EQ(updateInSlices(filter, anHour), 1);
-}
-
 TEST(TimeSlices, TheLimitIsNoModification)
 {
   auto filter = smallBench(columnImage());
@@ -332,45 +325,6 @@ TEST(TimeSlices, RefineLeavesTheMediumToUpdates)
   EXPECT_EQ(fresh->GetImageCount(), 0);
 }
 
-TEST(TimeSlices, AnotherInputInTheMidstMakesAnotherImage)
-{
-  auto image = columnImage();
-  auto filter = smallBench(image);
-  filter->SetTimeLimit(shortest);
-  filter->Update();
-  image->GetPointData()->GetArray("N")->SetComponent(2345, 0, 3e-4);
-  image->GetPointData()->GetArray("N")->Modified();
-  filter->Refine();
-  updateInSlices(filter);
-  auto fresh = smallBench(image);
-  fresh->Update();
-  expectSameImage(filter, fresh);
-  EXPECT_EQ(filter->GetMediumBuilds(), 2);
-}
-
-TEST(TimeSlices, ANewKnifeEdgeInTheMidstNeedsNoTracing)
-{
-  auto image = columnImage();
-  auto whole = smallBench(image);
-  whole->Update();
-  auto filter = smallBench(image);
-  filter->SetImageSize(40, 40);
-  filter->Update();
-  const vtkTypeInt64 rays = filter->GetTotalRaysTraced();
-  filter->SetSamplesPerPixel(4);
-  filter->SetTimeLimit(shortest);
-  for (int angle = 1; angle < 30; ++angle)
-  {
-    filter->SetKnifeEdgeAngle(angle);
-    filter->Update();
-    filter->Refine();
-    filter->Update();
-  }
-  updateInSlices(filter);
-  EXPECT_NEAR(
-    static_cast<double>(filter->GetTotalRaysTraced()) / static_cast<double>(rays), 4 / 3., 0.02);
-}
-
 TEST(TimeSlices, AMistakeInTheMidstLeavesNothing)
 {
   auto filter = smallBench(columnImage());
@@ -524,37 +478,6 @@ TEST(TimeSlices, WhatIsStoppedIsOneTimeStep)
   fresh->SetKMode(vtkSchlierenFilter::K_VALUE);
   atTime(fresh, 2);
   expectSameImage(filter, fresh);
-}
-
-// An array that the image from before does not have.
-TEST(TimeSlices, ColouredImageHasColourAtOnce)
-{
-  auto filter = smallBench(columnImage());
-  filter->Update();
-  filter->SetCutoff(vtkSchlierenFilter::COLOR_FILTER);
-  filter->SetStepSize(0.5);
-  filter->SetTimeLimit(shortest);
-  filter->Update();
-  EXPECT_FALSE(filter->GetFinished());
-  EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("Color"));
-}
-
-TEST(TimeSlices, AWarningIsGivenOnce)
-{
-  auto image = cube(12);
-  addPointArray(
-    image, "N", [](const Vec& x) { return std::abs(x[2]) < 0.2 ? std::nan("") : 1e-4; });
-  auto filter = smallBench(image);
-  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filter));
-  EXPECT_GT(updateInSlices(filter), 3);
-  EXPECT_EQ(complaints->Warnings.size(), 1u);
-  filter->SetViewDirection(-0.1, 0, -1);
-  filter->SetParallelScale(0.1);
-  updateInSlices(filter);
-  EXPECT_EQ(complaints->Warnings.size(), 2u);
-  filter->SetPreviewReduction(2); // the whole image says it
-  filter->Update();
-  EXPECT_EQ(complaints->Warnings.size(), 2u);
 }
 
 TEST(TimeSlices, ShowNoProgressButThatOfTheMedium)

@@ -60,66 +60,6 @@ TEST(GasBoundary, ProfileInItsCGridIsAWall)
     2 * (pi * far * far / 2 + 2 * far * (far - 1)) + pi * far + 2 * (far - 1) + 2 * far, 5);
 }
 
-TEST(GasBoundary, PipeIsAllWindow)
-{
-  // With an axis where cells collapse.
-  auto pipe = curvilinear(9, 33, 11,
-    [](double r, double phi, double x) {
-      return Vec{ 5 * x, r * std::cos(2 * pi * phi), r * std::sin(2 * pi * phi) };
-    });
-  const double round = 32 * 2 * std::sin(pi / 32) * 5, ends = 32 * std::sin(2 * pi / 32);
-  expectAreasWherever(pipe, 0, round + ends);
-}
-
-TEST(GasBoundary, TubeWithinAPipeIsAWall)
-{
-  auto pipe = curvilinear(9, 33, 11,
-    [](double r, double phi, double x)
-    {
-      const double radius = 0.2 + 0.8 * r;
-      return Vec{ 5 * x, radius * std::cos(2 * pi * phi), radius * std::sin(2 * pi * phi) };
-    });
-  const double perimeter = 32 * 2 * std::sin(pi / 32), area = 16 * std::sin(2 * pi / 32);
-  expectAreasWherever(pipe, 0.2 * perimeter * 5, perimeter * 5 + 2 * area * 0.96);
-}
-
-TEST(GasBoundary, StepInAChannelIsAWall)
-{
-  for (const bool isForward : { true, false })
-  {
-    const Data channel = blocks({ 40, 20, 8 }, { 4, 2, 1 },
-      [&](const Vec& x) { return x[1] > 0.5 || (isForward ? x[0] < 1 : x[0] > 1); });
-    const double top = isForward ? 3 : 1;
-    const double all = 2 * (4 * 2 + 4 * 1 + 2 * 1) - 2 * 0.5 * top;
-    expectAreasWherever(asPoints(channel), top + 0.5, all - top - 0.5);
-  }
-}
-
-TEST(GasBoundary, HoleInABoxIsAWall)
-{
-  const Data closed = blocks({ 10, 10, 10 }, { 1, 1, 1 },
-    [](const Vec& x) {
-      return std::max({ std::abs(x[0] - 0.5), std::abs(x[1] - 0.5), std::abs(x[2] - 0.5) }) > 0.2;
-    });
-  expectAreasWherever(asPoints(closed), 6 * 0.16, 6);
-  const Data through = blocks({ 10, 10, 10 }, { 1, 1, 1 },
-    [](const Vec& x) { return std::max(std::abs(x[0] - 0.5), std::abs(x[1] - 0.5)) > 0.2; });
-  expectAreasWherever(asPoints(through), 4 * 0.4, 6 - 2 * 0.16);
-}
-
-TEST(GasBoundary, FinOnAPlateIsAWall)
-{
-  for (const double end : { 0.7, 1. }) // as far as the outlet
-  {
-    const Data data = blocks({ 20, 20, 20 }, { 1, 1, 1 },
-      [&](const Vec& x)
-      { return x[0] < 0.3 || x[0] > end || x[2] > 0.5 || std::abs(x[1] - 0.5) > 0.1; });
-    const double length = end - 0.3, front = (end < 1 ? 2 : 1) * 0.2 * 0.5;
-    const double wall = 2 * length * 0.5 + length * 0.2 + front;
-    expectAreasWherever(asPoints(data), wall, 6 - length * 0.2 - (end < 1 ? 0 : 0.1));
-  }
-}
-
 TEST(GasBoundary, ModesChooseWhatIsOutside)
 {
   const std::vector<Data> mesh = { sphereMesh(10, 4) };
