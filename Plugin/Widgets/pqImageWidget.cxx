@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqImageWidget.h"
 
-#include "pqApplicationCore.h"
 #include "pqColorChooserButton.h"
 #include "pqCoreUtilities.h"
 #include "pqCutoffLightFetcher.h"
@@ -10,7 +9,6 @@
 #include "pqImagePainter.h"
 #include "pqImageView.h"
 #include "pqLiveEdit.h"
-#include "pqUndoStack.h"
 
 #include "vtkPVXMLElement.h"
 #include "vtkSMProperty.h"
@@ -23,7 +21,6 @@
 #include <QImageReader>
 #include <QImageWriter>
 #include <QLabel>
-#include <QPainter>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
@@ -41,8 +38,6 @@ constexpr int pauseOfStroke = 40; // milliseconds
 constexpr int usualBrush = 3;     // diameter, per cent of the filter's side
 
 QString strokeLabel() { return pqImageWidget::tr("Paint Color Filter"); }
-
-pqUndoStack* undoStack() { return pqApplicationCore::instance()->getUndoStack(); }
 
 } // namespace
 
@@ -116,10 +111,6 @@ void pqImageWidget::addPainting(QGridLayout* grid)
     tr("Brushes away what has been painted: the image that was loaded, or the wheel, comes "
        "back."));
   erase->setCheckable(true);
-  QAbstractButton* undo =
-    this->newButton("Undo", tr("&Undo"), tr("Takes the last stroke back, as Edit > Undo does."));
-  QAbstractButton* fill = this->newButton(
-    "Fill", tr("&Fill"), tr("Paints all of the filter, for instance white to begin with."));
   this->Light = this->newButton(
     "Light", tr("L&ight"), tr("Shows where on the filter light is: the rest is greyed."));
   this->Light->setCheckable(true);
@@ -134,10 +125,8 @@ void pqImageWidget::addPainting(QGridLayout* grid)
   grid->addWidget(brush, 1, 0);
   grid->addWidget(size, 1, 1);
   grid->addWidget(erase, 1, 2);
-  grid->addWidget(undo, 2, 0);
-  grid->addWidget(fill, 2, 1);
+  grid->addWidget(this->OnImage, 2, 0, 1, 2);
   grid->addWidget(this->Light, 2, 2);
-  grid->addWidget(this->OnImage, 3, 0, 1, 3);
 
   this->Painter = new pqImagePainter(this->proxy(), this);
   const auto setBrushSize = [this](int percent)
@@ -152,18 +141,8 @@ void pqImageWidget::addPainting(QGridLayout* grid)
     [this](const QColor& color) { this->Brush.Color = color; });
   QObject::connect(
     erase, &QAbstractButton::toggled, this, [this](bool on) { this->Brush.Erases = on; });
-  QObject::connect(fill, &QAbstractButton::clicked, this, &pqImageWidget::fill);
   QObject::connect(this->Save, &QAbstractButton::clicked, this, &pqImageWidget::save);
 
-  // Uses the window's undo stack, which has all strokes.
-  if (pqUndoStack* stack = undoStack())
-  {
-    const auto showUndo = [undo](bool can, const QString& label)
-    { undo->setEnabled(can && label == strokeLabel()); };
-    QObject::connect(stack, &pqUndoStack::stackChanged, this, showUndo);
-    QObject::connect(undo, &QAbstractButton::clicked, stack, &pqUndoStack::undo);
-    showUndo(stack->canUndo(), stack->undoLabel());
-  }
   this->followStrokes();
   this->Fetcher = new pqCutoffLightFetcher(this->proxy(), this);
   QObject::connect(
@@ -312,24 +291,6 @@ void pqImageWidget::endStroke()
   this->IsPainting = false;
   this->Fetcher->setWaiting(false);
   this->showImage();
-}
-
-void pqImageWidget::fill()
-{
-  this->beginStroke();
-  if (this->IsPainting)
-  {
-    if (this->Brush.Erases)
-    {
-      QPainter(&this->Canvas).drawImage(0, 0, this->Underneath);
-    }
-    else
-    {
-      this->Canvas.fill(this->Brush.Color);
-    }
-    this->showStroke();
-    this->endStroke();
-  }
 }
 
 void pqImageWidget::paintOnImage(bool on)

@@ -54,7 +54,6 @@ private Q_SLOTS:
   void brush(const QVector<QPointF>& places);
   void showStroke();
   void endStroke();
-  void fill();
   void paintOnImage(bool on);
   void showLight();
 
