@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkWavefront.h"
 
-#include "Common/NumberText.h"
 #include "Guarded.h"
 #include "Image/FieldData.h"
+#include "NumberText.h"
 #include "Ranks/Ranks.h"
 #include "Wavefront/BeamQuality.h"
 #include "Wavefront/Zernike.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqCutoffView.h"
 
-#include "UnitPrefix.h"
+#include "NumberText.h"
 #include "pqColorFilterImage.h"
 
 #include <QFontMetrics>

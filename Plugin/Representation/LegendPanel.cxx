@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LegendPanel.h"
 
-#include "UnitPrefix.h"
+#include "NumberText.h"
 #include "vtkSchlierenLegend.h"
 
 #include "vtkBrush.h"
@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace
@@ -41,25 +40,12 @@ constexpr float largestArea = 0.12f, largestOfLeast = 0.25f; // with all texts, 
 constexpr int largestFont = 10;                              // points
 constexpr int smallestFont = 8;                              // pixels, that are still legible
 
-std::string textOf(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 /// Returns the largest of 1, 2 and 5 times a power of ten that is not above a length.
 double roundLength(double length)
 {
   const double power = std::pow(10, std::floor(std::log10(length)));
   const double digits = length / power;
   return power * (digits >= 5 ? 5 : digits >= 2 ? 2 : 1);
-}
-
-std::string lengthInWords(double metres)
-{
-  const UnitPrefix prefix = unitPrefixOf(metres);
-  return textOf(metres / prefix.factor) + " " + prefix.name + "m";
 }
 
 } // namespace
@@ -92,7 +78,7 @@ std::string LegendPanel::GetLabelWithUnit() const
 std::string LegendPanel::TextAt(double value) const
 {
   const double most = std::max(std::abs(this->Range[0]), std::abs(this->Range[1]));
-  return textOf(this->Unit.empty() ? value : value / unitPrefixOf(most).factor);
+  return filters::textOf(this->Unit.empty() ? value : value / unitPrefixOf(most).factor, 3);
 }
 
 void LegendPanel::UseText(vtkContext2D* painter, int justification, bool isBold) const
@@ -202,7 +188,7 @@ void LegendPanel::DrawRuler(const Pencil& pencil, float bottom) const
   to->DrawRect(pencil.x(0), y, thin, heightOfRuler * pencil.Height);
   to->DrawRect(pencil.x(0) + width - thin, y, thin, heightOfRuler * pencil.Height);
   this->UseText(to, VTK_TEXT_LEFT);
-  pencil.Text(width / pencil.Height + padding, bottom, lengthInWords(length));
+  pencil.Text(width / pencil.Height + padding, bottom, filters::lengthInWords(length, 3));
 }
 
 float LegendPanel::HeightOf(const Layout& layout) const

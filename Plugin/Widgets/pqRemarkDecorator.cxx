@@ -3,7 +3,7 @@
 #include "pqRemarkDecorator.h"
 
 #include "InputOfFilter.h"
-#include "UnitPrefix.h"
+#include "NumberText.h"
 #include "WidgetRows.h"
 #include "pqPropertyWidget.h"
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/ArrayChoice.h"
 
-#include "Common/NumberText.h"
 #include "Common/Sentences.h"
 #include "Gas/ArrayNames.h"
 #include "Gas/Fractions.h"
 #include "Gas/GasChoices.h"
 #include "Gas/RefractivityModels.h"
+#include "NumberText.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/FlowChooser.h"
 
-#include "Common/NumberText.h"
 #include "Gas/Fractions.h"
 #include "Gas/RefractivityModels.h"
+#include "NumberText.h"
 #include "Schlieren.h"
 
 #include <algorithm>

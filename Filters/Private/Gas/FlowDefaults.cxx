@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlowDefaults.h"
 
-#include "Common/NumberText.h"
 #include "Gas/FlowChooser.h"
 #include "Gas/Fractions.h"
+#include "NumberText.h"
 
 #include <algorithm>
 #include <set>

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/GasChoices.h"
 
-#include "Common/NumberText.h"
 #include "Common/Sentences.h"
 #include "Gas/ArrayNames.h"
 #include "Gas/RefractivityModels.h"
 #include "MediumSettings.h"
+#include "NumberText.h"
 
 #include <algorithm>
 #include <cctype>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlowDefaults.h"
 
-#include "Common/NumberText.h"
 #include "Gas/ArrayNames.h"
 #include "Gas/RefractivityModels.h"
+#include "NumberText.h"
 
 using filters::ArrayName;
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Gas/RefractivityModels.h"
 
-#include "Common/NumberText.h"
+#include "NumberText.h"
 
 #include "Gas/ArrayChoice.h"
 #include "Gas/Fractions.h"

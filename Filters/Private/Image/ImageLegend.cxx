@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/ImageLegend.h"
 
-#include "Common/NumberText.h"
 #include "Image/FieldData.h"
 #include "Image/ImageStatus.h"
 #include "Image/RealOptics.h"
+#include "NumberText.h"
 #include "SchlierenSettings.h"
 
 #include "vtkDoubleArray.h"

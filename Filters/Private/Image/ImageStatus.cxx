@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/ImageStatus.h"
 
-#include "Common/NumberText.h"
+#include "NumberText.h"
 
 #include "Schlieren.h"
 

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/PixelInWords.h"
 
-#include "UnitPrefix.h"
-
-#include "Common/NumberText.h"
+#include "NumberText.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/RealOptics.h"
 
-#include "Common/NumberText.h"
+#include "NumberText.h"
 
 #include "SchlierenSettings.h"
 

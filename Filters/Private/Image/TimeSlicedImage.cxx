@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Image/TimeSlicedImage.h"
 
-#include "Common/NumberText.h"
+#include "NumberText.h"
 
 #include "Image/ImageStatus.h"
 #include "Sources/RefractivityCache.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/Flow.h"
 
-#include "Common/NumberText.h"
 #include "Common/Sentences.h"
 #include "Gas/GasChoices.h"
 #include "Input/BetweenPlanes.h"
@@ -11,6 +10,7 @@
 #include "Input/OneLayer.h"
 #include "Input/RefractivityValues.h"
 #include "Input/VoxelJumps.h"
+#include "NumberText.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"

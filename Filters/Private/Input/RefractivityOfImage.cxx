@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/RefractivityOfImage.h"
 
-#include "Common/NumberText.h"
 #include "Input/FlatData.h"
 #include "Input/RefractivityValues.h"
+#include "NumberText.h"
 
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Photograph/Description.h"
 
-#include "Common/NumberText.h"
+#include "NumberText.h"
 #include "PhotographSettings.h"
 
 #include <cmath>

@@ -4,12 +4,12 @@
 
 #include "Common/AvailableMemory.h"
 #include "Common/FieldFromImage.h"
-#include "Common/NumberText.h"
 #include "Common/Sentences.h"
 #include "Common/Threads.h"
 #include "Input/FlatBodies.h"
 #include "Input/FlatData.h"
 #include "Input/RefractivityOfImage.h"
+#include "NumberText.h"
 #include "Sources/AmrPiece.h"
 #include "Sources/Mirrored.h"
 #include "Sources/PreparedLeaves.h"
