@@ -68,7 +68,7 @@ with open("layer.pvd", "w") as series:
 layer = PVDReader(FileName="layer.pvd")
 layer.UpdatePipeline()
 schlieren = Schlieren(Input=layer, Density=["POINTS", "rho"], ViewDirection=[0, -1, 0], ViewUp=[0, 0, -1],
-                      FocalPoint=[0, thickness / 2, 0], ParallelScale=0.026, ImageSize=[208, 208])
+                      FocalPoint=[0, thickness / 2, 0], ParallelScale=0.026, ImageSize=[208, 208], Quality="Interactive")
 wavefront = Wavefront(Input=schlieren, ApertureDiameter=0.05, Wavelength=1064)
 
 # One row for each time step.

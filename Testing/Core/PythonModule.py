@@ -4,6 +4,7 @@
 
 import json
 import os
+import re
 import sys
 
 try:
@@ -64,3 +65,9 @@ for technique, image in images.items():
     with open(technique.lower().replace(" ", "_") + ".png", "rb") as file:
         assert file.read() == image.png()
     assert np.ptp(image.intensity) > 0.1, technique
+
+# What the page of the examples prints, of a density rho.
+with open(os.path.join(os.path.dirname(notebook), "..", "Documentation", "examples.md"), encoding="utf-8") as page:
+    (snippet,) = re.findall(r"^```python\n(.*?)^```", page.read(), re.DOTALL | re.MULTILINE)
+exec(snippet, {"rho": 1.2 + 20 * (y - 0.05) ** 2})
+assert os.path.getsize("x.png") > 100

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """What README, tutorial, examples and the pages by person print for a shell runs as it is printed, but with smaller images;
-what another test runs is listed here. Each script of the examples' table is run by a test."""
+what another test runs is listed here. Each script of the examples' table, and each Python script that a page prints, is run by a
+test."""
 
 import glob
 import os
@@ -90,5 +91,9 @@ for name in ("sphere", "jet"):
 for lines in re.findall(r"^```python\n(.*?)^```", read("Documentation/tutorial.md"), re.DOTALL | re.MULTILINE):
     assert lines in read("Examples/openfoam_jet.py"), lines
 tests = "".join(read(test) for test in glob.glob(os.path.join(SOURCE, "Testing", "*", "*.py")))
+for page in ["../README.md", *os.listdir(os.path.join(SOURCE, "Documentation"))]:
+    stem = page.removesuffix(".md")
+    if stem != page and "```python" in read(f"Documentation/{page}"):
+        assert re.search(rf'snippets\("{stem}"\)|\b{stem}\.md"', tests) or f'"{stem}"' in read("Testing/Demo/PageScripts.py"), page
 for script in re.findall(r"\(\.\./Examples/(\w+)(?:\.py)?\)", read("Documentation/examples.md")):
     assert script in tests, f"No test runs {script}"

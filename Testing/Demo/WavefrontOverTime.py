@@ -1,15 +1,21 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples/wavefront.py: each time step against NumPy's straight lines through the layer, and ParaView's means over them."""
+"""Examples/wavefront.py: each time step against NumPy's straight lines through the layer, and ParaView's means over them. The
+second script of Documentation/wavefront.md is a part of it."""
 
 import os
 import runpy
 
 import numpy as np
+from demo_testing import SOURCE, snippets
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-made = runpy.run_path(os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Examples", "wavefront.py"))
+EXAMPLE = os.path.join(SOURCE, "Examples", "wavefront.py")
+with open(EXAMPLE, encoding="utf-8") as file:
+    lines = file.read().splitlines()
+assert set(snippets("wavefront")[1].splitlines()) <= set(lines)
+made = runpy.run_path(EXAMPLE)
 numbers, of_all, steps, step = (made[name] for name in ("numbers", "of_all", "steps", "step"))
 assert np.allclose(numbers["Time"], np.arange(steps) * step)
 

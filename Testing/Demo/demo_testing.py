@@ -3,6 +3,7 @@
 """Runs the demo's Python part as a user does and takes its image apart."""
 
 import os
+import re
 import runpy
 import subprocess
 import sys
@@ -21,6 +22,12 @@ SCRIPT = os.path.join(SOURCE, "Utilities", "four_images", "main.py")
 sys.path.insert(0, os.path.dirname(SCRIPT))
 
 from sheet import layout  # noqa: E402
+
+
+def snippets(page):
+    """The Python scripts that a page of Documentation prints."""
+    with open(os.path.join(SOURCE, "Documentation", page + ".md"), encoding="utf-8") as file:
+        return re.findall(r"^```python\n(.*?)^```", file.read(), re.DOTALL | re.MULTILINE)
 
 
 def run_demo(*arguments):

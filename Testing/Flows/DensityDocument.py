@@ -98,6 +98,7 @@ check_near(n, eval(sea, {"S": S, "T": T}), 1e-7)
 
 # Each bench gives an image, here a small one.
 for bench in benches:
+    bench.Quality = "Interactive"
     bench.ImageSize = [32, 32]
     bench.Outside = "Passes"
     assert np.ptp(image_array(bench, "OpticalPathDifference")) > 0

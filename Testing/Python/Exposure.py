@@ -1,20 +1,25 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The exposure of Documentation/time.md, by ParaView's filters: a shock that moves while light falls on the film."""
+"""The exposure of Documentation/time.md, by ParaView's filters as the page prints them: a shock that moves while light falls on
+the film."""
+
+import os
+import re
 
 import numpy as np
 from paraview import simple
 from plugin_testing import CONSTANT, EVERY_VOXEL, Schlieren, image_array, output
 from series_testing import write_series
 
-WIDTH, SPEED, DEPTH = 0.1, 1, 2
-STEP, FIRST, LAST = 1 / 16, 4, 12  # between time steps, and the two steps between which the shutter is open
+WIDTH, SPEED, DEPTH = 0.1, 2.5e5, 2
+STEP, FIRST, LAST = 1e-7, 10, 30  # between time steps, and the two steps between which the shutter is open
+MIDDLE, BETWEEN = 20 * STEP, 2    # of that time; images from one time step to the next
 K = 200
 
 
 def density(x, time):
-    """It is at x = 0 at the time 0.5."""
-    return 1 + 0.5 * (1 - np.tanh((x - SPEED * (time - 0.5)) / WIDTH))
+    """It is at x = 0 in the middle of the time."""
+    return 1 + 0.5 * (1 - np.tanh((x - SPEED * (time - MIDDLE)) / WIDTH))
 
 
 def truth(x, begin, end):
@@ -26,17 +31,17 @@ def places(image):
     return image.GetOrigin()[0] + np.arange(image.GetDimensions()[0]) * image.GetSpacing()[0]
 
 
-write_series("shock.pvd", [STEP * i for i in range(17)], 64, lambda x, y, z, time: density(x, time))
+write_series("shock.pvd", [STEP * i for i in range(LAST + 1)], 64, lambda x, y, z, time: density(x, time))
 flow = simple.PVDReader(FileName="shock.pvd")
 flow.UpdatePipeline()
 
-BETWEEN = 4  # images from one time step to the next
-steps = simple.ExtractTimeSteps(Input=flow, SelectionMode="Select Time Range", TimeStepRange=[FIRST, LAST])
-instants = simple.TemporalInterpolator(Input=steps, DiscreteTimeStepInterval=STEP / BETWEEN)
-instants.UpdatePipelineInformation()
-bench = Schlieren(Input=instants, Density=["POINTS", "rho"], ImageSize=[96, 8], ParallelScale=0.08, FocalPoint=[0, 0, 0],
-                  KMode="Value", KScale=K, **EVERY_VOXEL)
-exposed = simple.TemporalStatistics(Input=bench, ComputeMinimum=0, ComputeMaximum=0, ComputeStandardDeviation=0)
+with open(os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Documentation", "time.md"), encoding="utf-8") as page:
+    (snippet,) = re.findall(r"^```python\n(.*?)^```", page.read(), re.DOTALL | re.MULTILINE)
+names = {**vars(simple), "Schlieren": Schlieren, "flow": flow}
+exec(snippet, names)
+instants, bench, exposed = names["instants"], names["schlieren"], names["exposed"]
+simple.SetProperties(bench, ImageSize=[96, 8], ParallelScale=0.08, FocalPoint=[0, 0, 0], KMode="Value", KScale=K, **EVERY_VOXEL)
+simple.SetProperties(exposed, ComputeMinimum=0, ComputeMaximum=0, ComputeStandardDeviation=0)
 
 light = image_array(exposed, "Intensity_average")[4]
 x = places(output(exposed))
@@ -49,7 +54,7 @@ blurred = np.ptp(x[light < (0.5 + light.min()) / 2])
 pixel = x[1] - x[0]
 assert abs(blurred - SPEED * (end - begin)) < 1.5 * pixel, blurred
 # At an instant it is narrower, and darker.
-bench.UpdatePipeline(0.5)
+bench.UpdatePipeline(MIDDLE)
 instant = image_array(bench, "Intensity")[4]
 assert np.ptp(x[instant < (0.5 + instant.min()) / 2]) < 0.4 * blurred and instant.min() < light.min() - 0.1
 
