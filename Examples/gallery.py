@@ -50,8 +50,7 @@ def page():
         name, (title, paragraph) = example.__name__, title_and_text(example)
         text += f"\n## {title}\n\n![{title}](images/example_{name}.jpg)\n\n{textwrap.fill(paragraph, 130)}\n\n"
         text += f"```python\n{script(example)}```\n"
-    with open(os.path.join(ROOT, "Documentation", "gallery.md"), encoding="utf-8") as file:
-        return "".join((text, *file.read().partition("\n## More images")[1:]))
+    return text
 
 
 def main(folder, chosen):
