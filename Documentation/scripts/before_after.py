@@ -37,27 +37,47 @@ PAIRS = (
     ("Symmetry", "None", "Axisymmetric", {**KNIFE, "KnifeEdgeAngle": 0}),
     ("BackgroundDistance", 0.02, 0.3, STRIPES),
     ("ViewDirection", [0, 0, -1], [0.9, 0, -0.4], KNIFE),
-    ("FNumber", 0, 2, {**KNIFE, "KnifeEdgeAngle": 0, "ViewAngle": 10, "LensFocalLength": 50, "SamplesPerPixel": 64}))
+    ("FNumber", 0, 2, {**KNIFE, "KScale": 400, "KnifeEdgeAngle": 0, "ViewAngle": 10, "LensFocalLength": 50,
+                       "SamplesPerPixel": 64}),
+    ("FocusOffset", 0, 0.1, {**KNIFE, "KnifeEdgeAngle": 0}),
+    ("Quality", "Interactive", "Publication", {"Input": "sphere", "Symmetry": "Axisymmetric", "FocalPoint": [0, 0, 0],
+                                               "ParallelScale": 0.013}),
+    ("Wavelength", 450, 650, FRINGES),
+    ("LengthScale", 0.2, 1, FRINGES),
+    ("BackgroundPattern", "Stripes", "Dots", {**STRIPES, "BackgroundDistance": 0.1}),
+    ("Outside", "Passes", "Auto", {"Input": "fin", "ViewDirection": [0, 1, 0], "ViewUp": [0, 0, 1], "ParallelScale": 3.5,
+                                     "FocalPoint": [1.5, 2, 2.8], "LengthScale": 0.0127, "DensityScale": 0.72}))
 
 
-def main(folder, size=(300, 160), chosen=()):
+def flows():
+    """The jet, the blunt fin, and a sphere with its bow shock."""
+    data = os.path.join(ROOT, "Testing", "Data")
+    jet = OpenFOAMReader(FileName=os.path.join(data, "ladenburg_openfoam", "ladenburg.foam"))
+    fin = PLOT3DReader(FileName=[os.path.join(data, "bluntfin_plot3d", "bluntfinxyz.bin")],
+                       QFileName=[os.path.join(data, "bluntfin_plot3d", "bluntfinq.bin")])
+    sphere = OpenDataFile(os.path.join(data, "examples", "bow_shock.vts"))
+    jet.UpdatePipeline(jet.TimestepValues[-1])
+    fin.UpdatePipeline()
+    sphere.UpdatePipeline()
+    return {"jet": jet, "fin": fin, "sphere": sphere}
+
+
+def main(folder, size=(300, 160), chosen=(), quality="Fine"):
     """
     Writes a JPEG of each pair, or of the chosen properties; returns the pairs of images, rows x columns x 3 bytes, by the
     properties' names.
     """
-    jet = OpenFOAMReader(FileName=os.path.join(ROOT, "Testing", "Data", "ladenburg_openfoam", "ladenburg.foam"))
-    last = jet.TimestepValues[-1]
-    jet.UpdatePipeline(last)
-    made = {}
+    data, made = flows(), {}
     for name, *values, others in PAIRS:
         if chosen and name not in chosen:
             continue
         sheet = Image.new("RGB", (2 * size[0] + 8, size[1]), "white")
         made[name] = []
         for column, value in enumerate(values):
-            schlieren = Schlieren(Input=jet, FocalPoint=[0.0135, 0, 0], ParallelScale=0.0076,  # noqa: F821
-                                  ImageSize=list(size), **{"Quality": "Fine", **others, name: value})
-            schlieren.UpdatePipeline(last)
+            flow = data[others.get("Input", "jet")]
+            schlieren = Schlieren(**{"Quality": quality, "FocalPoint": [0.0135, 0, 0], "ParallelScale": 0.0076,  # noqa: F821
+                                     **others, "Input": flow, "ImageSize": list(size), name: value})
+            schlieren.UpdatePipeline(*getattr(flow, 'TimestepValues', [])[-1:])
             made[name].append(pixels_of(servermanager.Fetch(schlieren)))
             sheet.paste(Image.fromarray(made[name][-1][::-1]), (column * (size[0] + 8), 0))
         path = os.path.abspath(os.path.join(folder, f"pair_{name.lower()}.jpg"))

@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """The first minute of a new user: the plugin by Manage Plugins, a file opened and applied, one click, a drag of the view,
-a preset, a figure. Nothing is said but what the density is."""
+a preset, a figure. Nothing is said but what the density is. The window as it is before the preset, window.png, is the first
+image of Documentation/window.md."""
 
 import os
 
 from window_testing import FOLDER, JET, ViewsSession
 
-FIGURE = os.path.join(FOLDER, "figure.png")
+FIGURE, WINDOW = os.path.join(FOLDER, "figure.png"), os.path.join(FOLDER, "window.png")
 HELPERS = """
 def button(text):
     "The last button of the dialog that is open."
@@ -28,6 +29,11 @@ def step(script):
     user.idle()
 
 
+if "SCHLIEREN_WINDOW_SIZE" in os.environ:
+    step("""
+widget().resize(*map(int, os.environ["SCHLIEREN_WINDOW_SIZE"].split("x")))
+widget().resizeDocks([widget("pipelineBrowserDock"), widget("propertiesDock")], [100, 700], Qt.Orientation.Vertical)
+""")
 user.menu("menuTools", "actionManage_Plugins")
 step('button("Load New ...").click()')
 step('choose_file(os.environ["SCHLIEREN_PLUGIN"])')
@@ -38,8 +44,15 @@ user.apply()
 user.press("OneImage")
 user.python("until(displays)\nsettle_views()")
 user.drag_view(2, (0.5, 0.5), (0.55, 0.52), (0.6, 0.55))
-user.python("""
+user.python(f"""
 settle_views()
+panel = widget("propertiesPanel", "scrollArea")
+panel.verticalScrollBar().setValue(widget("propertiesPanel", "Cutoff").mapTo(panel.widget(), QtCore.QPoint(0, -40)).y())
+pause(0.2)
+corner = widget().mapToGlobal(QtCore.QPoint(0, 0))
+QApplication.primaryScreen().grabWindow(0, corner.x(), corner.y(), widget().width(), widget().height()).save({WINDOW!r})
+""")
+user.python("""
 menu = widget("propertiesPanel", "Cutoff").findChild(QtWidgets.QMenu, "PresetsMenu")
 [one for one in menu.actions() if one.text() == "Shadowgraph"][0].trigger()
 settle_views()
@@ -58,4 +71,4 @@ assert len(said) == 1 and said[0].startswith("Schlieren: Density: 'rho' in kg/m"
 assert not QApplication.activeModalWidget() and not widget("SchlierenMessage")
 """)
 user.play("import os", plugin=False)
-assert os.path.getsize(FIGURE) > 10000
+assert os.path.getsize(FIGURE) > 10000 and os.path.getsize(WINDOW) > 100000
