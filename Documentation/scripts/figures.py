@@ -144,7 +144,7 @@ def main(folder, *names):
                 and (not names or name in names):
             ending = "png" if name in ("figure", "representation") else "jpg"
             path = os.path.abspath(os.path.join(folder, f"{name}.{ending}"))
-            Image.fromarray(make()).save(path, **({"quality": 85} if ending == "jpg" else {"optimize": True}))
+            Image.fromarray(make()).save(path, quality=85, optimize=True)
             print("Wrote", path, flush=True)
 
 
