@@ -51,7 +51,7 @@ public:
       Scene scene = sceneOf(Cutoff::KnifeEdge);
       scene.targetError = 1. / 64;
       scene.estimatesErrors = true;
-      scene.view.width = scene.view.height = 24;
+      scene.view.width = scene.view.height = 16;
       visit(flow_.field, scene);
     }
     {
@@ -60,7 +60,7 @@ public:
       scene.targetError = 1. / 64;
       scene.precision = Precision::Double;
       scene.view.parallelScale = 1.5;
-      scene.view.width = scene.view.height = 24;
+      scene.view.width = scene.view.height = 16;
       visit(fieldOf(std::make_shared<SphereSource>(2)), scene);
     }
     {
@@ -76,7 +76,7 @@ public:
 private:
   static Scene sceneOf(Cutoff cutoff)
   {
-    Scene scene = sceneOnCpu(40, 32, { -0.2, 0.4, -1 });
+    Scene scene = sceneOnCpu(20, 16, { -0.2, 0.4, -1 });
     scene.cutoff = cutoff;
     scene.wavelength = 1e-4;
     scene.screenDistance = 2;
