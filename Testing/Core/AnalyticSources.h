@@ -213,8 +213,8 @@ private:
 class SphereSource : public AnalyticSource
 {
 public:
-  explicit SphereSource(double radius = 20)
-    : AnalyticSource(radius)
+  explicit SphereSource(double outer = 20)
+    : SphereSource(outer, outer)
   {
   }
 
@@ -237,20 +237,30 @@ public:
   Place placeAt(double a, double b, double c) const override
   {
     const double r = radius(a, b, c);
-    return r < 1 ? Place::Wall : r < half_ ? Place::Gas : Place::Window;
+    return r < 1 ? Place::Wall : r < outer_ ? Place::Gas : Place::Window;
   }
   double distanceAt(double a, double b, double c) const override
   {
     const double r = radius(a, b, c);
-    return std::min(r - 1, half_ - r);
+    return std::min(r - 1, outer_ - r);
   }
   void findPlaces(const Box& box, Content& content) const override
   {
     const Range r = distancesTo({ 0, 0, 0 }, box);
     content.hasWall = r.first < 1;
-    content.hasGas = r.second > 1 && r.first < half_;
-    content.hasWindow = r.second > half_;
+    content.hasGas = r.second > 1 && r.first < outer_;
+    content.hasWindow = r.second > outer_;
   }
+
+protected:
+  SphereSource(double outer, double half)
+    : AnalyticSource(half)
+    , outer_(outer)
+  {
+  }
+
+private:
+  double outer_; ///< radius of the domain
 };
 
 /// Gas with a constant gradient along y where x < border, and nothing elsewhere.
@@ -343,92 +353,6 @@ public:
   }
 };
 
-/// A sphere of radius 1 with a bow shock, 0.03 thick, in a round domain of radius 50 with nothing around it. Cells
-/// grow with the distance from the body and are fine in the shock.
-class BowShockSource : public AnalyticSource
-{
-public:
-  BowShockSource()
-    : AnalyticSource(51.2)
-  {
-  }
-
-  static constexpr double radius = 50, thickness = 0.03, far = 2.27e-4 * 1.2;
-
-  double ambient() const override { return far; }
-  double refractivity(double a, double b, double c) const override
-  {
-    return jump(shockDistance(a, b * b + c * c), SphereSource::radius(a, b, c));
-  }
-  Range rangeOver(const Box& box) const override
-  {
-    const Range s = shockDistances(box);
-    const Range r = distancesTo({ 0, 0, 0 }, box);
-    return { jump(s.second, r.second), jump(s.first, r.first) };
-  }
-  double cellSizeOver(const Box& box) const override
-  {
-    const Range s = shockDistances(box);
-    const double r = distancesTo({ 0, 0, 0 }, box).first;
-    const double ofShock =
-      r < 8 && s.first < 3 * thickness && s.second > -3 * thickness ? 0.25 * thickness : 1e9;
-    return std::min(ofShock, 0.02 * std::max(r, 1.));
-  }
-  Place placeAt(double a, double b, double c) const override
-  {
-    const double r = SphereSource::radius(a, b, c);
-    return r < 1 ? Place::Wall : r < radius ? Place::Gas : Place::Window;
-  }
-  double distanceAt(double a, double b, double c) const override
-  {
-    const double r = SphereSource::radius(a, b, c);
-    return std::min(r - 1, radius - r);
-  }
-  void findPlaces(const Box& box, Content& content) const override
-  {
-    const Range r = distancesTo({ 0, 0, 0 }, box);
-    content.hasWall = r.first < 1;
-    content.hasGas = r.second > 1 && r.first < radius;
-    content.hasWindow = r.second > radius;
-  }
-
-  std::array<double, 2> deflectionAt(
-    const Vec3<double>& place, const Vec3<double>& u, const Vec3<double>& v) const
-  {
-    return summedUp(
-      [](const Vec3<double>& at) -> Vec3<double>
-      {
-        const double r = length(at);
-        const double t = std::tanh(shockDistance(at.x, at.y * at.y + at.z * at.z) / thickness);
-        const double height = far / (1 + far) * 1.25 * std::exp(-(std::max(r, 1.) - 1) / 4);
-        const double ofShock = -height * (1 - t * t) / thickness;
-        const double ofFading = -height * (1 - t) / 4 / r;
-        return ofShock * Vec3<double>{ 1, 0.4 * at.y, 0.4 * at.z } + ofFading * at;
-      },
-      place, u, v, 25, 2.5e-3, radius);
-  }
-
-private:
-  static double shockDistance(double a, double squares) { return a - (1.4 - squares / 5); }
-  static double jump(double s, double r)
-  {
-    return far * (1 + 1.25 * (1 - std::tanh(s / thickness)) * std::exp(-(std::max(r, 1.) - 1) / 4));
-  }
-  static Range shockDistances(const Box& box)
-  {
-    double least = 0, most = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis)
-    {
-      const double low = box.low[axis], high = box.high[axis];
-      const double nearest = low > 0 ? low : high < 0 ? -high : 0;
-      const double farthest = std::max(-low, high);
-      least += nearest * nearest;
-      most += farthest * farthest;
-    }
-    return { shockDistance(box.low[0], least), shockDistance(box.high[0], most) };
-  }
-};
-
 /// Three balls: a wide, a small and a tiny one.
 inline std::vector<Ball> threeBalls(double height)
 {
@@ -440,102 +364,6 @@ inline std::vector<Ball> threeBalls(double height)
 inline double statedError(const MediumStatistics& medium)
 {
   return medium.deflectionError / medium.largestDeflection;
-}
-
-/// A column that sees all.
-inline Column everything(
-  const Vec3<double>& u = { 1, 0, 0 }, const Vec3<double>& v = { 0, 1, 0 }, double finest = 0)
-{
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  return { u, v, { 0, 0 }, { infinite, infinite }, finest };
-}
-
-/// Axes across a direction that follows no axis of the grid.
-inline std::pair<Vec3<double>, Vec3<double>> obliqueAxes()
-{
-  const Vec3<double> w{ 0.36, 0.48, 0.8 };
-  const Vec3<double> u{ 0.8, -0.6, 0 };
-  return { u, cross(w, u) };
-}
-
-template <class Real>
-std::int32_t leafAt(const MediumTree<Real>& tree, const Vec3<double>& place)
-{
-  const Grid& grid = tree.grid();
-  return tree.finder().at({ (place.x - grid.origin[0]) / grid.spacing[0],
-    (place.y - grid.origin[1]) / grid.spacing[1], (place.z - grid.origin[2]) / grid.spacing[2] });
-}
-
-/// Value and gradient, by data units.
-template <class Real>
-Sample<double> sampleAt(
-  const MediumTree<Real>& tree, Interpolation interpolation, const Vec3<double>& place)
-{
-  const Grid& grid = tree.grid();
-  const Leaf<Real>& leaf = tree.leaves()[static_cast<std::size_t>(leafAt(tree, place))];
-  const auto local = [&](double x, std::size_t axis) -> Real
-  {
-    return static_cast<Real>(
-      ((x - grid.origin[axis]) / grid.spacing[axis] - leaf.first[axis]) * leaf.perIndex);
-  };
-  const Vec3<Real> at{ local(place.x, 0), local(place.y, 1), local(place.z, 2) };
-  const Real* samples = tree.samples().data() + leaf.brick * tree.samplesPerBrick();
-  const Sample<Real> found = visitScheme(interpolation,
-    [&](auto scheme)
-    { return interpolateBrick<decltype(scheme)>(samples, tree.apron(), tree.shape(), at); });
-  return { static_cast<double>(leaf.offset) + static_cast<double>(found.value),
-    { static_cast<double>(found.gradient.x) * leaf.perIndex / grid.spacing[0],
-      static_cast<double>(found.gradient.y) * leaf.perIndex / grid.spacing[1],
-      static_cast<double>(found.gradient.z) * leaf.perIndex / grid.spacing[2] } };
-}
-
-/// Gradient summed up along the straight ray through a place, in steps of half a voxel.
-template <class Real>
-Vec3<double> bendAlong(const MediumTree<Real>& tree, Interpolation interpolation,
-  const Vec3<double>& place, const Vec3<double>& direction)
-{
-  const Grid& grid = tree.grid();
-  double entry = -std::numeric_limits<double>::infinity(), exit = -entry;
-  const double x[3] = { place.x, place.y, place.z };
-  const double d[3] = { direction.x, direction.y, direction.z };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double low = grid.origin[axis];
-    const double high = low + grid.spacing[axis] * static_cast<double>(grid.dimensions[axis] - 1);
-    const double a = (low - x[axis]) / d[axis], b = (high - x[axis]) / d[axis];
-    if (d[axis] != 0)
-    {
-      entry = std::max(entry, std::min(a, b));
-      exit = std::min(exit, std::max(a, b));
-    }
-  }
-  Vec3<double> sum{ 0, 0, 0 };
-  for (double s = entry; s < exit;)
-  {
-    const double look = s + 1e-7 * (exit - entry);
-    const Leaf<Real>& leaf =
-      tree.leaves()[static_cast<std::size_t>(leafAt(tree, place + look * direction))];
-    double step = exit - s;
-    double out = exit - s;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      if (d[axis] != 0)
-      {
-        const double voxel = grid.spacing[axis] / leaf.perIndex;
-        step = std::min(step, 0.5 * voxel / std::abs(d[axis]));
-        const double index = (x[axis] + s * d[axis] - grid.origin[axis]) / grid.spacing[axis];
-        const double local = (index - leaf.first[axis]) * leaf.perIndex;
-        out = std::min(out, std::abs(((d[axis] > 0 ? 15.5 : -0.5) - local) * voxel / d[axis]));
-      }
-    }
-    step = std::max(std::min(step, out), 2e-7 * (exit - entry));
-    if (leaf.kind != Leaf<Real>::Constant)
-    {
-      sum += step * sampleAt(tree, interpolation, place + (s + 0.5 * step) * direction).gradient;
-    }
-    s += step;
-  }
-  return sum;
 }
 
 } // namespace schlieren

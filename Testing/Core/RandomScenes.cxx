@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RandomScenes.h"
 
-#include "AnalyticSources.h"
+#include "BowShockSource.h"
 
 #include <algorithm>
 #include <array>

@@ -6,6 +6,7 @@
 
 #include "AnalyticSources.h"
 #include "Medium/Tree/MediumTree.h"
+#include "TreeSamples.h"
 
 #include <algorithm>
 #include <array>

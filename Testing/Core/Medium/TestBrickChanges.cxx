@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalyticSources.h"
 #include "Medium/Tree/BrickChanges.h"
+#include "TreeSamples.h"
 
 #include <gtest/gtest.h>
 

@@ -20,6 +20,14 @@ namespace schlieren
 namespace
 {
 
+/// Axes across a direction that follows no axis of the grid.
+std::pair<Vec3<double>, Vec3<double>> obliqueAxes()
+{
+  const Vec3<double> w{ 0.36, 0.48, 0.8 };
+  const Vec3<double> u{ 0.8, -0.6, 0 };
+  return { u, cross(w, u) };
+}
+
 class EachScheme : public testing::TestWithParam<Interpolation>
 {
 };
