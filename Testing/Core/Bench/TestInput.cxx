@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What cannot be done is reported in one message, and the bench works on afterwards.
 #include "Fields.h"
+#include "Messages.h"
 
 #include <algorithm>
 #include <limits>
@@ -177,15 +178,7 @@ TEST(Input, EachMistakeIsReportedAndForgotten)
     Field badField = good.field;
     Scene badScene = scene;
     mistake.make(badField, badScene);
-    try
-    {
-      bench.render(badField, badScene);
-      ADD_FAILURE() << "no error";
-    }
-    catch (const Error& error)
-    {
-      EXPECT_NE(std::string(error.what()).find(mistake.says), std::string::npos) << error.what();
-    }
+    expectError(messageOf([&] { bench.render(badField, badScene); }), mistake.says);
     EXPECT_EQ(bench.render(good.field, scene).intensity, reference.intensity);
   }
 }
@@ -198,15 +191,7 @@ void expectFieldError(double value, const char* says)
   {
     std::fill(bad.samples.begin(), bad.samples.end(), value);
   }
-  try
-  {
-    Bench().render(bad.field, Scene());
-    ADD_FAILURE() << "no error";
-  }
-  catch (const Error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-  }
+  expectError(messageOf(bad.field, Scene()), says);
 }
 
 TEST(Input, FieldsThatAreNoMedium)
@@ -227,15 +212,7 @@ TEST(Input, CudaWithoutADeviceIsAnError)
   Scene scene;
   scene.view.width = scene.view.height = 12;
   scene.device = Device::Cuda;
-  try
-  {
-    Bench().render(good.field, scene);
-    ADD_FAILURE() << "no error";
-  }
-  catch (const Error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("no CUDA device can be used"), std::string::npos);
-  }
+  expectError(messageOf(good.field, scene), "no CUDA device can be used");
   scene.device = Device::Auto;
   EXPECT_EQ(Bench().render(good.field, scene).device, Device::Cpu);
 }

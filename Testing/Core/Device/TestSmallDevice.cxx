@@ -3,6 +3,7 @@
 // Images on a device with little memory, which the emulated one can have.
 #include "AnalyticSources.h"
 #include "Fields.h"
+#include "Messages.h"
 #include "Rays/RayExit.h"
 #include "Threads.h"
 
@@ -86,16 +87,7 @@ TEST_F(SmallDevice, LeavesToTheCpuWhatIsTooMuch)
 {
   emulated::setCapacity(megabyte);
   Bench bench;
-  try
-  {
-    render(bench);
-    FAIL() << "no error";
-  }
-  catch (const Error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("of its 1 MB of memory free"), std::string::npos)
-      << error.what();
-  }
+  expectError(messageOf([&] { render(bench); }), "of its 1 MB of memory free");
   scene_.device = Device::Auto;
   const Image found = render(bench);
   EXPECT_EQ(found.device, Device::Cpu);
@@ -162,17 +154,8 @@ TEST_F(SmallDevice, LeavesTreesToTheCpuThatAreTooLarge)
   EXPECT_EQ(found.device, Device::Cpu);
   EXPECT_EQ(found.deflection, onCpu.deflection);
   EXPECT_NE(found.deviceNote.find("Medium Memory"), std::string::npos) << found.deviceNote;
-  try
-  {
-    render(Device::Cuda);
-    FAIL() << "no error";
-  }
-  catch (const Error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("more are needed. Set Device to Auto or CPU"),
-      std::string::npos)
-      << error.what();
-  }
+  expectError(
+    messageOf([&] { render(Device::Cuda); }), "more are needed. Set Device to Auto or CPU");
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 // of Gaussian balls, and against diverging light that is seen from the other side.
 #include "AnalyticSources.h"
 #include "ClosedForms.h"
+#include "Messages.h"
 
 #include <algorithm>
 #include <limits>
@@ -358,34 +359,22 @@ TEST_P(Perspective, IsNoneOfTwoDimensionalData)
 TEST(PerspectiveMistakes, SayWhatToDo)
 {
   const SampledField<float> gas(cube(8, 1), [](double, double, double) { return 3e-4; });
-  const auto messageOf = [&](const Scene& scene)
-  {
-    try
-    {
-      Bench().render(gas.field, scene);
-    }
-    catch (const Error& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   Scene scene;
   scene.device = Device::Cpu;
   for (const double angle : { -1., 170., std::numeric_limits<double>::quiet_NaN(),
          std::numeric_limits<double>::infinity() })
   {
     scene.view.viewAngle = angle;
-    EXPECT_NE(messageOf(scene).find("ViewAngle"), std::string::npos) << angle;
+    expectError(messageOf(gas.field, scene), "ViewAngle");
   }
   scene.view.viewAngle = 169;
-  EXPECT_EQ(messageOf(scene), "");
+  EXPECT_EQ(messageOf(gas.field, scene), "");
   scene.view.viewAngle = 30;
   scene.view.parallelScale = 1;
   scene.focusOffset = 4;
-  EXPECT_NE(messageOf(scene).find("FocusOffset"), std::string::npos);
+  expectError(messageOf(gas.field, scene), "FocusOffset");
   scene.cutoff = Cutoff::Shadowgraph; // is not focused
-  EXPECT_EQ(messageOf(scene), "");
+  EXPECT_EQ(messageOf(gas.field, scene), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(, Perspective, bothDevices(), deviceName);

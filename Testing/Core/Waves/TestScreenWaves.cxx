@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Waves on a screen, from what rays carry where they leave the data.
+#include "Messages.h"
 #include "WaveBench.h"
 
 #include <algorithm>
@@ -12,24 +13,6 @@
 
 using namespace schlieren;
 using namespace schlieren::waveforms;
-
-namespace
-{
-
-std::string messageOf(const std::function<void()>& work)
-{
-  try
-  {
-    work();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "";
-}
-
-} // namespace
 
 TEST(ScreenWaves, UndisturbedLightIsOne)
 {

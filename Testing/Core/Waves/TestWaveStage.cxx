@@ -3,6 +3,7 @@
 //
 // Images of waves, from a field on.
 #include "Fields.h"
+#include "Messages.h"
 #include "SameImage.h"
 #include "WaveForms.h"
 
@@ -76,19 +77,6 @@ Numbers rowOf(const Image& image, int row)
     light.push_back(static_cast<double>(image.intensity[pixelOf(image, i, row)]));
   }
   return light;
-}
-
-std::string messageOf(const Field& field, const Scene& scene)
-{
-  try
-  {
-    Bench().render(field, scene);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "";
 }
 
 } // namespace
