@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes as solvers make them, with default settings, against the closed form of a ball of gas: blocks that overlap, with
-blanking and without, cells inside out, polyhedra."""
+blanking and without."""
 
 import math
 
@@ -9,9 +9,8 @@ import numpy as np
 from paraview import simple
 from plugin_testing import CONSTANT, Schlieren, output, image_array
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
-from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_POLYHEDRON, vtkDataSetAttributes, vtkMultiBlockDataSet,
-                                           vtkStructuredGrid, vtkUnstructuredGrid)
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkMultiBlockDataSet, vtkStructuredGrid
 
 K, DENSITY, HEIGHT, WIDTH = CONSTANT, 1.2, 0.3, 0.35
 PIXELS = 150
@@ -72,29 +71,6 @@ def blocks(*parts):
     return data
 
 
-def hexahedra(cells, order=range(8), kind=VTK_HEXAHEDRON):
-    """A cube of them, the points of each cell in another order."""
-    grid = box(3 * [-1], 3 * [1], 3 * [cells])
-    points = vtk_to_numpy(grid.GetPoints().GetData())
-    data = vtkUnstructuredGrid()
-    set_density(data, points)
-    ids = vtkIdList()
-    for cell in range(grid.GetNumberOfCells()):
-        grid.GetCellPoints(cell, ids)
-        # VTK gives a structured grid's cells as hexahedra.
-        corners = [ids.GetId(n) for n in range(8)]
-        if kind == VTK_POLYHEDRON:
-            faces = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
-            stream = [6] + [n for face in faces for n in [4] + [corners[i] for i in face]]
-            stream_ids = vtkIdList()
-            for n in stream:
-                stream_ids.InsertNextId(n)
-            data.InsertNextCell(kind, stream_ids)
-        else:
-            data.InsertNextCell(kind, 8, [corners[n] for n in (order(cell) if callable(order) else order)])
-    return data
-
-
 def producer(data):
     source = simple.TrivialProducer()
     source.GetClientSideObject().SetOutput(data)
@@ -148,9 +124,3 @@ for order in ((background, around), (around, background)):
 check("overlapping rings", blocks(around, ring(0.5, 1.5, [50, 80, 50])), outside_body, body)
 parts = [box([low, -1, -1], [high, 1, 1], [n, 50, 50]) for low, high, n in ((-1, 0.1, 27), (-0.15, 0.35, 17), (0.2, 1, 23))]
 check("overlapping boxes", blocks(*parts), anywhere)
-
-# Cells inside out, all or every second one.
-upside_down = [4, 5, 6, 7, 0, 1, 2, 3]
-check("all inside out", hexahedra(40, upside_down), anywhere)
-check("some inside out", hexahedra(40, lambda cell: upside_down if cell % 2 else range(8)), anywhere)
-check("polyhedra", hexahedra(40, kind=VTK_POLYHEDRON), anywhere, rms=0.002, worst=0.01)
