@@ -18,7 +18,7 @@ def compare(file):
     from paraview import simple
     simple.LoadPlugin(os.environ["SCHLIEREN_PLUGIN"], remote=False, ns=vars(simple))
     bench = simple.Schlieren(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), Density=["POINTS", "RTData"],
-                             GladstoneDaleConstant=1e-6, ImageSize=[64, 64])
+                             GladstoneDaleConstant=1e-6, ImageSize=[64, 64], Quality="Interactive")
     comparison = simple.CompareWithPhotograph(Input=bench, Photograph=simple.PNGSeriesReader(FileNames=[file]))
     comparison.UpdatePipeline()
     if is_rank0():

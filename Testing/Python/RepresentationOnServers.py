@@ -35,6 +35,7 @@ def draw(path, is_remote=False):
     view = simple.CreateRenderView(ViewSize=[240, 180], OrientationAxesVisibility=0, CameraParallelProjection=1)
     display = simple.Show(flow, view)
     display.SetRepresentationType("Schlieren")
+    display.SchlierenBench.Quality = "Interactive"
     surface = simple.Show(simple.Sphere(Radius=3, Center=[2, 0, 0]), view)
     surface.DiffuseColor = [1, 0, 0]
     simple.ResetCamera(view)
@@ -60,6 +61,7 @@ def draw_mesh(simple, flow, path):
     view = simple.CreateRenderView(ViewSize=[120, 90], OrientationAxesVisibility=0, CameraParallelProjection=1)
     display = simple.Show(mesh, view)
     display.SetRepresentationType("Schlieren")
+    display.SchlierenBench.Quality = "Interactive"
     display.SchlierenBench.GatherLimit = 0
     simple.ResetCamera(view)
     for _ in range(2):

@@ -10,7 +10,7 @@ from plugin_testing import Schlieren, output
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 DATA = os.path.join(os.environ["SCHLIEREN_SOURCE_DIR"], "Testing", "Data")
-PIXELS = 96
+PIXELS = 64
 SETTINGS = {"ImageSize": [PIXELS, PIXELS], "Device": "CPU"}
 
 
