@@ -80,6 +80,7 @@ user = ViewsSession()
 user.choose_filter("Schlieren")
 user.choose("ImageSize/LineEdit0", COLUMNS)
 user.choose("ImageSize/LineEdit1", ROWS)
+user.choose("Quality/ComboBox", "Interactive")
 user.apply()
 user.python(HELPERS + """
 settle_views()

@@ -42,7 +42,7 @@ until(lambda: hasattr(inside_window, "found"))
 assert inside_window.found == (4, 3), inside_window.found
 """)
 user.idle()  # some of which are played inside of the question
-user.python("settle_views()\nassert len(displays()) == 3")
+user.python("until(shown_at_all)\nassert len(displays()) == 3")
 user.undo()
 user.python(HELPERS + """
 assert len(GetRenderViews()) == 1 and not displays()

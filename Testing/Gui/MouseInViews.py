@@ -45,6 +45,7 @@ user.python(f"""
 view, display = GetActiveView(), GetDisplayProperties(FindSource("flow"), GetActiveView())
 display.SchlierenBench.Cutoff = "Color Filter"
 display.SchlierenBench.KMode, display.SchlierenBench.KScale = "Value", {K}
+display.SchlierenBench.Quality = "Interactive"
 display.SchlierenBench.GladstoneDaleConstant = 2e-6
 Render(view)
 """)
@@ -115,8 +116,7 @@ def image_of(bench):
 (drawn,) = by_name("Schlieren View")
 (display,) = displays()
 display.SchlierenBench.LengthScale = 1e-3
-Render(drawn)
-settle_views()
+settle_soon()
 for right, up in ((0.4, 0.55), (0.6, 0.5)):
     text, x, y = rest(drawn, right, up)
     image = image_of(display.SchlierenBench)

@@ -37,11 +37,11 @@ Render(view)
 check_k(1)
 """)
 user.press("OneImage")  # as a double click does
-user.python(HELPERS + "check_k(2)\nsettle_views()\ncheck_k(2)\nSetActiveView(FindView('RenderView1'))")
+user.python(HELPERS + "check_k(2)\nsettle_soon()\ncheck_k(2)\nSetActiveView(FindView('RenderView1'))")
 user.press("ThreeImages")
 user.python(HELPERS + """
 check_k(3)
-settle_views()
+settle_soon()
 check_k(3)
 for bench in edges():
     assert f"k = {inside_window.k:.4g} (kept)" in notes(bench), notes(bench)
@@ -53,7 +53,7 @@ SetActiveView(by_name("Shadowgraph")[0])
 """)
 user.press("OneImage")  # as the active view's
 user.python(HELPERS + """
-settle_views()
+settle_soon()
 shadows = [display.SchlierenBench for display in displays() if display.SchlierenBench.Cutoff == "Shadowgraph"]
 assert len(shadows) == 2 and all("(kept)" in notes(bench)[0] for bench in shadows), [notes(bench) for bench in shadows]
 assert len({information(bench, "AutomaticUsed") for bench in shadows} | {bench.LockedK for bench in shadows}) == 1

@@ -85,7 +85,7 @@ SetActiveSource(flow)
 for technique in {list(OF_TECHNIQUE)}:
     display.SchlierenBench.Cutoff = technique
     Render()
-    settle_views()
+    until(shown_at_all)
     look({data!r}, technique)
 """)
 

@@ -41,8 +41,7 @@ check_projection(True, 2)
 bench = display.SchlierenBench
 bench.LightModel = "Waves"
 bench.Cutoff = "Phase Contrast"
-Render(FindView("Schlieren View"))
-settle_views()
+settle_soon()
 image = intensity(bench)
 assert len(image) and np.ptp(image) > 0.05, np.ptp(image)
 bench.Cutoff = "Knife Edge"

@@ -21,7 +21,7 @@ user = ViewsSession()
 user.press("OneImage")
 user.python(HELPERS + """
 Render(view)  # a script's first one resets the camera
-settle_views()
+settle_soon()
 inside_window.counts = {"scene": 0, "view": 0}
 def count(name):
     def note(*_):

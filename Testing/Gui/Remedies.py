@@ -58,7 +58,7 @@ until(buttons)
 assert list(buttons()) == ["Isentropic air, at rest 293.15 K and 101325 Pa"], buttons()
 press(*buttons())
 until(lambda: bench.StagnationTemperature == 293.15 and not buttons())
-settle_views()
+settle_soon()
 assert np.ptp(intensity(bench)) > 0.1
 
 # The density of a liquid, with a temperature or without.
@@ -68,7 +68,7 @@ assert list(buttons()) == ["Water"], buttons()
 press("Water")
 until(lambda: bench.IndexModel == "Water" and not buttons())
 show(made(CUBE, rho="1000 - 0.1 * RTData"))
-settle_views()
+settle_soon()
 assert not buttons()
 
 # A plane beside an axis, one across it, and a volume.
@@ -77,10 +77,10 @@ until(buttons)
 assert list(buttons()) == ["Revolve it"], buttons()
 press("Revolve it")
 until(lambda: bench.Symmetry == "Axisymmetric" and not buttons())
-settle_views()
+settle_soon()
 for extent in ([-8, 8, -8, 8, 0, 0], [0, 16, 0, 16, 0, 16]):
     show(made(extent, rho="1 + 1e-3 * RTData"))
-    settle_views()
+    settle_soon()
     assert not buttons(), extent
 """)
 user.play("from paraview.simple import *\nGetActiveViewOrCreate('RenderView')",

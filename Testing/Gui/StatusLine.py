@@ -75,6 +75,7 @@ GetDisplayProperties(FindSource("jet"), FindView("Schlieren View")).SetRepresent
 user.choose_filter("Schlieren")
 user.choose("ImageSize/LineEdit0", "64")
 user.choose("ImageSize/LineEdit1", "64")
+user.choose("Quality/ComboBox", "Interactive")
 user.apply()
 user.python(HELPERS + """
 bench, flat = by_name("Schlieren1", "Image of Schlieren1")

@@ -91,8 +91,7 @@ user.python("""
 view = GetActiveView()
 bench = GetDisplayProperties(FindSource("flow"), view).SchlierenBench
 bench.GladstoneDaleConstant = 3e-4
-Render(view)
-settle_views()
+settle_soon()
 assert builds(bench) == 1
 """)
 user.play(MESH)

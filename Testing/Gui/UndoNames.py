@@ -15,7 +15,7 @@ assert action.text() == "&Undo " + {name!r} and action.isEnabled(), action.text(
 
 
 user.press("OneImage")
-user.python("settle_views()")
+user.python("until(shown_at_all)")
 check_undo("Add Schlieren View")
 user.choose("Cutoff/ComboBox", "Bright Field")
 check_undo("Change Cutoff")

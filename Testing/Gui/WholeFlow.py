@@ -19,7 +19,7 @@ def made():
     return [view for view in GetRenderViews() if view.SMProxy.GetXMLName() == "RenderView"
             and any(display in displays() for display in view.Representations)]
 def check_whole(bounds, count=1):
-    settle_views()
+    until(shown_at_all)
     assert len(made()) == count, made()
     for view in made():
         far = reach(view, bounds)
@@ -35,7 +35,7 @@ user = ViewsSession()
 # Seen as ParaView shows it, its k is this one.
 user.press("OneImage")
 user.python(HELPERS + f"""
-settle_views()
+until(shown_at_all)
 inside_window.k = information(displays()[0].SchlierenBench, "KScaleUsed")
 check_whole({JET})
 """)
@@ -93,7 +93,7 @@ Render(view)
 """)
 user.press("OneImage")
 user.python(HELPERS + """
-settle_views()
+until(shown_at_all)
 assert np.allclose(made()[0].CameraFocalPoint, [0.001, 0.005, 0]), made()[0].CameraFocalPoint
 """)
 user.undo()

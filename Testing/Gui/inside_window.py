@@ -118,6 +118,14 @@ def settle_views():
     until(whole)
 
 
+def settle_soon():
+    """As settle_views(), with the quality whose images are complete soonest: where it is not what is looked at."""
+    for display in displays():
+        display.SchlierenBench.Quality = "Interactive"
+    simple.RenderAllViews()
+    settle_views()
+
+
 def save(name, source, *views):
     """Keeps the image that a filter has, as it is, its properties and the cameras of views."""
     here = source.GetClientSideObject()
