@@ -8,7 +8,7 @@ import os
 import re
 
 import numpy as np
-from views_testing import (FOLDER, OPEN_JET, TRACE_FIRST_STEP, ViewsSession, check_baseline, check_linked, drawn,
+from views_testing import (FOLDER, OPEN_WHOLE_JET, TRACE_FIRST_STEP, ViewsSession, check_baseline, check_linked, drawn,
                            frame_view, load, play_trace, simple, values, views)
 from plugin_testing import MadeByUsers
 from representation_testing import GREY_LEVEL, filter_like, pixels_of
@@ -68,7 +68,7 @@ check_linked_now(scene, view)
 """)
 user.undo()
 user.python(UNDONE.format(cell=1))
-user.play(OPEN_JET + TRACE_FIRST_STEP)
+user.play(OPEN_WHOLE_JET + TRACE_FIRST_STEP)
 
 
 def check_session(state):
@@ -119,7 +119,7 @@ assert np.ptp(seen) > 100
 assert np.abs(seen - filter_like(display, view, SIZE)).max() <= GREY_LEVEL
 
 # The trace makes the same from the same beginning.
-play_trace("traced.pvsm", OPEN_JET)
+play_trace("traced.pvsm", OPEN_WHOLE_JET)
 _, traced = check_session("traced.pvsm")
 for values_of in (traced, added):
     del values_of["LockedK"]  # which a script does not find before its image is complete

@@ -6,8 +6,9 @@ image of Documentation/window.md."""
 
 import os
 
-from window_testing import FOLDER, JET, ViewsSession
+from window_testing import COARSE_JET, FOLDER, JET, ViewsSession
 
+IS_LARGE = "SCHLIEREN_WINDOW_SIZE" in os.environ
 FIGURE, WINDOW = os.path.join(FOLDER, "figure.png"), os.path.join(FOLDER, "window.png")
 HELPERS = """
 def button(text):
@@ -29,7 +30,7 @@ def step(script):
     user.idle()
 
 
-if "SCHLIEREN_WINDOW_SIZE" in os.environ:
+if IS_LARGE:
     step("""
 widget().resize(*map(int, os.environ["SCHLIEREN_WINDOW_SIZE"].split("x")))
 widget().resizeDocks([widget("pipelineBrowserDock"), widget("propertiesDock")], [100, 700], Qt.Orientation.Vertical)
@@ -39,13 +40,13 @@ step('button("Load New ...").click()')
 step('choose_file(os.environ["SCHLIEREN_PLUGIN"])')
 step('button("Close").click()')
 user.menu("menu_File", "actionFileOpen")
-step(f"choose_file({JET!r})")
+step(f"choose_file({JET if IS_LARGE else COARSE_JET!r})")
 user.apply()
 user.press("OneImage")
-user.python("until(displays)\nsettle_views()")
+user.python("until(shown_at_all)")
 user.drag_view(2, (0.5, 0.5), (0.55, 0.52), (0.6, 0.55))
+user.python("settle_views()" if IS_LARGE else "until(shown_at_all)")
 user.python(f"""
-settle_views()
 panel = widget("propertiesPanel", "scrollArea")
 panel.verticalScrollBar().setValue(widget("propertiesPanel", "Cutoff").mapTo(panel.widget(), QtCore.QPoint(0, -40)).y())
 pause(0.2)

@@ -10,7 +10,7 @@ import os
 import sys
 
 import numpy as np
-from views_testing import (FOLDER, OPEN_JET, ViewsSession, check_baseline, check_linked, drawn, frame_view, load,
+from views_testing import (FOLDER, OPEN_WHOLE_JET, ViewsSession, check_baseline, check_linked, drawn, frame_view, load,
                            simple, views)
 from representation_testing import GREY_LEVEL, filter_like, pixels_of
 from server_testing import play
@@ -122,7 +122,7 @@ until(lambda: bar.text() == "")
 assert not abort.isEnabled()
 """)
 
-play(user, OPEN_JET, is_remote)
+play(user, OPEN_WHOLE_JET, is_remote)
 
 cameras, images = {}, {}
 for step in ("turned",) if is_remote else ("turned", "script"):

@@ -12,7 +12,7 @@ user.check("Grid/Note", "text", "known after Apply")
 user.choose("ImageSize/LineEdit0", "64")
 user.choose("ImageSize/LineEdit1", "64")
 user.apply()
-user.check("Grid/Note", "text", "240 x 129 x 129 points: the data's own")
+user.check("Grid/Note", "text", "60 x 33 x 33 points: the data's own")
 
 # What the keyboard reaches from one property to the next.
 user.python("""

@@ -7,7 +7,7 @@ tab of their own, which is undone, redone and traced with them. The menu's guide
 import os
 
 import numpy as np
-from views_testing import (FOLDER, OPEN_JET, TRACE_FIRST_STEP, ViewsSession, check_baseline, check_linked, drawn,
+from views_testing import (FOLDER, OPEN_WHOLE_JET, TRACE_FIRST_STEP, ViewsSession, check_baseline, check_linked, drawn,
                            frame_view, load, play_trace, png, simple, views)
 from representation_testing import GREY_LEVEL, filter_like
 from window_testing import BENCH
@@ -83,7 +83,7 @@ until(page)
 page()[0].window().grab().save({os.path.join(FOLDER, "guide.png")!r})
 page()[0].window().close()
 """)
-user.play(OPEN_JET)
+user.play(OPEN_WHOLE_JET)
 
 load("three.pvsm")
 cells = views()
@@ -103,7 +103,7 @@ for view, cutoff, seen in zip(in_views, CUTOFFS, made):
     assert np.ptp(seen) > 25, cutoff
     assert np.abs(seen - filter_like(display, view, SIZE)).max() <= GREY_LEVEL
 
-play_trace("traced.pvsm", OPEN_JET + SPLIT)
+play_trace("traced.pvsm", OPEN_WHOLE_JET + SPLIT)
 load("traced.pvsm")
 in_tabs = {key[0]: sorted(layout.GetViewLocation(view.SMProxy) for view in simple.GetRenderViews()
                           if layout.GetViewLocation(view.SMProxy) >= 0)

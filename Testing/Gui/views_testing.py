@@ -9,7 +9,7 @@ import subprocess
 
 import numpy as np
 
-from window_testing import FOLDER, JET, MESH, OPEN_JET, SOURCE, ViewsSession  # noqa: F401, finds the next
+from window_testing import FOLDER, MESH, OPEN_JET, OPEN_WHOLE_JET, SOURCE, ViewsSession  # noqa: F401, finds the next
 from plugin_testing import image_array, simple  # noqa: F401
 from shown_testing import check_display, check_linked, drawn, filters, frame_view, shown, values, views  # noqa: F401
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
