@@ -242,16 +242,42 @@ Errors errorsOf(vtkDataSet* mesh, Reconstruction reconstruction, const ScalarFie
   return { std::sqrt(sums[0] / count) / most[0], std::sqrt(sums[1] / count) / most[1] };
 }
 
+double ball(const Vec& x)
+{
+  const double s = 0.25; // ten cells
+  const Vec r = { (x[0] - 0.5) / s, (x[1] - 0.5) / s, (x[2] - 0.5) / s };
+  return 3e-4 * std::exp(-dot(r, r));
+}
+
+double quadratic(const Vec& x)
+{
+  return 1 + x[0] - x[1] * x[2] + 2 * x[2] * x[2] - 3 * x[0] * x[1] + x[1] * x[1];
+}
+
+/// Of a curved front at a place, in meshes of all kinds that set(mesh, front) gives its values.
+template <class Set>
+void expectNoOvershoots(double jump, const Lattice& lattice, const Set& set)
+{
+  const auto shock = [jump](const Vec& x) { return x[0] + 0.2 * x[1] * x[1] < jump ? 0. : 1.; };
+  std::vector<Mesh> meshes = { jittered(16, 0.2) };
+  for (const CellKind& kind : linearKinds())
+  {
+    meshes.push_back(meshOf(kind.type, 8, kind.cells, 0.05, false));
+  }
+  for (const Mesh& mesh : meshes)
+  {
+    set(mesh, shock);
+    const std::vector<double> values = sampled(mesh, Reconstruction::Smooth, lattice).values;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    EXPECT_GT(*low, -0.0101) << jump;
+    EXPECT_LT(*high, 1.0101) << jump;
+  }
+}
+
 } // namespace
 
 TEST(Reconstruction, ABallOnTetrahedraIsSmooth)
 {
-  const auto ball = [](const Vec& x)
-  {
-    const double s = 0.25; // ten cells
-    const Vec r = { (x[0] - 0.5) / s, (x[1] - 0.5) / s, (x[2] - 0.5) / s };
-    return 3e-4 * std::exp(-dot(r, r));
-  };
   const Mesh mesh = jittered(40, 0.2);
   setN(mesh, ball);
   for (const int n : { 40, 60 })
@@ -280,23 +306,21 @@ TEST(Reconstruction, WavesKeepTheirCrests)
 // Where a point has neighbours on all sides.
 TEST(Reconstruction, QuadraticFieldsAreExact)
 {
-  const auto field = [](const Vec& x)
-  { return 1 + x[0] - x[1] * x[2] + 2 * x[2] * x[2] - 3 * x[0] * x[1] + x[1] * x[1]; };
   const Lattice lattice = { { 0.31, 0.32, 0.33 }, { 0.021, 0.022, 0.023 }, { 18, 17, 16 } };
   for (const CellKind& kind : linearKinds())
   {
     for (const double by : { 0., 0.1 })
     {
       const Mesh mesh = meshOf(kind.type, 6, kind.cells, by, false);
-      setN(mesh, field);
+      setN(mesh, quadratic);
       const Found linear = sampled(mesh, Reconstruction::Linear, lattice);
       const Found smooth = sampled(mesh, Reconstruction::Smooth, lattice);
       double error = 0, wrong = 0;
       for (std::size_t i = 0; i < smooth.values.size(); ++i)
       {
         ASSERT_EQ(smooth.found[i], 1);
-        error = std::max(error, std::abs(smooth.values[i] - field(pointOf(lattice, i))));
-        wrong = std::max(wrong, std::abs(linear.values[i] - field(pointOf(lattice, i))));
+        error = std::max(error, std::abs(smooth.values[i] - quadratic(pointOf(lattice, i))));
+        wrong = std::max(wrong, std::abs(linear.values[i] - quadratic(pointOf(lattice, i))));
       }
       EXPECT_LT(error, 2e-6) << kind.name;
       EXPECT_GT(wrong, 1e-3) << kind.name;
@@ -344,25 +368,8 @@ TEST(Reconstruction, ShocksHaveNoOvershoots)
 {
   for (const double jump : { 0.5, 0.27 })
   {
-    const auto shock = [jump](const Vec& x) { return x[0] + 0.2 * x[1] * x[1] < jump ? 0. : 1.; };
-    std::vector<Mesh> meshes = { jittered(16, 0.2) };
-    for (const CellKind& kind : linearKinds())
-    {
-      meshes.push_back(meshOf(kind.type, 8, kind.cells, 0.05, false));
-    }
-    for (const Mesh& mesh : meshes)
-    {
-      setN(mesh, shock);
-      double low = 0, high = 1;
-      const Lattice lattice = { { 0, 0, 0 }, { 0.02, 0.02, 0.02 }, { 51, 51, 51 } };
-      for (const double value : sampled(mesh, Reconstruction::Smooth, lattice).values)
-      {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-      EXPECT_GT(low, -0.0101);
-      EXPECT_LT(high, 1.0101);
-    }
+    expectNoOvershoots(jump, { { 0, 0, 0 }, { 0.02, 0.02, 0.02 }, { 51, 51, 51 } },
+      [](const Mesh& mesh, const auto& shock) { setN(mesh, shock); });
   }
 }
 
@@ -482,12 +489,6 @@ TEST(Reconstruction, FitsOfPointsAreQuadratic)
 // Ten cells a radius. The mean of the cells around each point is worse by far.
 TEST(CellMeans, ABallIsSmooth)
 {
-  const auto ball = [](const Vec& x)
-  {
-    const double s = 0.25; // ten cells
-    const Vec r = { (x[0] - 0.5) / s, (x[1] - 0.5) / s, (x[2] - 0.5) / s };
-    return 3e-4 * std::exp(-dot(r, r));
-  };
   const Mesh tetrahedra = jittered(40, 0.2);
   const Mesh hexahedra = boxesOf({ 40, 40, 40 }, 0.15);
   for (const Mesh& mesh : { tetrahedra, hexahedra })
@@ -505,21 +506,19 @@ TEST(CellMeans, ABallIsSmooth)
 
 TEST(CellMeans, QuadraticFieldsAreExact)
 {
-  const auto field = [](const Vec& x)
-  { return 1 + x[0] - x[1] * x[2] + 2 * x[2] * x[2] - 3 * x[0] * x[1] + x[1] * x[1]; };
   const Lattice lattice = { { 0.41, 0.42, 0.43 }, { 0.011, 0.012, 0.013 }, { 15, 14, 13 } };
   for (const CellKind& kind : linearKinds())
   {
     for (const double by : { 0., 0.1 })
     {
       const Mesh mesh = meshOf(kind.type, 9, kind.cells, by, false);
-      setMeans(mesh, field, 0);
+      setMeans(mesh, quadratic, 0);
       const Found found = sampled(mesh, Reconstruction::Smooth, lattice);
       double error = 0;
       for (std::size_t i = 0; i < found.values.size(); ++i)
       {
         ASSERT_EQ(found.found[i], 1);
-        error = std::max(error, std::abs(found.values[i] - field(pointOf(lattice, i))));
+        error = std::max(error, std::abs(found.values[i] - quadratic(pointOf(lattice, i))));
       }
       EXPECT_LT(error, by > 0 ? 1e-3 : 1e-4) << kind.name << by; // of half a unit between cells
     }
@@ -550,25 +549,8 @@ TEST(CellMeans, ShocksHaveNoOvershoots)
 {
   for (const double jump : { 0.5, 0.45, 0.61 })
   {
-    const auto shock = [jump](const Vec& x) { return x[0] + 0.2 * x[1] * x[1] < jump ? 0. : 1.; };
-    std::vector<Mesh> meshes = { jittered(16, 0.2) };
-    for (const CellKind& kind : linearKinds())
-    {
-      meshes.push_back(meshOf(kind.type, 8, kind.cells, 0.05, false));
-    }
-    for (const Mesh& mesh : meshes)
-    {
-      setMeans(mesh, shock, 2);
-      double low = 0, high = 1;
-      const Lattice lattice = { { 0.16, 0.16, 0.16 }, { 0.02, 0.02, 0.02 }, { 35, 35, 35 } };
-      for (const double value : sampled(mesh, Reconstruction::Smooth, lattice).values)
-      {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-      EXPECT_GT(low, -0.0101) << jump;
-      EXPECT_LT(high, 1.0101) << jump;
-    }
+    expectNoOvershoots(jump, { { 0.16, 0.16, 0.16 }, { 0.02, 0.02, 0.02 }, { 35, 35, 35 } },
+      [](const Mesh& mesh, const auto& shock) { setMeans(mesh, shock, 2); });
   }
 }
 
