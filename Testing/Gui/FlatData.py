@@ -39,7 +39,7 @@ user.press("OneImage")
 user.python(CHECK)
 user.undo()
 user.redo()
-user.python(CHECK + "settle_views()")
+user.python(CHECK + "settle_soon()")
 user.save_state("redone.pvsm")
 user.play(PLANE)
 
