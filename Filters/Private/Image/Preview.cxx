@@ -53,6 +53,7 @@ void makePreview(schlieren::Scene& scene, const schlieren::Frame& frame, int red
   scene.targetError = 0;
   scene.lightModel = schlieren::LightModel::Rays; // waves take as many points for fewer pixels
   scene.samplesPerPixel = std::min(scene.samplesPerPixel, 1); // keeps invalid values
+  scene.samplesAtEdges = 0;
   scene.stepSize = std::max(scene.stepSize, interactiveStepSize());
   scene.smoothingRadius /= reduction;
 }

@@ -258,9 +258,14 @@ schlieren::Scene sceneFrom(
   scene.targetError = settings.TargetError < 0
     ? schlieren::unseenError(schlieren::techniqueOf(scene.cutoff))
     : settings.TargetError;
+  const bool hasTarget = scene.targetError > 0;
+  // The light of pixels at edges errs by about one over their rays, that of others by much less.
+  constexpr int fewestOfExact = 16, mostOfExact = 255, moreAtEdges = 4;
+  const bool hasMoreAtEdges = !hasTarget && scene.lightModel == schlieren::LightModel::Rays &&
+    scene.samplesPerPixel >= fewestOfExact && scene.samplesPerPixel <= mostOfExact;
+  scene.samplesAtEdges = hasMoreAtEdges ? moreAtEdges * scene.samplesPerPixel : 0;
   // Longer steps hide what cubic splines gain.
   constexpr double longestOfCubic = 1;
-  const bool hasTarget = scene.targetError > 0;
   scene.interpolation = hasTarget || scene.stepSize <= longestOfCubic
     ? schlieren::Interpolation::Cubic
     : schlieren::Interpolation::Quadratic;
