@@ -59,13 +59,14 @@ StepRange stepsFor(const Medium<Real>& medium, bool hasWalls, bool hasFilm)
   return steps;
 }
 
-/// So many rays per pixel that the error of fewer is seen beside theirs. On a screen each of 4 rays lights all of a pixel, as
-/// one does: see sideOnFilm().
+/// So many rays per pixel that the error of fewer is seen beside theirs. On a screen and of fringes each of 4 rays lights all
+/// of a pixel, as one does: see sideOnFilm().
 inline int manyMoreThan(int samples, Cutoff cutoff)
 {
-  constexpr int fewestOnScreen = 16;
-  const bool isOnScreen = techniqueOf(cutoff).plane == RecordedPlane::Screen;
-  return std::max(4 * samples, isOnScreen ? fewestOnScreen : 1);
+  constexpr int fewest = 16;
+  const Technique& technique = techniqueOf(cutoff);
+  const bool lightAll = technique.plane == RecordedPlane::Screen || technique.hasFringes;
+  return std::max(4 * samples, lightAll ? fewest : 1);
 }
 
 /// Finds errors of steps and rays per pixel when they are requested.

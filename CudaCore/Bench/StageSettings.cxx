@@ -350,7 +350,8 @@ double sideOnFilm(int raysPerPixel, const Scene& scene, const Light& light)
   const bool areAlone =
     !isOfCamera(scene.cutoff) && (scene.source.shape != SourceShape::Point || light.pupilTilt > 0);
   const bool isOnScreen = technique.plane == RecordedPlane::Screen;
-  return areAlone || technique.hasFringes
+  constexpr int fewestOfFringes = 16;
+  return areAlone || (technique.hasFringes && raysPerPixel < fewestOfFringes)
     ? 1
     : std::min(1., (isOnScreen ? overlap : 1) * sideOf(raysPerPixel));
 }

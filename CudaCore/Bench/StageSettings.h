@@ -72,8 +72,8 @@ PixelPlaces pixelPlacesOf(const Frame& frame, const View& view, const Light& lig
 FilmSettings filmSettingsOf(const Scene& scene);
 
 /// Of the squares that an image's rays light, see sideOf(). 1 where rays each see another point of a source or an aperture, but
-/// for those of a camera, which stay in their pixels; and of fringes, whose mean between four rays is known. A screen shows how
-/// far rays part from their neighbours: there squares overlap.
+/// for those of a camera, which stay in their pixels; and of few rays with fringes, whose mean between four rays is known where
+/// paths are straight. A screen shows how far rays part from their neighbours: there squares overlap.
 double sideOnFilm(int raysPerPixel, const Scene& scene, const Light& light);
 
 /// Where a pass's rays start in their pixels and at their source, and how much of a pixel they light.

@@ -36,9 +36,9 @@ template <bool isOfPhase, int planes>
 void deposit(const ShadedRays<planes>& shaded, const Sums& sums)
 {
   const unsigned blocks = shaded.rays.blocks(shaded.rays.endRow - shaded.rays.firstRow);
-  if (!isOfPhase && shaded.rays.pass.side < 1)
+  if (shaded.rays.pass.side < 1)
   {
-    launchKernel(boxKernel<planes>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
+    launchKernel(boxKernel<planes, isOfPhase>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);
     return;
   }
   launchKernel(depositKernel<planes, isOfPhase>, blocks, threadsPerBlock, 0, nullptr, shaded, sums);

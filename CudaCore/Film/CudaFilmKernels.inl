@@ -249,7 +249,7 @@ __global__ void depositKernel(const ShadedRays<planes> from, const Sums sums)
 }
 
 /// Deposits the light of single rays on the film. All threads of a block come to its end.
-template <int planes>
+template <int planes, bool isOfPhase>
 __global__ void boxKernel(const ShadedRays<planes> from, const Sums sums)
 {
   const RaysOnDevice& rays = from.rays;
@@ -258,7 +258,7 @@ __global__ void boxKernel(const ShadedRays<planes> from, const Sums sums)
   DeviceDeposit<planes> deposit{ sums };
   if (i < rays.columns && j < rays.endRow)
   {
-    RayBox<planes, DeviceDeposit<planes>, 1>(sums.film, deposit)
+    RayBox<planes, DeviceDeposit<planes>, 1, isOfPhase>(sums.film, deposit)
       .add(from.at(i, j), from.at(i - 1, j), from.at(i + 1, j), from.at(i, j - 1),
         from.at(i, j + 1), rays.pass.side);
   }

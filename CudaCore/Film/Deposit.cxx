@@ -76,7 +76,7 @@ void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays
   std::array<Row, 4> rows{ none, none, none, none };
   std::array<RowRange, 4> lands;
   std::vector<SheetRay<planes>> lower(columns), upper(columns);
-  RayBox<planes, Bands<planes>, coverageTileSize> box(film, bands);
+  RayBox<planes, Bands<planes>, coverageTileSize, isOfPhase> box(film, bands);
   RayCounts ofOthers;
   for (const TracedRays& pass : passes)
   {
@@ -104,7 +104,7 @@ void addSheet(std::int64_t begin, std::int64_t end, const std::vector<TracedRays
     };
     load(begin - 1);
     load(begin);
-    if (!isOfPhase && pass.pass.side < 1)
+    if (pass.pass.side < 1)
     {
       for (std::int64_t row = begin; row < end; ++row)
       {

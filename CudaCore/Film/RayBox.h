@@ -7,6 +7,7 @@
 #include "Film/NeighbourRays.h"
 #include "Film/Splat.h"
 #include "Math/HostDevice.h"
+#include "Optics/Interferogram.h"
 
 #include <cmath>
 #include <cstdint>
@@ -14,8 +15,8 @@
 namespace schlieren
 {
 
-/// Deposit and rowsAtOnce: see Sheet. Rays have light, not a phase.
-template <int planes, class Deposit, int rowsAtOnce>
+/// Deposit, rowsAtOnce and isOfPhase: see Sheet.
+template <int planes, class Deposit, int rowsAtOnce, bool isOfPhase = false>
 class RayBox
 {
 public:
@@ -43,7 +44,11 @@ public:
     for (int plane = 0; plane < planes; ++plane)
     {
       const double second = along.second[plane] + up.second[plane];
-      light[plane] = film_.fixed(limited(here.light[plane] - side * side / 24 * second));
+      const double contrast =
+        contrastOver(side * along.light[plane]) * contrastOver(side * up.light[plane]);
+      light[plane] =
+        film_.fixed(isOfPhase ? 0.5 + contrast * (fringeLight(here.light[plane]) - 0.5)
+                              : limited(here.light[plane] - side * side / 24 * second));
     }
     constexpr double upright = 0.02; // pixels that one side of a box is higher than the other
     const double width = side * fabs(along.x), height = side * fabs(up.y);
@@ -94,8 +99,8 @@ private:
   /// From pixel to pixel along an axis of the pass.
   struct Change
   {
-    double x, y;           ///< of the place on the film
-    double second[planes]; ///< difference of the light
+    double x, y; ///< of the place on the film
+    double light[planes], second[planes];
 
     /// Towards and from neighbours that belong to the ray; if neither does, that of undisturbed light.
     SCHLIEREN_HD static Change of(
@@ -107,15 +112,24 @@ private:
       const double per = hasBefore && hasAfter ? 0.5 : 1;
       const bool isKnown = hasBefore || hasAfter;
       Change change{ isKnown ? per * (last.x - first.x) : x, isKnown ? per * (last.y - first.y) : y,
-        {} };
+        {}, {} };
       for (int plane = 0; plane < planes; ++plane)
       {
+        change.light[plane] = per * (last.light[plane] - first.light[plane]);
         change.second[plane] =
           hasBefore && hasAfter ? secondDifference(before, here, after, plane) : 0;
       }
       return change;
     }
   };
+
+  /// Of fringes, from one side of a square to the other. That of their mean, more by what the spread of it over the square takes
+  /// away of fringes that are wider than that.
+  SCHLIEREN_HD static double contrastOver(double turns)
+  {
+    const double mean = sincPi(turns);
+    return mean * (2 - mean * mean);
+  }
 
   SCHLIEREN_HD static double beyond(double from, double length)
   {

@@ -60,7 +60,7 @@ struct Pass
   std::int64_t columns, rows;
   PixelOffset offset;        ///< the same in all pixels
   double tilt[2] = { 0, 0 }; ///< of the light of one point of the source: slopes along u and v
-  /// Pixels: each ray has the light of a square of this side, see sideOf(). Of fringes it is 1.
+  /// Pixels: each ray has the light of a square of this side, see sideOf().
   double side = 1;
 
   /// Where a ray starts, in pixels from the centre of pixel (0, 0).

@@ -324,10 +324,37 @@ TEST(Estimators, ManyRaysPerPixelAreNearerToIt)
   }
 }
 
+/// The image of so many rays per pixel that are not displaced; `exitAt`: of column and row.
+template <class ExitAt>
+PixelArray<float> imageOfManyRays(int size, int passes, const Cutoffs& cutoff, const ExitAt& exitAt)
+{
+  constexpr int margin = 2;
+  std::vector<std::vector<RayExit>> exits;
+  std::vector<TracedRays> rays;
+  for (int number = 0; number < passes; ++number)
+  {
+    const Pass pass{ -margin, -margin, size + 2 * margin, size + 2 * margin, pixelOffset(number, 1),
+      { 0, 0 }, sideOf(passes) };
+    std::vector<RayExit>& ofPass = exits.emplace_back();
+    for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
+    {
+      ofPass.push_back(exitAt(pass.columnOf(ray), pass.rowOf(ray)));
+    }
+    rays.push_back({ pass, nullptr });
+  }
+  for (std::size_t number = 0; number < rays.size(); ++number)
+  {
+    rays[number].exits = exits[number].data();
+  }
+  Films films(1, size, size, 10000000);
+  expose(rays, cutoff, { 0, 1, 0 }, margin, 1, films);
+  return films.developIntensity(passes, 1);
+}
+
 /// Waves of few pixels, oblique to them, have each pixel's mean: that of a sine over a square.
 TEST(Estimators, ManyRaysPerPixelHaveThePixelsMean)
 {
-  constexpr int size = 40, margin = 2;
+  constexpr int size = 40;
   constexpr double amplitude = 0.45;
   for (const double pixelsPerWave : { 3.4, 6.9 })
   {
@@ -336,28 +363,12 @@ TEST(Estimators, ManyRaysPerPixelHaveThePixelsMean)
     const double mean = sincOf(along) * sincOf(up);
     for (const int passes : { 4, 16, 64 })
     {
-      std::vector<std::vector<RayExit>> exits;
-      std::vector<TracedRays> rays;
-      for (int number = 0; number < passes; ++number)
-      {
-        const Pass pass{ -margin, -margin, size + 2 * margin, size + 2 * margin,
-          pixelOffset(number, 1), { 0, 0 }, sideOf(passes) };
-        std::vector<RayExit>& ofPass = exits.emplace_back();
-        for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
+      const PixelArray<float> image = imageOfManyRays(size, passes, KnifeEdge::at(0, 1),
+        [&](double column, double row) -> RayExit
         {
-          const double turns = along * pass.columnOf(ray) + up * pass.rowOf(ray);
-          ofPass.push_back(
-            { { amplitude * std::sin(2 * pi * turns), 0 }, { 0, 0 }, turns, RayFate::Left, 1 });
-        }
-        rays.push_back({ pass, nullptr });
-      }
-      for (std::size_t number = 0; number < rays.size(); ++number)
-      {
-        rays[number].exits = exits[number].data();
-      }
-      Films films(1, size, size, 10000000);
-      expose(rays, KnifeEdge::at(0, 1), { 0, 1, 0 }, margin, 1, films);
-      const PixelArray<float> image = films.developIntensity(passes, 1);
+          const double turns = along * column + up * row;
+          return { { amplitude * std::sin(2 * pi * turns), 0 }, { 0, 0 }, turns, RayFate::Left, 1 };
+        });
       for (int pixel = 0; pixel < size * size; ++pixel)
       {
         const double turns = along * (pixel % size) + up * (pixel / size);
@@ -365,6 +376,39 @@ TEST(Estimators, ManyRaysPerPixelHaveThePixelsMean)
           0.5 + amplitude * mean * std::sin(2 * pi * turns), 0.1 / passes)
           << pixelsPerWave << " " << passes;
       }
+    }
+  }
+}
+
+/// Paths that bend within a pixel, as at fronts: a wave of few pixels, by a third of a fringe. Fringes between rays that are
+/// a pixel apart would show less of it, however many there are.
+TEST(Estimators, ManyRaysPerPixelShowFringesOfBentPaths)
+{
+  constexpr int size = 24, parts = 24;
+  constexpr double along = 0.28, up = 0.1, amplitude = 0.35;
+  const auto pathAt = [](double column, double row)
+  { return amplitude * std::sin(2 * pi * (along * column + up * row)); };
+  const auto meanAt = [&](int column, int row)
+  {
+    double sum = 0;
+    for (int part = 0; part < parts * parts; ++part)
+    {
+      const auto inPixel = [&](int n) { return (n + 0.5) / parts - 0.5; };
+      sum += std::cos(2 * pi * pathAt(column + inPixel(part % parts), row + inPixel(part / parts)));
+    }
+    return 0.5 + 0.5 * sum / (parts * parts);
+  };
+  for (const int passes : { 16, 64 })
+  {
+    const PixelArray<float> image = imageOfManyRays(size, passes, Interferogram{ 1, {} },
+      [&](double column, double row) -> RayExit {
+        return { { 0, 0 }, { 0, 0 }, pathAt(column, row), RayFate::Left, 1 };
+      });
+    for (int pixel = 0; pixel < size * size; ++pixel)
+    {
+      ASSERT_NEAR(
+        image[static_cast<std::size_t>(pixel)], meanAt(pixel % size, pixel / size), 0.4 / passes)
+        << passes << " " << pixel;
     }
   }
 }
