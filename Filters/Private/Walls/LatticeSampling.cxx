@@ -95,7 +95,8 @@ void LatticeSampling::measure(
   this->NearestSolid.resize(size);
   const auto width = static_cast<std::size_t>(this->Lattice.points[0]);
   const std::vector<float> far(width, reach * reach);
-  const std::vector<std::int32_t> none(width, -1);
+  std::vector<std::int32_t> none;
+  none.resize(width, -1); // made with its size, GCC 14 warns of its end
   const std::vector<unsigned char> outsideOfBodies(isInBody.empty() ? width : 0, 0);
   for (int k = 0; k < this->Lattice.points[2]; ++k)
   {
