@@ -81,9 +81,9 @@ vtkSMProxy* showFlat(pqOutputPort* image, pqRenderView* view)
   }
   vtkSMProxy* representation = vtkNew<Controller>()->Show(
     image->getSource()->getSourceProxy(), image->getPortNumber(), window);
-  if (representation)
+  if (auto* shown = vtkSMPVRepresentationProxy::SafeDownCast(representation))
   {
-    vtkSMPVRepresentationProxy::SetScalarBarVisibility(representation, window, false);
+    shown->SetScalarBarVisibility(window, false);
     // Avoids the outline that ParaView shows without data.
     vtkSMPropertyHelper type(representation, "Representation");
     if (std::strcmp(type.GetAsString(), "Outline") == 0)
