@@ -179,11 +179,13 @@ def save_state(name):
     """As File > Save State does. But since ParaView 5.13, whatever writes a file leaves a step to undo; so
     this is what the program prints."""
     state = servermanager.ProxyManager().SMProxyManager.SaveXMLState()
+    flush = ctypes.CDLL(None).fflush
     with open(name, "wb") as file:
         output = os.dup(1)
+        flush(None)  # what was printed before
         os.dup2(file.fileno(), 1)
         state.PrintXML()
-        ctypes.CDLL(None).fflush(None)
+        flush(None)
         os.dup2(output, 1)
         os.close(output)
 
@@ -227,19 +229,24 @@ def _close_waiting(before=None):
 
 
 def confirm():
-    """Answers the next question with Yes."""
+    """Answers a question with Yes, if there is one now."""
     question = QApplication.activeModalWidget()
-    if question:
+    if isinstance(question, QtWidgets.QMessageBox):
         question.button(QtWidgets.QMessageBox.StandardButton.Yes).click()
-    else:
-        QTimer.singleShot(100, confirm)
 
 
 def reset_session():
-    """Edit > Reset Session, without waiting for it."""
+    """Edit > Reset Session, without waiting for it; its question, if ParaView asks one, is answered."""
     (action,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
-    QTimer.singleShot(0, action.trigger)
-    QTimer.singleShot(100, confirm)
+    asked = QTimer(widget(), interval=100)
+    asked.timeout.connect(confirm)
+
+    def reset():
+        action.trigger()
+        asked.stop()
+
+    asked.start()
+    QTimer.singleShot(0, reset)
 
 
 def end_reset(folder):
