@@ -25,23 +25,23 @@ def make_and(do):
 """
 user = ViewsSession()
 user.python(HELPERS + """
-# A question of ParaView's, which finds all that is to be made, once.
-def refuse():
-    question = QApplication.activeModalWidget()
-    if not question:
-        QTimer.singleShot(50, refuse)
+# A dialog of ParaView's, which finds all that is to be made, once.
+def close():
+    dialog = QApplication.activeModalWidget()
+    if not dialog:
+        QTimer.singleShot(50, close)
         return
     inside_window.found = len(GetRenderViews()), len(displays())
-    question.button(QtWidgets.QMessageBox.StandardButton.No).click()
+    dialog.reject()
 def ask():
     QTest.mouseClick(button, Qt.MouseButton.LeftButton)
-    type_key(Qt.Key.Key_R)
-    QTimer.singleShot(0, refuse)
+    type_key(Qt.Key.Key_O)
+    QTimer.singleShot(0, close)
 make_and(ask)
 until(lambda: hasattr(inside_window, "found"))
 assert inside_window.found == (4, 3), inside_window.found
 """)
-user.idle()  # some of which are played inside of the question
+user.idle()  # some of which are played inside of the dialog
 user.python("until(shown_at_all)\nassert len(displays()) == 3")
 user.undo()
 user.python(HELPERS + """
@@ -49,23 +49,21 @@ assert len(GetRenderViews()) == 1 and not displays()
 make_and(lambda: type_key(Qt.Key.Key_Z))
 until(lambda: len(GetRenderViews()) == 1 and not displays())
 
-# The example, as soon as events are handled after a new session has been agreed to.
+# The example, as soon as events are handled after a new session has been agreed to, where ParaView asks.
 import inside_window
 (reset,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
 (example,) = [one for one in widget("menuExamples").actions() if one.objectName() == "jet"]
 inside_window.tried = []
 def try_example():
+    question = QApplication.activeModalWidget()
+    if question:
+        QTimer.singleShot(0, try_example)
+        question.button(QtWidgets.QMessageBox.StandardButton.Yes).click()
+        return
     inside_window.tried.append(widget("menuExamples").isEnabled())
     example.trigger()
-def agree():
-    question = QApplication.activeModalWidget()
-    if not question:
-        QTimer.singleShot(50, agree)
-        return
-    QTimer.singleShot(0, try_example)
-    question.button(QtWidgets.QMessageBox.StandardButton.Yes).click()
 QTimer.singleShot(0, reset.trigger)
-QTimer.singleShot(50, agree)
+QTimer.singleShot(0, try_example)
 """)
 user.idle()
 user.python("""
