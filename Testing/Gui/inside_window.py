@@ -238,14 +238,14 @@ def confirm():
 def reset_session():
     """Edit > Reset Session, without waiting for it; its question, if ParaView asks one, is answered."""
     (action,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
-    asked = QTimer(widget(), interval=100)
-    asked.timeout.connect(confirm)
+    confirming = QTimer(widget(), interval=100)
+    confirming.timeout.connect(confirm)
 
     def reset():
         action.trigger()
-        asked.stop()
+        confirming.stop()
 
-    asked.start()
+    confirming.start()
     QTimer.singleShot(0, reset)
 
 
