@@ -304,9 +304,9 @@ TEST(TargetErrors, RefineTheMediumThatIsThere)
     return Bench().render(field, same);
   };
   const Image atOnce = withTolerance(refined);
-  const auto voxels = static_cast<double>(atOnce.medium->voxels);
-  EXPECT_GT(voxels, 1.2 * static_cast<double>(withTolerance(usual).medium->voxels));
-  EXPECT_NEAR(static_cast<double>(image.medium->voxels), voxels, 0.05 * voxels);
+  const auto voxels = static_cast<double>(atOnce.medium.voxels);
+  EXPECT_GT(voxels, 1.2 * static_cast<double>(withTolerance(usual).medium.voxels));
+  EXPECT_NEAR(static_cast<double>(image.medium.voxels), voxels, 0.05 * voxels);
   EXPECT_LT(
     trueError(image, atOnce, scene, [](std::size_t) { return true; }), 0.25 * scene.targetError);
 
@@ -322,7 +322,7 @@ TEST(TargetErrors, RefineTheMediumThatIsThere)
   EXPECT_TRUE(second.render(field, scene).accuracy.isKept());
   EXPECT_EQ(second.work().mediumBuilds, 1); // the one that it began with is the first's
   EXPECT_EQ(media->count(), 2);
-  EXPECT_EQ(first.render(field, coarse).medium->voxels, before.medium->voxels);
+  EXPECT_EQ(first.render(field, coarse).medium.voxels, before.medium.voxels);
 }
 
 /// Another knife edge takes the rays of the image before, also where something is shown before the settings are found.
