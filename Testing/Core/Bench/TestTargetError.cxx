@@ -286,7 +286,6 @@ TEST(TargetErrors, RefineTheMediumThatIsThere)
 {
   constexpr double usual = 0.006, refined = 0.001; // tolerances
   Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
-  scene.view.width = scene.view.height = 48;
   scene.targetError = 1. / 1024;
   const Field field = fieldOf(std::make_shared<ShellSource>());
   Bench bench;
