@@ -27,9 +27,14 @@ struct Samples
   const Value* values;
   const unsigned char* valid;
 
+  static bool maySayGas(unsigned char mark) { return mark != 0 && mark != transparent; }
   bool isGas(std::int64_t at) const
   {
-    return (valid == nullptr || valid[at] != 0) && std::isfinite(values[at]);
+    return (valid == nullptr || maySayGas(valid[at])) && std::isfinite(values[at]);
+  }
+  bool isSolid(std::int64_t at) const
+  {
+    return !isGas(at) && (valid == nullptr || valid[at] != transparent);
   }
 };
 
@@ -138,9 +143,9 @@ Range load(const Samples<Value>& samples, double offset, double ambient, PaddedV
               lowest.data(), highest.data());
           };
           const unsigned char* valid = samples.valid;
-          range.gas += valid == nullptr
-            ? loadWith([](std::int64_t) { return true; })
-            : loadWith([valid = valid + row](std::int64_t i) { return valid[i] != 0; });
+          range.gas += valid == nullptr ? loadWith([](std::int64_t) { return true; })
+                                        : loadWith([valid = valid + row](std::int64_t i)
+                                            { return Samples<Value>::maySayGas(valid[i]); });
         }
         range.lowest =
           offset + static_cast<double>(*std::min_element(lowest.begin(), lowest.end()));
@@ -188,18 +193,21 @@ PointMask findPoints(
   return found;
 }
 
-/// Marks the solids and gives them values from the gas around.
+/// Marks the solids and gives them, and what is transparent, values from the gas around.
 template <class Real, class Value>
 void setSolids(const Samples<Value>& samples, Medium<Real>& medium, int threads)
 {
   const std::array<std::int64_t, 3>& dimensions = medium.volume.dimensions;
-  PointMask solid =
-    findPoints(dimensions, threads, [&](std::int64_t at) { return !samples.isGas(at); });
-  if (solid.any())
   {
-    medium.solid = bitsPerSample(medium.volume, solid);
+    const PointMask solid =
+      findPoints(dimensions, threads, [&](std::int64_t at) { return samples.isSolid(at); });
+    if (solid.any())
+    {
+      medium.solid = bitsPerSample(medium.volume, solid);
+    }
   }
-  fillEmpty(medium.volume, std::move(solid), threads);
+  fillEmpty(medium.volume,
+    findPoints(dimensions, threads, [&](std::int64_t at) { return !samples.isGas(at); }), threads);
 }
 
 /// Sets to zero what is too small to matter beside `largest` |nu|. The tails of a spline's coefficients

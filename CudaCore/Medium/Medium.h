@@ -35,8 +35,8 @@ struct Medium
   MediumView<Real> view() const;
 };
 
-/// Builds the medium. Solids are where `field.valid` is 0 or a sample is not finite; they take values spread from the gas
-/// around them, so that they pull at no gradient next to them.
+/// Builds the medium. Solids are where `field.valid` is 0 or a sample is not finite; they, and transparent
+/// places, take values spread from the gas around them, so that they pull at no gradient next to them.
 /// Throws Error.
 template <class Real>
 Medium<Real> buildMedium(const Field& field, Interpolation interpolation, int threads);

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/FieldFromImage.h"
 
+#include "Common/AvailableMemory.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -20,10 +22,11 @@ namespace
 {
 
 constexpr const char* maskName = "vtkValidPointMask";
+constexpr const char* transparentName = "TransparentPointMask";
 
-vtkUnsignedCharArray* maskOf(vtkImageData* image)
+vtkUnsignedCharArray* bytesOf(vtkImageData* image, const char* name)
 {
-  return vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetArray(maskName));
+  return vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetArray(name));
 }
 
 } // namespace
@@ -54,20 +57,33 @@ schlieren::Field fieldFrom(vtkImageData* refractivity)
   {
     field.offset = offset->GetComponent(0, 0);
   }
-  auto* mask = maskOf(refractivity);
+  auto* mask = bytesOf(refractivity, maskName);
   field.valid = mask ? mask->GetPointer(0) : nullptr;
   field.version = refractivity->GetMTime();
   return field;
 }
 
-void dropFullMask(vtkImageData* refractivity)
+void mergeMasks(vtkImageData* refractivity)
 {
-  auto* valid = maskOf(refractivity);
-  if (std::memchr(valid->GetPointer(0), 0, static_cast<std::size_t>(valid->GetNumberOfValues())) ==
-    nullptr)
+  vtkPointData* arrays = refractivity->GetPointData();
+  auto* valid = bytesOf(refractivity, maskName);
+  const auto count = static_cast<std::size_t>(valid->GetNumberOfValues());
+  if (std::memchr(valid->GetPointer(0), 0, count) == nullptr)
   {
-    refractivity->GetPointData()->RemoveArray(maskName);
+    arrays->RemoveArray(maskName);
   }
+  else if (auto* outside = bytesOf(refractivity, transparentName))
+  {
+    vtkNew<vtkUnsignedCharArray> merged; // the others may belong to the input
+    merged->SetName(maskName);
+    setTuples(merged, valid->GetNumberOfValues());
+    std::transform(valid->GetPointer(0), valid->GetPointer(0) + count, outside->GetPointer(0),
+      merged->GetPointer(0),
+      [](unsigned char isValid, unsigned char isOutside)
+      { return isOutside ? schlieren::transparent : isValid; });
+    arrays->AddArray(merged);
+  }
+  arrays->RemoveArray(transparentName);
 }
 
 } // namespace filters

@@ -12,10 +12,11 @@ namespace filters
 /// Converts an image's geometry to the tracer's.
 schlieren::Grid gridFrom(vtkImageData* image);
 
-/// Wraps the image's arrays as the tracer's field.
+/// Wraps the image's arrays as the tracer's field. mergeMasks() has been called.
 schlieren::Field fieldFrom(vtkImageData* refractivity);
 
-/// Removes a mask that is gas everywhere: it would cost memory (a fifth of the image's) and time.
-void dropFullMask(vtkImageData* refractivity);
+/// Merges an image's two masks into one with the tracer's values. Removes a mask that is gas
+/// everywhere: it would cost memory (a fifth of the image's) and time.
+void mergeMasks(vtkImageData* refractivity);
 
 } // namespace filters

@@ -18,6 +18,7 @@ namespace filters
 // Point arrays of the output, which inputs may have, too.
 constexpr const char* arrayName = "Refractivity";
 constexpr const char* maskName = "vtkValidPointMask"; // the name that vtkResampleToImage uses
+constexpr const char* transparentName = "TransparentPointMask";
 
 // Field data: the value that Numbers::Differences are relative to.
 constexpr const char* offsetName = "RefractivityOffset";

@@ -89,8 +89,8 @@ void keepArrays(
   {
     vtkDataArray* array = from->GetArray(i);
     const std::string name = array && array->GetName() ? array->GetName() : "";
-    const bool isKnown =
-      name == vtkDataSetAttributes::GhostArrayName() || name == arrayName || name == maskName;
+    const bool isKnown = name == vtkDataSetAttributes::GhostArrayName() || name == arrayName ||
+      name == maskName || name == transparentName;
     if (array && (isKnown || std::find(names.begin(), names.end(), name) != names.end()))
     {
       kept[name] = array;

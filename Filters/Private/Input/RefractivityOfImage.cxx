@@ -134,6 +134,26 @@ bool hidesSome(vtkImageData* image)
     image->GetPointData()->HasArray(maskName);
 }
 
+/// Returns the array of points that let light pass; null if the image has none.
+vtkSmartPointer<vtkUnsignedCharArray> outsideFrom(vtkDataSet* image)
+{
+  vtkDataArray* given = image->GetPointData()->GetArray(transparentName);
+  if (!given || given->GetNumberOfComponents() != 1 ||
+    given->GetNumberOfTuples() != image->GetNumberOfPoints())
+  {
+    return nullptr;
+  }
+  vtkUnsignedCharArray* ghosts = image->GetPointGhostArray();
+  auto outside = newMask(image->GetNumberOfPoints());
+  outside->SetName(transparentName);
+  for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
+  {
+    const bool isHidden = ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::HIDDENPOINT);
+    outside->SetValue(i, given->GetComponent(i, 0) != 0 && !isHidden ? 1 : 0);
+  }
+  return outside;
+}
+
 } // namespace
 
 void gridOfImage(vtkImageData* image, bool ofCells, double depth, vtkImageData* structure)
@@ -210,6 +230,10 @@ Tally convertImage(const Flow& flow, Numbers numbers, vtkImageData* output)
     hidePointsOfHiddenCells(flow.image, valid);
   }
   const Tally tally = setArrays(output, leaf.arrays, flow.model, valid, numbers);
+  if (const auto outside = leaf.ofCells ? nullptr : outsideFrom(flow.image))
+  {
+    setOutside(outside, output);
+  }
   if (const int flat = flatAxisOf(flow); flat >= 0)
   {
     extrudeArrays(output, flat);

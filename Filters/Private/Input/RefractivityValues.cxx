@@ -261,4 +261,22 @@ Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   return tally;
 }
 
+void setOutside(vtkUnsignedCharArray* outside, vtkImageData* output)
+{
+  vtkDataArray* valid = output->GetPointData()->GetArray(maskName);
+  bool isAny = false;
+  for (vtkIdType i = 0; i < outside->GetNumberOfValues(); ++i)
+  {
+    if (valid->GetComponent(i, 0) != 0)
+    {
+      outside->SetValue(i, 0);
+    }
+    isAny = isAny || outside->GetValue(i) != 0;
+  }
+  if (isAny)
+  {
+    output->GetPointData()->AddArray(outside);
+  }
+}
+
 } // namespace filters

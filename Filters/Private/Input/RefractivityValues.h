@@ -25,4 +25,7 @@ vtkSmartPointer<Array> convert(const Arrays& values, const Model& model,
 Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   vtkUnsignedCharArray* valid, Numbers numbers);
 
+/// Adds TransparentPointMask: the masked points among `outside`, if there are any.
+void setOutside(vtkUnsignedCharArray* outside, vtkImageData* output);
+
 } // namespace filters

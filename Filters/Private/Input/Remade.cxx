@@ -37,7 +37,7 @@ Leaf Remade::leafOf(const Leaf& from) const
   {
     one.data->GetCellData()->AddArray(chosenValues(ghosts, this->cells));
   }
-  for (const char* name : { vtkDataSetAttributes::GhostArrayName(), maskName })
+  for (const char* name : { vtkDataSetAttributes::GhostArrayName(), maskName, transparentName })
   {
     vtkDataArray* flags = from.data->GetPointData()->GetArray(name);
     if (flags && !one.data->GetPointData()->HasArray(name))

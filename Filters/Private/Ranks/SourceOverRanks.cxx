@@ -63,7 +63,7 @@ std::unique_ptr<ImagePiece> makePieceOfImage(MediumMaker& maker, const ChoiceOve
   vtkNew<vtkImageData> refractivity;
   tally = convertImage(choice.flow,
     maker.settings.DoublePrecision ? Numbers::Doubles : Numbers::Differences, refractivity);
-  dropFullMask(refractivity);
+  mergeMasks(refractivity);
   ImagePiece::Extents extents{ of.whole, of.own };
   for (const std::size_t high : { 1, 3, 5 })
   {

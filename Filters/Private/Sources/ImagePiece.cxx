@@ -28,9 +28,15 @@ constexpr double cellBySpacing = 0.5;
 /// Tolerance of indices, so that points halfway between two ranks are not missed.
 constexpr double rounding = 1e-6;
 
-bool isGasAt(const schlieren::Field& field, std::size_t point)
+schlieren::Place kindAt(const schlieren::Field& field, std::size_t point)
 {
-  return (!field.valid || field.valid[point] != 0) && std::isfinite(valueAt(field, point));
+  const unsigned char valid = field.valid ? field.valid[point] : 1;
+  if (valid == schlieren::transparent)
+  {
+    return schlieren::Place::Window;
+  }
+  return valid != 0 && std::isfinite(valueAt(field, point)) ? schlieren::Place::Gas
+                                                            : schlieren::Place::Wall;
 }
 
 /// Transforms a point to the axes that `direction` leads from.
@@ -102,7 +108,11 @@ ImagePiece::ImagePiece(
   this->IsKnown = this->knownOf(field);
   if (std::find(this->IsKnown.begin(), this->IsKnown.end(), 0) != this->IsKnown.end())
   {
-    this->IsGas = this->IsKnown;
+    this->Kinds.resize(this->IsKnown.size(), schlieren::Place::Gas);
+    for (std::size_t at = 0; at < this->Kinds.size(); ++at)
+    {
+      this->Kinds[at] = kindAt(field, at);
+    }
   }
   if (bodies)
   {
@@ -158,7 +168,7 @@ std::vector<unsigned char> ImagePiece::knownOf(const schlieren::Field& field) co
   std::vector<unsigned char> isKnown(volume(this->Points), 1);
   for (std::size_t at = 0; at < isKnown.size(); ++at)
   {
-    isKnown[at] = isGasAt(field, at) ? 1 : 0;
+    isKnown[at] = kindAt(field, at) == schlieren::Place::Gas ? 1 : 0;
   }
   return isKnown;
 }
@@ -194,9 +204,10 @@ double ImagePiece::ambientOf(std::vector<OuterValue> values)
   return schlieren::ambientOf(std::move(weighted));
 }
 
-bool ImagePiece::isGas(const Counts& point) const
+schlieren::Place ImagePiece::kindOf(const Counts& point) const
 {
-  return this->IsGas.empty() || this->IsGas[this->all().index(point[0], point[1], point[2])];
+  return this->Kinds.empty() ? schlieren::Place::Gas
+                             : this->Kinds[this->all().index(point[0], point[1], point[2])];
 }
 
 BoundaryFaces ImagePiece::faces() const
@@ -210,13 +221,14 @@ BoundaryFaces ImagePiece::faces() const
     corner, { { this->Spacing, this->Whole } },
     [&](std::size_t, const Counts& point)
     {
-      return this->isGas(
-               { point[0] - this->First[0], point[1] - this->First[1], point[2] - this->First[2] })
-        ? CellState::Gas
-        : CellState::Solid;
+      const schlieren::Place place = this->kindOf(
+        { point[0] - this->First[0], point[1] - this->First[1], point[2] - this->First[2] });
+      return place == schlieren::Place::Gas ? CellState::Gas
+        : place == schlieren::Place::Wall   ? CellState::Solid
+                                            : CellState::None;
     },
     Extent::Volume);
-  if (!this->IsGas.empty())
+  if (!this->Kinds.empty())
   {
     // Selects the points whose neighbours are all in the piece.
     CellBox inner = this->Own;
@@ -230,9 +242,10 @@ BoundaryFaces ImagePiece::faces() const
     forCells(inner.begin, inner.size(),
       [&](int i, int j, int k)
       {
-        if (!this->isGas({ i, j, k }))
+        if (const schlieren::Place kind = this->kindOf({ i, j, k }); kind != schlieren::Place::Gas)
         {
-          faces.addAround(0, { this->First[0] + i, this->First[1] + j, this->First[2] + k }, true);
+          faces.addAround(0, { this->First[0] + i, this->First[1] + j, this->First[2] + k },
+            kind == schlieren::Place::Wall);
         }
       });
   }
@@ -298,7 +311,7 @@ void ImagePiece::sample(const schlieren::Lattice& lattice, double* refractivity,
       const Counts point{ nearest[0][static_cast<std::size_t>(i)],
         nearest[1][static_cast<std::size_t>(j)], nearest[2][static_cast<std::size_t>(k)] };
       const bool isOwn = *std::min_element(point.begin(), point.end()) != ofOthers;
-      *found++ = isOwn && this->isGas(point) ? 1 : 0;
+      *found++ = isOwn && this->kindOf(point) == schlieren::Place::Gas ? 1 : 0;
     });
   if (!hasOwn)
   {
@@ -339,7 +352,7 @@ bool ImagePiece::holds(const Point& place) const
   {
     isOwn = isOwn && nearest[axis] >= this->Own.begin[axis] && nearest[axis] < this->Own.end[axis];
   }
-  return isOwn && this->isGas(nearest);
+  return isOwn && this->kindOf(nearest) == schlieren::Place::Gas;
 }
 
 } // namespace filters

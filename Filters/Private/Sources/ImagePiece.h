@@ -86,7 +86,7 @@ private:
   double indexAt(double place, std::size_t axis) const;
   double indexWithin(double place, std::size_t axis) const; // clamped to the points that it has
   Counts nearestPoint(const Point& place) const;
-  bool isGas(const Counts& point) const;
+  schlieren::Place kindOf(const Counts& point) const;
   CellBox all() const { return { { 0, 0, 0 }, this->Points }; }
 
   Counts Points;                         // of the refractivity, with other ranks' points
@@ -95,9 +95,9 @@ private:
   CellBox Own;                           // its own among Points
   std::array<double, 3> Origin, Spacing; // of the whole image
   std::array<double, 9> Direction;
-  std::vector<unsigned char> IsGas;   // whether each point is, without bodies; empty: all
-  std::vector<unsigned char> IsKnown; // of each point: gas outside of bodies
-  std::int64_t KnownPoints = 0;       // of its own
+  std::vector<schlieren::Place> Kinds; // of each point; empty: all gas
+  std::vector<unsigned char> IsKnown;  // of each point: gas outside of bodies
+  std::int64_t KnownPoints = 0;        // of its own
   std::vector<OuterValue> Outer;
   std::unique_ptr<const ImageSpline> Spline; // of N
 };

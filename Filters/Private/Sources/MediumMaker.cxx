@@ -232,7 +232,7 @@ void MediumMaker::makeImage(const Choice& choice, MadeRefractivity& made)
   {
     throw std::runtime_error(noGas(flow.label));
   }
-  dropFullMask(image);
+  mergeMasks(image);
   const int* points = image->GetDimensions();
   made.Grid = std::to_string(points[0]) + " x " + std::to_string(points[1]) + " x " +
     std::to_string(points[2]) + " points: the data's own";
