@@ -8,6 +8,7 @@
 #include "Ranks/ChoiceOverRanks.h"
 #include "Ranks/PiecesOfRanks.h"
 #include "Sources/MediumMaker.h"
+#include "Sources/RevolvedImage.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
@@ -15,11 +16,13 @@
 #include "vtkDataObjectTypes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -37,6 +40,15 @@ vtkStandardNewMacro(vtkRefractiveIndex);
 
 namespace
 {
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+void tellGrid(vtkImageData* grid, vtkInformation* outInfo)
+{
+  outInfo->Set(Pipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
+  outInfo->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);
+  outInfo->Set(vtkDataObject::SPACING(), grid->GetSpacing(), 3);
+}
 
 /// Copies data and composites of them without their arrays' values. Returns the copy of each dataset.
 std::map<vtkDataObject*, vtkDataObject*> copy(vtkDataObject* input, vtkDataObject* output)
@@ -79,11 +91,37 @@ int vtkRefractiveIndex::RequestDataObject(
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]); // null after an error upstream
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
+  const char* type = this->Symmetry == SYMMETRY_AXISYMMETRIC ? "vtkImageData"
+    : input                                                  ? input->GetClassName()
+                                                             : "vtkUnstructuredGrid";
   if (!output || std::strcmp(output->GetClassName(), type) != 0)
   {
     outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(),
       vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type)));
+  }
+  return 1;
+}
+
+int vtkRefractiveIndex::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  if (this->Symmetry == SYMMETRY_AXISYMMETRIC)
+  {
+    if (this->Grid->GetNumberOfPoints() == 0)
+    {
+      this->Grid->SetDimensions(2, 2, 2); // until the data are there
+    }
+    tellGrid(this->Grid, outputVector->GetInformationObject(0));
+  }
+  return 1;
+}
+
+int vtkRefractiveIndex::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  if (this->Symmetry == SYMMETRY_AXISYMMETRIC)
+  {
+    requestPieces(this, inputVector);
   }
   return 1;
 }
@@ -99,13 +137,23 @@ int vtkRefractiveIndex::RequestData(
   {
     const Ranks ranks;
     shareArrays(ranks, this->GetMaker(), input);
-    this->Append(input, output);
+    if (this->Symmetry != SYMMETRY_AXISYMMETRIC)
+    {
+      this->Append(input, output);
+      return;
+    }
+    this->Revolve(input, vtkImageData::SafeDownCast(output));
+    // RequestInformation could not know it. Without the second, VTK would crop the output.
+    vtkInformation* outInfo = outputVector->GetInformationObject(0);
+    tellGrid(this->Grid, outInfo);
+    outInfo->Set(Pipeline::UPDATE_EXTENT(), this->Grid->GetExtent(), 6);
   };
   const std::pair<vtkMTimeType, double> now{ std::max(this->GetMTime(), upstreamTime(this)),
     input && input->GetInformation()->Has(vtkDataObject::DATA_TIME_STEP())
       ? input->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP())
       : 0 };
-  bool isPiece = true; // else nothing after an error
+  bool isPiece =
+    this->Symmetry != SYMMETRY_AXISYMMETRIC; // or the whole, and nothing after an error
   const auto fail = [&](const std::string& problem)
   {
     isPiece = false;
@@ -184,5 +232,30 @@ void vtkRefractiveIndex::Append(vtkDataObject* input, vtkDataObject* output)
   if (!warning.empty() && isRank0())
   {
     vtkWarningMacro(<< shortened(warning));
+  }
+}
+
+void vtkRefractiveIndex::Revolve(vtkDataObject* input, vtkImageData* output)
+{
+  const Ranks ranks;
+  MediumMaker& maker = this->GetMaker();
+  vtkSmartPointer<vtkDataObject> all = input;
+  if (hasOtherRanks())
+  {
+    PiecesOfRanks pieces(ranks, input, arraysOf(maker.choice().settings));
+    const auto gathered = pieces.gather();
+    all = gathered ? gathered.Get() : input;
+  }
+  if (!isRank0())
+  {
+    return;
+  }
+  const Choice choice = maker.choose(all);
+  const auto made = maker.make(choice, nullptr);
+  sampleRevolved(*made->Source, choice, WorkProgress(maker.progress()).part(0.5, 1), output);
+  this->Grid->CopyStructure(output);
+  if (!made->Warning.empty())
+  {
+    vtkWarningMacro(<< shortened(made->Warning));
   }
 }

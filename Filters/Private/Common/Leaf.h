@@ -26,6 +26,7 @@ constexpr const char* offsetName = "RefractivityOffset";
 /// The representation of the array Refractivity.
 enum class Numbers
 {
+  Singles,
   Doubles,
   Differences // from about the ambient N, in single precision: weak flows keep their digits
 };

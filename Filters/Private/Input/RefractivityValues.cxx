@@ -249,11 +249,14 @@ Tally setArrays(vtkImageData* output, const Arrays& values, const Model& model,
   }
   else
   {
-    const double offset = offsetFor(output, values, model, valid);
-    vtkNew<vtkDoubleArray> ofField;
-    ofField->SetName(offsetName);
-    ofField->InsertNextValue(offset);
-    output->GetFieldData()->AddArray(ofField);
+    double offset = 0;
+    if (numbers == Numbers::Differences)
+    {
+      vtkNew<vtkDoubleArray> ofField;
+      ofField->SetName(offsetName);
+      ofField->InsertNextValue(offset = offsetFor(output, values, model, valid));
+      output->GetFieldData()->AddArray(ofField);
+    }
     refractivity = convertWith<vtkFloatArray>(values, model, mask, 0, offset, tally);
   }
   output->GetPointData()->SetScalars(refractivity);

@@ -11,6 +11,7 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkSphereSource.h"
 #include "vtkStructuredGrid.h"
+#include "vtkThreshold.h"
 #include "vtkUnstructuredGrid.h"
 
 namespace
@@ -55,7 +56,7 @@ vtkSmartPointer<vtkSchlierenFilter> revolved(vtkDataObject* input, bool ofCells 
     filter->SetInputArrayToProcess(
       vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
   }
-  filter->SetSymmetry(vtkSchlierenFilter::SYMMETRY_AXISYMMETRIC);
+  filter->SetSymmetry(vtkRefractiveIndex::SYMMETRY_AXISYMMETRIC);
   filter->SetParallelScale(0.7);
   filter->SetMediumTolerance(4e-3);
   return filter;
@@ -215,7 +216,7 @@ TEST(Revolved, PlanesMayLieOtherwise)
   for (const auto& one : cases)
   {
     auto filter = revolved(section(0, false, one.from, one.to));
-    filter->SetSymmetryAxis(vtkSchlierenFilter::AXIS_Y);
+    filter->SetSymmetryAxis(vtkRefractiveIndex::AXIS_Y);
     const std::string warning = warningOf(filter);
     EXPECT_EQ(warning.find("both sides") != std::string::npos, one.from * one.to < 0) << warning;
     const ColumnErrors errors = compareWithColumn(filter, column);
@@ -225,7 +226,7 @@ TEST(Revolved, PlanesMayLieOtherwise)
   auto moved = section(0);
   moved->SetOrigin(5, -1, 3);
   auto filter = revolved(moved);
-  filter->SetSymmetryAxis(vtkSchlierenFilter::AXIS_Y);
+  filter->SetSymmetryAxis(vtkRefractiveIndex::AXIS_Y);
   filter->SetSymmetryOrigin(5, 0, 3);
   filter->SetFocalPoint(5, 0, 3);
   filter->Update();
@@ -288,16 +289,16 @@ TEST(Revolved, WedgesAreByThemselves)
     EXPECT_NE(std::string(filter->GetStatus()).find(text), std::string::npos)
       << filter->GetStatus();
     const std::vector<double> path = valuesOf(filter, "OpticalPathDifference");
-    filter->SetSymmetry(vtkSchlierenFilter::SYMMETRY_AXISYMMETRIC);
+    filter->SetSymmetry(vtkRefractiveIndex::SYMMETRY_AXISYMMETRIC);
     filter->Update();
     EXPECT_EQ(valuesOf(filter, "OpticalPathDifference"), path);
-    filter->SetSymmetry(vtkSchlierenFilter::SYMMETRY_NONE);
+    filter->SetSymmetry(vtkRefractiveIndex::SYMMETRY_NONE);
     EXPECT_EQ(warningOf(filter), "");
     EXPECT_EQ(std::string(filter->GetStatus()).find("revolved"), std::string::npos);
     EXPECT_LT(largest(valuesOf(filter, "OpticalPathDifference")), 0.2 * largest(path));
   }
   auto plane = revolved(section(0));
-  plane->SetSymmetry(vtkSchlierenFilter::SYMMETRY_AUTO);
+  plane->SetSymmetry(vtkRefractiveIndex::SYMMETRY_AUTO);
   EXPECT_NE(warningOf(plane).find("The data are 2-D, across z"), std::string::npos);
 }
 
@@ -422,6 +423,52 @@ TEST(Revolved, BodiesOnTheAxisAreSolid)
 }
 
 // An image of 128 points at least along its longest side, for volume rendering.
+TEST(Revolved, RefractiveIndexIsAnImage)
+{
+  vtkNew<vtkRefractiveIndex> index;
+  index->SetInputData(section(0));
+  index->SetIndexModel(vtkRefractiveIndex::REFRACTIVITY);
+  index->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
+  index->SetSymmetry(vtkRefractiveIndex::SYMMETRY_AXISYMMETRIC);
+  vtkNew<vtkThreshold> consumer; // requests what was announced before there were data
+  consumer->SetInputConnection(index->GetOutputPort());
+  consumer->Update();
+  auto* image = vtkImageData::SafeDownCast(index->GetOutputDataObject(0));
+  ASSERT_NE(image, nullptr);
+  const int* points = image->GetDimensions();
+  EXPECT_GE(*std::max_element(points, points + 3), 128);
+  EXPECT_LE(*std::max_element(points, points + 3), 256);
+  EXPECT_NEAR(image->GetSpacing()[0], image->GetSpacing()[2], 0.02 * image->GetSpacing()[0]);
+  double worst = 0;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double* x = image->GetPoint(i);
+    const bool isGas = arrayOf(index, "vtkValidPointMask")->GetComponent(i, 0) == 1;
+    const double n = arrayOf(index, "Refractivity")->GetComponent(i, 0);
+    worst = std::max(worst, std::abs(n - (isGas ? column({ x[0], x[1], x[2] }) : 0)));
+    EXPECT_EQ(isGas, arrayOf(index, "TransparentPointMask")->GetComponent(i, 0) == 0);
+  }
+  EXPECT_LT(worst, 2e-3 * column.A);
+
+  const vtkMTimeType made = image->GetUpdateTime();
+  consumer->Update();
+  index->Update();
+  EXPECT_EQ(image->GetUpdateTime(), made);
+  // Light bends in it as in the plane.
+  auto filter = bench(image);
+  filter->SetInputArrayToProcess(
+    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Refractivity");
+  filter->SetParallelScale(0.7);
+  filter->Update();
+  EXPECT_LT(compareWithColumn(filter, column).opticalPath, 2e-3);
+
+  index->SetSymmetry(vtkRefractiveIndex::SYMMETRY_NONE);
+  index->Update();
+  EXPECT_EQ(index->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT),
+    section(0)->GetNumberOfPoints());
+}
+
 TEST(Revolved, MistakesAreReported)
 {
   const auto solid = cube(5);
@@ -429,10 +476,10 @@ TEST(Revolved, MistakesAreReported)
   auto filter = revolved(solid);
   expectOneMessage(
     filter.Get(), [](vtkSchlierenFilter*) {}, { "Symmetry", "3-D" },
-    [](vtkSchlierenFilter* f) { f->SetSymmetry(vtkSchlierenFilter::SYMMETRY_NONE); });
+    [](vtkSchlierenFilter* f) { f->SetSymmetry(vtkRefractiveIndex::SYMMETRY_NONE); });
   auto across = revolved(section(0));
   expectOneMessage(
-    across.Get(), [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkSchlierenFilter::AXIS_Z); },
+    across.Get(), [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkRefractiveIndex::AXIS_Z); },
     { "SymmetryAxis is Z", "across" },
-    [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkSchlierenFilter::AXIS_Y); });
+    [](vtkSchlierenFilter* f) { f->SetSymmetryAxis(vtkRefractiveIndex::AXIS_Y); });
 }
