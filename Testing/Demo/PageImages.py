@@ -47,7 +47,10 @@ spread = [image.std() for image in sensitivity]
 assert spread[0] < spread[1] < spread[2], spread
 spread = [image.std() for image in shadow]
 assert spread[0] < spread[1] < spread[2], spread
-assert np.ptp(fringes[2], axis=2).max() > 60 and np.ptp(fringes[0], axis=2).max() == 0
+# Beside the jet, fringes are along the rows, or upright.
+level, upright = fringes[1], fringes[2]
+assert np.ptp(level[:, 0], axis=0).min() > 100 > np.ptp(level[0], axis=0).max(), "Not along the rows"
+assert np.ptp(upright[0], axis=0).min() > 100 > np.ptp(upright[:, 0], axis=0).max(), "Not upright"
 assert np.abs(stops[0] + stops[1] - 255).mean() < 4, "Dark field is the negative of the bright field"
 
 # Shadows are stronger on a far screen, where waves differ from rays; and a lens blurs what is out of focus.

@@ -68,8 +68,7 @@ Render()
 user.event(WIDGET + "/PaintOnImage", "activate")
 user.drag_view(0, (0.4, 0.4), (0.45, 0.5))
 user.event(WIDGET + "/PaintOnImage", "activate")
-user.check_at(WIDGET + "/Undo", "enabled", "true")
-user.event(WIDGET + "/Undo", "activate")
+user.menu("menu_Edit", "actionEditUndo")
 look("taken")
 
 # Another representation shows no such image.
