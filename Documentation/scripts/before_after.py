@@ -34,6 +34,7 @@ PAIRS = (
     ("LightModel", "Rays", "Waves", {**SHADOW, "ScreenDistance": 0.2, "Wavelength": 532}),
     ("SourceShape", "Point", "Disc", {**SHADOW, "MirrorFocalLength": 1, "SourceWidth": 5, "SamplesPerPixel": 64}),
     ("FringeSpacing", 0, 0.0008, {**FRINGES, "FringeAngle": 90}),
+    ("FringeAngle", 0, 45, {**FRINGES, "FringeSpacing": 0.0008}),
     ("Symmetry", "None", "Axisymmetric", {**KNIFE, "KnifeEdgeAngle": 0}),
     ("BackgroundDistance", 0.02, 0.3, STRIPES),
     ("ViewDirection", [0, 0, -1], [0.9, 0, -0.4], KNIFE),
