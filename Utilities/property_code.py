@@ -133,7 +133,7 @@ def declares(text, item, what):
 
 
 def header(text, properties, bases=""):
-    """A header of what stands in its template. `properties`: in order; `bases`: text that it follows."""
+    """The text of a header, generated from its template. `properties`: in order; `bases`: text that it follows."""
     by_hand = SECTION.sub("", text) + bases
     named = set()
     for _, what, chosen in SECTION.findall(text):
