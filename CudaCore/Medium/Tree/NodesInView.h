@@ -277,10 +277,14 @@ private:
 
   double pixelsOfDetail() const
   {
-    constexpr double further = 0.5; // so that errors of what is too fine for usual voxels show
-    const double usual =
-      tree_.settings_.interpolation == Interpolation::Cubic ? pixelsOfExactWaves : pixelsOfWaves;
-    return column_.parts.empty() ? usual : further * usual;
+    constexpr double further = 0.5;   // so that errors of what is too fine for usual voxels show
+    constexpr double inLayer = 0.125; // which has hardly more samples than cells
+    double pixels = pixelsOfWaves;
+    if (tree_.settings_.interpolation == Interpolation::Cubic)
+    {
+      pixels = pixelsOfExactWaves * (tree_.maker_.shape() == BrickShape::Layer ? inLayer : 1);
+    }
+    return column_.parts.empty() ? pixels : further * pixels;
   }
 
   /// Errors of rays to the viewer, because of gradients along axes that count.

@@ -286,6 +286,49 @@ TEST(FlatFlows, JitteredTrianglesAreRightToThreeThousandths)
   }
 }
 
+// Ten cells a pixel and waves of twelve cells: as fine as its voxels are, an image of a target error shows the mean of a pixel.
+TEST(FlatFlows, WavesOfAPixelAreTheirMean)
+{
+  constexpr int pixels = 32, cells = 10 * pixels;
+  constexpr double cell = 2. / cells, wave = 12 * cell, refractivity = 1e-7;
+  int dimensions[3] = { cells + 1, cells + 1, 1 };
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int j = 0; j <= cells; ++j)
+  {
+    for (int i = 0; i <= cells; ++i)
+    {
+      points->InsertNextPoint(i * cell - 1, j * cell - 1, 0);
+    }
+  }
+  vtkNew<vtkStructuredGrid> mesh;
+  mesh->SetDimensions(dimensions);
+  mesh->SetPoints(points);
+  addPointArray(
+    mesh, "N", [](const Vec& x) { return refractivity * std::cos(2 * pi * x[0] / wave); });
+  auto filter = flatBench(mesh, pixels);
+  filter->SetParallelScale(0.9);
+  filter->SetQuality(vtkSchlierenFilter::AUTOMATIC);
+  filter->SetKMode(vtkSchlierenFilter::K_VALUE);
+  constexpr double steepest = 2 * pi * refractivity / wave, half = 0.4;
+  filter->SetKScale(half / steepest);
+  filter->Update();
+  const std::vector<double> light = valuesOf(filter, "Intensity");
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
+  const double ofPixel = pi * image->GetSpacing()[0] / wave;
+  std::vector<double> errors;
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double mean =
+      std::sin(2 * pi * image->GetPoint(i)[0] / wave) * std::sin(ofPixel) / ofPixel;
+    errors.push_back(std::abs(light[static_cast<std::size_t>(i)] - (0.5 - half * mean)));
+  }
+  std::sort(errors.begin(), errors.end());
+  const double error = errors[errors.size() * 99 / 100];
+  EXPECT_LT(error, 0.006); // 0.016 with voxels of a quarter of a pixel
+  EXPECT_LT(error, 2 * fieldValue(filter, "ErrorReached"));
+}
+
 // Values of cells beside a shock.
 TEST(FlatFlows, LittleOvershootsBesideAShock)
 {
