@@ -288,7 +288,6 @@ Column columnOf(const Scene& scene, const Light& light, const Frame& frame, std:
     }
   }
   column.finest = frame.pixelSize;
-  column.steepest = frame.pupil > 0 ? 0 : std::hypot(light.steepest[0], light.steepest[1]);
   column.pupil = frame.pupil;
   column.plane = frame.focus;
   const double fullScale = techniqueOf(scene.cutoff).fullScale;

@@ -30,7 +30,6 @@ struct Column
 
   /// It is refined this much wider than it is, so that small turns need nothing new.
   static constexpr double widening = 1.1;
-  double steepest = 0; ///< no slope of its light to the lines of sight is larger
 
   /// A rectangle of image coordinates, data units.
   struct Part
@@ -44,7 +43,7 @@ struct Column
   auto tie() const
   {
     return std::tie(u.x, u.y, u.z, v.x, v.y, v.z, middle[0], middle[1], halfWidth[0], halfWidth[1],
-      finest, pupil, plane, steepest, fullScale);
+      finest, pupil, plane, fullScale);
   }
 
   /// How wide the column is at x.w = `place`, by its width in the image's plane; not positive behind the pupil.

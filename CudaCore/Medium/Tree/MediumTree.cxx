@@ -89,25 +89,6 @@ void MediumTree<Real>::addNode(const NodePlace& place)
   nodes_.push_back({ place });
 }
 
-/// Cuts off what of the node is outside of the domain.
-template <class Real>
-Box MediumTree<Real>::indexBoxOf(const NodePlace& place) const
-{
-  Box box{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const auto last = static_cast<double>(grid_.dimensions[axis] - 1);
-    box.high[axis] = last;
-    if (axis < maker_.axes())
-    {
-      const double edge = std::ldexp(static_cast<double>(brickEdge), -place.level);
-      box.low[axis] = std::min(edge * place.at[axis], last);
-      box.high[axis] = std::min(edge * (place.at[axis] + 1.), last);
-    }
-  }
-  return box;
-}
-
 template <class Real>
 LeafFinder MediumTree<Real>::finder() const
 {

@@ -5,7 +5,6 @@
 #include "Medium/Samples/Leaves.h"
 #include "Medium/Samples/MediumSource.h"
 #include "Medium/Samples/SteepestPlace.h"
-#include "Medium/Tree/BlockedLight.h"
 #include "Medium/Tree/Brick.h"
 #include "Medium/Tree/BrickRays.h"
 #include "Medium/Tree/BrickStore.h"
@@ -119,10 +118,9 @@ private:
   {
     Column column{};
     bool isFinished = true;
-    double largest = 0; ///< deflection
-    double strong = 0;  ///< deflection, see RayFindings
-    double error = 0;   ///< along rays, see RayFindings
-    BlockedLight blocked{};
+    double largest = 0;  ///< deflection
+    double strong = 0;   ///< deflection, see RayFindings
+    double error = 0;    ///< along rays, see RayFindings
     int rounds = 0;      ///< begun
     double progress = 0; ///< reported
     double leastUrgent =
@@ -144,7 +142,6 @@ private:
   std::int32_t childCount() const { return shape() == BrickShape::Layer ? 4 : 8; }
   void makeBricks(std::size_t group);
   void makeRoots();
-  void findBlockedLight();
   void assumeDeflection(const View& view);
   RayFindings measure(const View& view, const RayFindings& least);
   bool plan(const View& view);
@@ -155,7 +152,6 @@ private:
   void keepBricks(const View& view);
   bool doTasks(const View& view, const Monitor& monitor);
   void addNode(const NodePlace& place);
-  Box indexBoxOf(const NodePlace& place) const;
   void keep(std::int32_t node, const Brick<Real>& brick);
   BrickLayout layout() const;
   void removeSamples(std::int32_t node);

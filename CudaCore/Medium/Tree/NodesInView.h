@@ -117,14 +117,6 @@ public:
     return alongLight(place, facts, { true, true, true }).typical;
   }
 
-  /// Whether nothing of a leaf can be seen, however fine it is: light is stopped before it or behind it.
-  bool isDark(const NodePlace& place) const
-  {
-    constexpr double ofEstimate = 2; // of the largest deflection
-    const double slope = column_.steepest + ofEstimate * work_.largest;
-    return work_.blocked.isDark(tree_.indexBoxOf(place), slope);
-  }
-
   /// How badly a leaf needs to be divided; 0: not at all.
   double urgencyOf(const Node& node) const
   {

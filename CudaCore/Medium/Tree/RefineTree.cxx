@@ -54,7 +54,6 @@ bool MediumTree<Real>::refine(const Column& column, const Monitor& monitor, Unne
         numberLeaves();
         measure(view, found); // what is negligible leaf by leaf may not be so along a ray
       }
-      findBlockedLight();
       assumeDeflection(view);
       hasChanged = plan(view) || hasChanged;
       work_.isFinished = work_.tasks.empty();
@@ -146,21 +145,6 @@ RayFindings MediumTree<Real>::measure(const View& view, const RayFindings& least
   return findings;
 }
 
-template <class Real>
-void MediumTree<Real>::findBlockedLight()
-{
-  work_.blocked = BlockedLight(grid_, work_.column);
-  for (const std::int32_t at : leafNodes_)
-  {
-    const Node& node = nodes_[static_cast<std::size_t>(at)];
-    if (node.kind == Leaf<Real>::Solid)
-    {
-      work_.blocked.add(indexBoxOf(node.place));
-    }
-  }
-  work_.blocked.finish();
-}
-
 /// Where the view has leaves without samples because of their walls, rays have not met all of the medium. What is too
 /// coarse because of an assumption is found when they have.
 template <class Real>
@@ -172,7 +156,7 @@ void MediumTree<Real>::assumeDeflection(const View& view)
     [&](std::int32_t at)
     {
       const Node& node = nodes_[static_cast<std::size_t>(at)];
-      return view.awaitsWalls(node) && view.sees(node.place) && !view.isDark(node.place);
+      return view.awaitsWalls(node) && view.sees(node.place);
     });
   if (areMissed)
   {
@@ -189,7 +173,7 @@ std::vector<typename MediumTree<Real>::Task> MediumTree<Real>::tasksOf(const Vie
   for (const std::int32_t n : leafNodes_)
   {
     const Node& node = nodes_[static_cast<std::size_t>(n)];
-    if (!view.sees(node.place) || (node.isKnown && view.isDark(node.place)))
+    if (!view.sees(node.place))
     {
       continue;
     }

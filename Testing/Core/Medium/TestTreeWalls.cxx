@@ -306,64 +306,6 @@ TEST(MediumTree, BlocksFarApartAreAsFineAsNearOnes)
   }
 }
 
-/// A ball of gas in a wall, which has a hole along z beside it.
-class BuriedSource : public BallsSource
-{
-public:
-  BuriedSource()
-    : BallsSource({ { { -0.4, 0, 0 }, 0.3, 1e-4 } }, 1, 0.1)
-  {
-  }
-
-  static constexpr double radius = 0.3, ofHole = 0.1;
-  static double fromBall(double a, double b, double c) { return std::hypot(a + 0.4, b, c); }
-  static double fromHole(double a, double b) { return std::hypot(a - 0.75, b); }
-
-  Place placeAt(double a, double b, double c) const override
-  {
-    return distanceAt(a, b, c) > 0 ? Place::Gas : Place::Wall;
-  }
-  double distanceAt(double a, double b, double c) const override
-  {
-    return std::max(radius - fromBall(a, b, c), ofHole - fromHole(a, b));
-  }
-  void findPlaces(const Box& box, Content& content) const override
-  {
-    const Range ofBall = distancesTo({ -0.4, 0, 0 }, box);
-    const Range hole = distancesTo(
-      { 0.6, 0, 0 }, { { box.low[0], box.low[1], 0 }, { box.high[0], box.high[1], 0 } });
-    content.hasGas = ofBall.first < radius || hole.first < ofHole;
-    content.hasWall = !(ofBall.second < radius || hole.second < ofHole);
-  }
-};
-
-// Light that is blocked shows no walls: those of the hole are as sharp as ever.
-TEST(MediumTree, NothingIsRefinedWhereLightIsBlocked)
-{
-  constexpr double finest = 0.005;
-  Tree tree(std::make_shared<BuriedSource>(), 0, settingsOf(1e-2));
-  tree.refine(everything(x, y, finest));
-  const auto voxelAt = [&](const Vec3<double>& at)
-  {
-    const Leaf<float>& leaf = tree.leaves()[static_cast<std::size_t>(leafAt(tree, at))];
-    return tree.grid().spacing[0] / leaf.perIndex;
-  };
-  for (int n = 0; n < 16; ++n)
-  {
-    const double angle = 0.1 + n * 2 * std::acos(-1.) / 16;
-    const Vec3<double> ofHole{ 0.75 + 0.1 * std::cos(angle), 0.1 * std::sin(angle), 0.3 };
-    EXPECT_LT(voxelAt(ofHole), 4 * finest);
-    const Vec3<double> ofBall{ -0.4 + 0.3 * std::cos(angle), 0.3 * std::sin(angle), 0 };
-    EXPECT_GT(voxelAt(ofBall), 4 * finest);
-  }
-
-  // Light that is inclined may come from elsewhere.
-  Column oblique = everything(x, y, finest);
-  oblique.steepest = 10;
-  tree.refine(oblique);
-  EXPECT_LT(voxelAt({ -0.1, 0, 0 }), 4 * finest);
-}
-
 } // namespace
 
 } // namespace schlieren
