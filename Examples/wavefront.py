@@ -104,3 +104,4 @@ right.plot(1e6 * numbers["Time"], 1e9 * 0.025 * numbers["TiltRight"], "s-", labe
 right.set(xlabel="time, µs", ylabel="nm")
 right.legend()
 figure.savefig("wavefront.png", dpi=100)
+print("Wrote", os.path.abspath("wavefront.png"), "and, beside it, wavefront.csv, layer.pvd and its time steps")
