@@ -112,20 +112,13 @@ def shown(item):
 def range_of(element):
     names = list(entries_of(element)) or [entry.get("value") for entry in element.iter("String")]
     if names:
-        return ", ".join(f"`{name}`" for name in names[:8]) + (", …" if len(names) > 8 else "")
+        return ", ".join(f"`{name}`" for name in names[:4]) + (", …" if len(names) > 4 else "")
     for tag in ("DoubleRangeDomain", "IntRangeDomain"):
         domain = element.find(tag)
         if domain is not None:
             low, high = (domain.get(end, "").split(" ")[0].replace("-", "−") for end in ("min", "max"))
             return f"{low} to {high}" if high else f"≥ {low}" if low else ""
     return "on, off" if element.find("BooleanDomain") is not None else ""
-
-
-def unit_of(element):
-    for decorator in element.iter("PropertyWidgetDecorator"):
-        if decorator.get("type") == "SchlierenUnit":
-            return decorator.get("unit")
-    return ""
 
 
 def split(text, most=40):
@@ -147,17 +140,17 @@ def table(group, properties):
     if not members:
         sys.exit(f"{PAGE}: there is no property in a group '{group}'.")
     labels = {item.label: item.name for item in properties.values() if " " in item.label}
-    known = re.compile(r"\b(" + "|".join(sorted(labels, key=len, reverse=True)) + r")\b")
+    known = re.compile(r"\b(" + "|".join(sorted(labels, key=len, reverse=True)) + r")\b(?!:)")
 
     def linked(text):
         return known.sub(lambda found: f"`{labels[found.group(1)]}`", text).replace("|", "\\|")
 
     plain = group in ("Inputs", "Commands", "Information")
-    columns = ("name", "meaning") if plain else ("property", "default", "values", "unit", "meaning")
+    columns = ("name", "meaning") if plain else ("property", "default", "values", "meaning")
     rows, notes = [columns], []
     for item in members:
         meaning, rest = split(item.help)
-        between = [] if plain else [shown(item), range_of(item.element), unit_of(item.element)]
+        between = [] if plain else [shown(item), range_of(item.element)]
         rows.append([f"`{item.name}`", *between, linked(meaning)])
         if item.entries:
             rest = re.sub(rf"(?<=\.) (?=({'|'.join(map(re.escape, item.entries))}): )", "\n  - ", rest)
