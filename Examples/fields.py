@@ -26,7 +26,12 @@ def curve(*nodes):
     return CreatePiecewiseFunction(Points=[c for x, y in nodes for c in (x, y, 0.5, 0)])
 
 
-schlieren = Schlieren(Input=disk)
+# The hot disk and its shaft, which the mesh leaves out: a cylinder around z, up to z = 0.
+shaft = Transform(Input=Cylinder(Radius=3.81, Height=10, Resolution=72))
+shaft.Transform.Rotate = [90, 0, 0]
+shaft.Transform.Translate = [0, 0, -5]
+
+schlieren = Schlieren(Input=disk, Bodies=shaft)
 schlieren.IndexModel = "Transfer Functions"
 schlieren.Fields = ["Temp", "AsH3", "CH4", "GaMe3", "H2"]
 schlieren.TransferFunctions = [
@@ -37,6 +42,7 @@ schlieren.TransferFunctions = [
     curve((0, 0), (1, 0))]  # flat: left out
 schlieren.FieldRanges = [293, 913, 0, 0, 0, 0.0012, 0, 0, 0, 0]  # 0, 0: the field's own range
 schlieren.RefractivityScale = 3e-4
+schlieren.LengthScale = 0.01  # the reactor is in cm
 schlieren.ViewDirection = [0, -1, 0]
 schlieren.ViewUp = [0, 0, 1]
 schlieren.FocalPoint = [0, 0, 1]
