@@ -5,8 +5,10 @@ from a known displacement through the camera back to the displacement.
 
     pvpython Examples/bos_pair.py        (writes bos_with_flow.png and bos_without_flow.png)
 
-Evaluated by least squares (Lucas & Kanade 1981), and by OpenPIV where it is installed: Debian has no package, so in a virtual
-environment.
+Evaluated by least squares (Lucas & Kanade 1981), and by OpenPIV where it is installed. Debian has no package of it:
+
+    python3 -m venv --system-site-packages piv && piv/bin/pip install openpiv
+    PYTHONPATH=$(echo piv/lib/python3*/site-packages) pvpython Examples/bos_pair.py
 """
 
 import os
