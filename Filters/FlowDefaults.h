@@ -55,9 +55,6 @@ struct FlowDefaults
   /// The property UniformPressure, Pa; 0: not used.
   double uniformPressure = 0;
 
-  /// The property StagnationTemperature, K; 0: not used.
-  double stagnationTemperature = 0;
-
   /// The choice as a text for the user, with names that were not understood; whether there are
   /// none.
   std::string message;
@@ -96,17 +93,6 @@ VTKSCHLIERENFILTERS_EXPORT std::vector<FlowArray> withUniformPressure(
 /// Chooses defaults where the pressure, Pa, is the same everywhere.
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaultsAt(
   const std::vector<FlowArray>& arrays, double pascals);
-
-/// The temperature of air at rest in a room, K.
-constexpr double temperatureOfRoom = 293.15;
-
-/// Returns the arrays with a temperature of air at rest, K, at points and in cells, as if there were one.
-VTKSCHLIERENFILTERS_EXPORT std::vector<FlowArray> withStagnation(
-  std::vector<FlowArray> arrays, double kelvins);
-
-/// Chooses defaults where the pressure gives the temperature, which is this, K, at rest.
-VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaultsFromRest(
-  const std::vector<FlowArray>& arrays, double kelvins);
 
 /// Chooses arrays for a given index model.
 VTKSCHLIERENFILTERS_EXPORT FlowDefaults flowDefaults(

@@ -147,10 +147,6 @@ QString inWords(Completion::Kind kind)
   {
     case Completion::UniformPressure:
       return QString("Air at %1 Pa").arg(pressureOfRoom);
-    case Completion::Isentropic:
-      return QString("Isentropic air, at rest %1 K and %2 Pa")
-        .arg(temperatureOfRoom)
-        .arg(pressureOfRoom);
     case Completion::Water:
       return "Water";
     case Completion::Density:
@@ -183,8 +179,6 @@ FlowDefaults completed(const std::vector<FlowArray>& arrays, const Completion& c
     }
     case Completion::UniformPressure:
       return flowDefaultsAt(arrays, pressureOfRoom);
-    case Completion::Isentropic:
-      return flowDefaultsFromRest(arrays, temperatureOfRoom);
     case Completion::None:
       break;
   }
@@ -193,15 +187,8 @@ FlowDefaults completed(const std::vector<FlowArray>& arrays, const Completion& c
 
 Completion offerFor(const std::vector<FlowArray>& arrays)
 {
-  for (const Completion& completion :
-    { Completion{ Completion::UniformPressure }, Completion{ Completion::Isentropic } })
-  {
-    if (!completed(arrays, completion).arrays.empty())
-    {
-      return completion;
-    }
-  }
-  return {};
+  const Completion air{ Completion::UniformPressure };
+  return completed(arrays, air).arrays.empty() ? Completion() : air;
 }
 
 void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
@@ -225,10 +212,6 @@ void setFlowDefaults(vtkSMProxy* filter, const FlowDefaults& defaults)
   if (defaults.uniformPressure > 0)
   {
     vtkSMPropertyHelper(filter, "UniformPressure").Set(defaults.uniformPressure);
-  }
-  if (defaults.stagnationTemperature > 0)
-  {
-    vtkSMPropertyHelper(filter, "StagnationTemperature").Set(defaults.stagnationTemperature);
   }
   if (!defaults.fractions.empty())
   {

@@ -31,8 +31,7 @@ std::vector<FlowArray> arraysOfFlow(pqOutputPort* port);
 /// Returns the range of an array, or of field data, such as numbers in an output; else {0, -1}.
 std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name);
 
-/// What completes a flow without a density: nothing, the pressure of a room for a temperature, or for a pressure the
-/// temperature of isentropic air that was at rest in a room; that it is water, of a temperature; or an array that the user takes
+/// What completes a flow without a density: nothing, the pressure of a room for a temperature; that it is water, of a temperature; or an array that the user takes
 /// for the density.
 struct Completion
 {
@@ -40,7 +39,6 @@ struct Completion
   {
     None,
     UniformPressure,
-    Isentropic,
     Water,
     Density
   };

@@ -77,21 +77,13 @@ QVector<Remedy> remediesFor(vtkSMProxy* filter)
   const double model = numberOf(filter, "IndexModel");
   const bool isByName = model == MediumSettings::AUTO && flowDefaults(arrays).arrays.empty() &&
     *vtkSMPropertyHelper(filter, "Density").GetInputArrayNameToProcess() == '\0';
-  if (isByName && !(numberOf(filter, "UniformPressure") > 0) &&
-    !(numberOf(filter, "StagnationTemperature") > 0))
+  if (isByName && !(numberOf(filter, "UniformPressure") > 0))
   {
-    switch (offerFor(arrays).kind)
-    {
-      case Completion::UniformPressure:
-        return { { inWords(Completion::UniformPressure),
-                   { { "UniformPressure", pressureOfRoom } } },
-          water() };
-      case Completion::Isentropic:
-        return { { inWords(Completion::Isentropic),
-          { { "StagnationTemperature", temperatureOfRoom } } } };
-      default:
-        return {};
-    }
+    return offerFor(arrays).kind == Completion::UniformPressure
+      ? QVector<Remedy>{ { inWords(Completion::UniformPressure),
+                           { { "UniformPressure", pressureOfRoom } } },
+          water() }
+      : QVector<Remedy>();
   }
   QVector<Remedy> remedies;
   if ((model == MediumSettings::AUTO || model == MediumSettings::GLADSTONE_DALE) &&

@@ -236,10 +236,6 @@ void pqSchlierenToolBar::add(SchlierenViews::Arrangement arrangement,
     offers("UniformPressure", Completion::UniformPressure);
     offers("Water", Completion::Water);
   }
-  else if (result.offer.kind == Completion::Isentropic)
-  {
-    offers("Isentropic", Completion::Isentropic);
-  }
   pqOutputPort* port = pqActiveObjects::instance().activePort();
   if (!result.isMade && port && problemOfServer(port->getServer()).isEmpty() &&
     problemOfFlow(port).isEmpty())

@@ -69,16 +69,6 @@ assert not message.isVisible()
 """)
 user.undo()
 
-# Where only a pressure is there, isentropic air that was at rest in a room.
-user.python("""
-sound = PassArrays(Input=Calculator(Input=Wavelet(), ResultArrayName="Pressure", Function="1e5 + 10*RTData"),
-                   PointDataArrays=["Pressure"], registrationName="sound")
-sound.UpdatePipeline()
-SetActiveSource(sound)
-""")
-take_offer("Isentropic", '("Ciddor", ["POINTS", "Pressure"], 293.15)',
-           "bench.IndexModel, list(bench.Pressure), bench.StagnationTemperature", 0.1)
-user.undo()
 user.python("""
 until(lambda: len(GetRenderViews()) == 1 and not displays())
 assert GetActiveView() == GetRenderViews()[0] and widget("Frame.0"), "Of the second undo a cell is left, or no view is active"

@@ -115,7 +115,7 @@ displays()[0].SchlierenBench.Cutoff = "Knife Edge"
 
 # The filter, before Apply; the air of a room has a temperature alone.
 OF_FILTER = (["Cutoff"] + OF_TECHNIQUE["Knife Edge"] + ["Quality", "SchlierenCutoff", "Density", "Gas",
-             "UniformPressure", "StagnationTemperature", "ArraysUsed", "LengthScale", "ViewDirection", "ImageSize", "Status"])
+             "UniformPressure", "ArraysUsed", "LengthScale", "ViewDirection", "ImageSize", "Status"])
 user.python("""
 widget("propertiesPanel", "PropertiesButton").setChecked(True)
 SetActiveSource(FindSource("warm"))

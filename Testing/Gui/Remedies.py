@@ -52,15 +52,6 @@ assert bench.UniformPressure == 0
 press("Water")
 until(lambda: bench.IndexModel == "Water" and not buttons())
 
-# A pressure alone.
-bench = show(made(CUBE, p="1e5 + 10 * RTData"))
-until(buttons)
-assert list(buttons()) == ["Isentropic air, at rest 293.15 K and 101325 Pa"], buttons()
-press(*buttons())
-until(lambda: bench.StagnationTemperature == 293.15 and not buttons())
-settle_soon()
-assert np.ptp(intensity(bench)) > 0.1
-
 # The density of a liquid, with a temperature or without.
 bench = show(made(CUBE, rho="1000 - 0.1 * RTData", T="290 + 0.1 * RTData"))
 until(buttons)

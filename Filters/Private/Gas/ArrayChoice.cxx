@@ -75,11 +75,6 @@ std::string inWords(const MediumSettings& settings)
   {
     text += "; pressure: " + textOf(settings.UniformPressure, 6) + " Pa everywhere";
   }
-  if (settings.isIsentropic())
-  {
-    text += "; isentropic, at rest " + textOf(settings.StagnationTemperature, 6) + " K and " +
-      textOf(settings.StagnationPressure, 6) + " Pa";
-  }
   for (std::size_t i = 0; kindOf(settings.IndexModel).gases == IndexGases::Mixture &&
        i < settings.MixtureArrays.size();
        ++i)
@@ -105,10 +100,6 @@ std::vector<std::size_t> arraysOfModel(const MediumSettings& settings)
       if (settings.hasUniformPressure())
       {
         return { S::TemperatureArray, S::HumidityArray };
-      }
-      if (settings.isIsentropic())
-      {
-        return { S::PressureArray, S::HumidityArray };
       }
       return { S::TemperatureArray, S::PressureArray, S::HumidityArray };
     case IndexArrays::Fields:
@@ -169,10 +160,8 @@ FlowDefaults chooseArrays(
 {
   MediumSettings& settings = choice.settings;
   const bool isAuto = given.IndexModel == S::AUTO;
-  const std::vector<FlowArray> arrays = given.UniformPressure > 0
-    ? withUniformPressure(known, given.UniformPressure)
-    : given.StagnationTemperature > 0 ? withStagnation(known, given.StagnationTemperature)
-                                      : known;
+  const std::vector<FlowArray> arrays =
+    given.UniformPressure > 0 ? withUniformPressure(known, given.UniformPressure) : known;
   FlowDefaults defaults;
   if (isAuto && !settings.Arrays[S::DensityArray].isChosen() && given.MixtureArrays.empty())
   {

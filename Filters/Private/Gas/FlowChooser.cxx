@@ -384,7 +384,7 @@ bool FlowChooser::state(FlowArray::Association association, bool ofSpecies)
   {
     this->Result.scales.emplace_back("PressureScale", pascals);
   }
-  if (ofSpecies && temperature.array->name != stagnationTemperature)
+  if (ofSpecies)
   {
     this->species(false);
   }

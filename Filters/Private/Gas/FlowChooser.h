@@ -18,9 +18,6 @@ namespace filters
 /// What arrays of a refractive index, and of a relative humidity, are called.
 extern const std::set<std::string> indexNames, humidityNames;
 
-/// The array that withStagnation() adds.
-constexpr const char* stagnationTemperature = "Temperature [K]";
-
 std::string quoted(const std::string& name);
 std::string rangeInWords(const FlowArray& array);
 bool isScalar(const FlowArray& array);

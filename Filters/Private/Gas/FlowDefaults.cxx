@@ -113,69 +113,30 @@ FlowDefaults flowDefaults(const std::vector<FlowArray>& arrays)
       std::string(chooser.has(Quantity::Temperature)
           ? " Where the pressure of air is the same everywhere, UniformPressure completes the "
             "temperature (101325 Pa in a room)."
-          : chooser.has(Quantity::Pressure)
-          ? " Of air without heat and strong shocks, StagnationTemperature completes the pressure "
-            "(293.15 K in a room)."
           : ""));
 }
 
-namespace
-{
-
-std::vector<FlowArray> withConstant(std::vector<FlowArray> arrays, const char* name, double value)
+std::vector<FlowArray> withUniformPressure(std::vector<FlowArray> arrays, double pascals)
 {
   for (const FlowArray::Association association : associations)
   {
-    arrays.push_back({ name, association, 1, { value, value } });
+    arrays.push_back({ uniformPressure, association, 1, { pascals, pascals } });
   }
   return arrays;
-}
-
-/// Takes the array of withConstant() out of the choice, and says what is in its place. Returns whether it was there.
-bool replaceConstant(
-  FlowDefaults& defaults, const char* property, const char* name, const std::string& words)
-{
-  if (defaults.arrayOf(property) != name)
-  {
-    return false;
-  }
-  const auto chosen = std::make_pair(std::string(property), std::string(name));
-  defaults.arrays.erase(
-    std::remove(defaults.arrays.begin(), defaults.arrays.end(), chosen), defaults.arrays.end());
-  const std::string array = quoted(name) + (chosen.first == "Pressure" ? " in Pa" : " in K");
-  defaults.message.replace(defaults.message.find(array), array.size(), words);
-  return true;
-}
-
-} // namespace
-
-std::vector<FlowArray> withUniformPressure(std::vector<FlowArray> arrays, double pascals)
-{
-  return withConstant(std::move(arrays), uniformPressure, pascals);
 }
 
 FlowDefaults flowDefaultsAt(const std::vector<FlowArray>& arrays, double pascals)
 {
   FlowDefaults defaults = flowDefaults(withUniformPressure(arrays, pascals));
-  if (replaceConstant(defaults, "Pressure", uniformPressure, textOf(pascals, 6) + " Pa everywhere"))
+  const auto found = std::find(defaults.arrays.begin(), defaults.arrays.end(),
+    std::pair<std::string, std::string>("Pressure", uniformPressure));
+  if (found != defaults.arrays.end())
   {
+    defaults.arrays.erase(found);
+    const std::string array = quoted(uniformPressure) + " in Pa";
+    defaults.message.replace(
+      defaults.message.find(array), array.size(), textOf(pascals, 6) + " Pa everywhere");
     defaults.uniformPressure = pascals;
-  }
-  return defaults;
-}
-
-std::vector<FlowArray> withStagnation(std::vector<FlowArray> arrays, double kelvins)
-{
-  return withConstant(std::move(arrays), stagnationTemperature, kelvins);
-}
-
-FlowDefaults flowDefaultsFromRest(const std::vector<FlowArray>& arrays, double kelvins)
-{
-  FlowDefaults defaults = flowDefaults(withStagnation(arrays, kelvins));
-  if (replaceConstant(defaults, "Temperature", stagnationTemperature,
-        "isentropic, " + textOf(kelvins, 6) + " K at rest"))
-  {
-    defaults.stagnationTemperature = kelvins;
   }
   return defaults;
 }

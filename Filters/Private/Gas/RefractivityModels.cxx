@@ -113,22 +113,13 @@ private:
   }
 };
 
-/// Returns the temperature of air that came from rest to this fraction of its pressure, or beyond, without heat.
-double isentropicTemperature(double atRest, double fraction)
-{
-  constexpr double exponent = 2. / 7; // 1 - 1 / 1.4
-  return atRest * std::pow(fraction, exponent);
-}
-
 /// N of temperature, pressure and, if hasHumidity, relative humidity.
 class CiddorAir : public StateModel
 {
 public:
   schlieren::MoistAir air{};
   double temperatureScale = 1, temperatureZero = 0, pressureScale = 1;
-  double uniformPressure = 0;       // 0: a value
-  double stagnationTemperature = 0; // 0: the first value; else it follows from the pressure
-  double stagnationPressure = 0;
+  double uniformPressure = 0;  // 0: a value
   bool hasHumidity = false;    // as last value
   double relativeHumidity = 0; // used if not hasHumidity
 
@@ -165,21 +156,15 @@ public:
 private:
   double temperatureIn(const double* values) const
   {
-    return this->stagnationTemperature > 0
-      ? isentropicTemperature(
-          this->stagnationTemperature, this->pressureIn(values) / this->stagnationPressure)
-      : this->temperatureScale * values[0] + this->temperatureZero;
+    return this->temperatureScale * values[0] + this->temperatureZero;
   }
   double pressureIn(const double* values) const
   {
-    return this->uniformPressure > 0
-      ? this->uniformPressure
-      : this->pressureScale * values[this->stagnationTemperature > 0 ? 0 : 1];
+    return this->uniformPressure > 0 ? this->uniformPressure : this->pressureScale * values[1];
   }
   double humidityIn(const double* values) const
   {
-    const bool hasOneOther = this->uniformPressure > 0 || this->stagnationTemperature > 0;
-    return this->hasHumidity ? values[hasOneOther ? 1 : 2] : this->relativeHumidity;
+    return this->hasHumidity ? values[this->uniformPressure > 0 ? 1 : 2] : this->relativeHumidity;
   }
 };
 
@@ -339,13 +324,6 @@ Model gasMixture(const MediumSettings& settings)
 Model ciddorAir(const MediumSettings& settings)
 {
   requirePressure(settings);
-  requireFinite("StagnationTemperature", settings.StagnationTemperature);
-  if (settings.isIsentropic() &&
-    (!(settings.StagnationPressure > 0) || std::isinf(settings.StagnationPressure)))
-  {
-    throw std::runtime_error("StagnationPressure is " + textOf(settings.StagnationPressure) +
-      ", which is no pressure of air at rest. Set it to one in Pa (101325 in a room).");
-  }
   const bool hasHumidity = settings.Arrays[MediumSettings::HumidityArray].isNamed();
   const double humidity = settings.RelativeHumidity;
   if (!hasHumidity && !(humidity >= 0 && humidity <= 1))
@@ -365,8 +343,6 @@ Model ciddorAir(const MediumSettings& settings)
   model->temperatureZero = zeroOf(settings);
   model->pressureScale = settings.PressureScale;
   model->uniformPressure = settings.UniformPressure;
-  model->stagnationTemperature = settings.isIsentropic() ? settings.StagnationTemperature : 0;
-  model->stagnationPressure = settings.StagnationPressure;
   model->hasHumidity = hasHumidity;
   model->relativeHumidity = humidity;
   return OfState{ model };

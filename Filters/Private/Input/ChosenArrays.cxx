@@ -140,8 +140,7 @@ void throwNotFound(const std::vector<Selection>& selections,
       (property == "Density"
           ? " A temperature gives no density without a pressure; with both, compute one or use "
             "IndexModel Ciddor (Documentation/density.md). Where air has the same pressure "
-            "everywhere, set UniformPressure (101325 Pa in a room); of air without heat and strong "
-            "shocks the pressure is enough with StagnationTemperature (293.15 K in a room)."
+            "everywhere, set UniformPressure (101325 Pa in a room)."
           : ""));
   }
   throw ArraysMissing("The input has no array '" + selection.name + "'. Set " + property +

@@ -310,9 +310,9 @@ Implausible implausibleIn(const Flow& flow)
     used.constant = constantFrom(settings);
   }
   const std::vector<std::size_t> indices = arraysOfModel(settings);
-  const bool isUniform = settings.hasUniformPressure(), isIsentropic = settings.isIsentropic();
+  const bool isUniform = settings.hasUniformPressure();
   used.isConstant = true;
-  const std::size_t count = isUniform || isIsentropic ? 1 : used.scales.size();
+  const std::size_t count = isUniform ? 1 : used.scales.size();
   for (std::size_t i = 0; i < flow.leaves[0].arrays.size(); ++i)
   {
     const ArraySelection& selection = settings.Arrays[indices[std::min(i, count - 1)]];
@@ -350,13 +350,6 @@ Implausible implausibleIn(const Flow& flow)
     used.scales[1] = 1;
     used.arrays.push_back({ "UniformPressure", FlowArray::Points, 1,
       { settings.UniformPressure, settings.UniformPressure } });
-  }
-  if (isIsentropic)
-  {
-    used.scales[0] = 1;
-    used.arrays.insert(used.arrays.begin(),
-      { "StagnationTemperature", FlowArray::Points, 1,
-        { settings.StagnationTemperature, settings.StagnationTemperature } });
   }
   Implausible found = implausible(used);
   const std::array<double, 2> range = used.arrays[0].range;

@@ -353,55 +353,6 @@ TEST(Ciddor, PressureIsAnArrayOrANumber)
   EXPECT_NE(complaints->Errors[0].find("no pressure"), std::string::npos) << complaints->Errors[0];
 }
 
-// The temperature of air from rest follows from its pressure, and so does its density: rho0 (p / p0)^(1 / 1.4).
-TEST(Ciddor, PressureOfIsentropicAirIsEnough)
-{
-  constexpr double kelvins = 300, pascals = 1.2e5;
-  const auto expected = [](const Vec& x)
-  {
-    const double cooled = kelvins * std::pow(pressure(x) / pascals, 0.4 / 1.4);
-    return schlieren::ciddorRefractivity(cooled, pressure(x), humidity(x), 450, 632.8e-9);
-  };
-  auto image = flow();
-  auto filter = ciddor(image);
-  filter->SetStagnationTemperature(kelvins);
-  filter->SetStagnationPressure(pascals);
-  choose(filter, vtkRefractiveIndex::HUMIDITY, "RH");
-  EXPECT_LT(largestError(filter, expected), rounding);
-
-  // Of a pressure alone it makes air without any choice, and a uniform pressure goes before it.
-  vtkNew<vtkImageData> sound;
-  sound->CopyStructure(image);
-  sound->GetPointData()->AddArray(image->GetPointData()->GetArray("p"));
-  auto filterOfOne = automatic(sound);
-  auto complaints = vtkSmartPointer<Complaints>::Take(new Complaints(filterOfOne));
-  filterOfOne->Update();
-  ASSERT_EQ(complaints->Errors.size(), 1u);
-  EXPECT_NE(complaints->Errors[0].find("StagnationTemperature"), std::string::npos)
-    << complaints->Errors[0];
-  filterOfOne->SetStagnationTemperature(kelvins);
-  filterOfOne->SetStagnationPressure(pascals);
-  EXPECT_LT(largestError(filterOfOne,
-              [](const Vec& x)
-              {
-                const double cooled = kelvins * std::pow(pressure(x) / pascals, 0.4 / 1.4);
-                return schlieren::ciddorRefractivity(cooled, pressure(x), 0, 450, 632.8e-9);
-              }),
-    rounding);
-  filter->SetUniformPressure(9e4);
-  EXPECT_LT(
-    largestError(filter,
-      [](const Vec& x)
-      { return schlieren::ciddorRefractivity(temperature(x), 9e4, humidity(x), 450, 632.8e-9); }),
-    rounding);
-
-  filterOfOne->SetStagnationPressure(0);
-  filterOfOne->Update();
-  ASSERT_EQ(complaints->Errors.size(), 2u);
-  EXPECT_NE(complaints->Errors[1].find("StagnationPressure is 0"), std::string::npos)
-    << complaints->Errors[1];
-}
-
 TEST(Ciddor, ScalesAndWavelengthCount)
 {
   auto image = cube(4);

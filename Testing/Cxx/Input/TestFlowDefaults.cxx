@@ -175,7 +175,6 @@ TEST(FlowDefaults, DensityOfAnIdealGasWhereThereAreFractions)
   EXPECT_EQ(chosen.fractions, (Strings{ "CH4", "O2" }));
   EXPECT_NE(chosen.message.find("density: that of an ideal gas"), std::string::npos);
   EXPECT_EQ(flowDefaults(flame, MediumSettings::CIDDOR).indexModel, MediumSettings::CIDDOR);
-  EXPECT_EQ(flowDefaultsFromRest({ flame[1], flame[2] }, 293).indexModel, MediumSettings::CIDDOR);
 }
 
 TEST(FlowDefaults, ArraysOfSeveralQuantitiesAndHolesAreSaid)
@@ -494,30 +493,6 @@ TEST(Implausible, MoistAir)
   EXPECT_EQ(kindOfAir(kelvins, scalar("p", 700, 1013)), "pressure");
   EXPECT_EQ(kindOfAir(kelvins, scalar("p", 700, 1013), 100), "");
   EXPECT_EQ(kindOfAir(kelvins, scalar("p", 0.9, 1.1)), "pressure");
-}
-
-TEST(FlowDefaults, StagnationTemperatureCompletesAPressure)
-{
-  const std::vector<FlowArray> sound = { velocity, scalar("Pressure", 1e5, 1.1e5) };
-  EXPECT_TRUE(flowDefaults(sound).arrays.empty());
-  EXPECT_NE(flowDefaults(sound).message.find("StagnationTemperature"), std::string::npos);
-  EXPECT_TRUE(flowDefaultsAt(sound, pressureOfRoom).arrays.empty());
-  const FlowDefaults room = flowDefaultsFromRest(sound, temperatureOfRoom);
-  EXPECT_EQ(room.indexModel, MediumSettings::CIDDOR);
-  EXPECT_EQ(room.arrays, (Arrays{ { "Pressure", "Pressure" } }));
-  EXPECT_EQ(room.stagnationTemperature, 293.15);
-  EXPECT_TRUE(room.isSure);
-  EXPECT_EQ(
-    room.message, "Air; temperature: isentropic, 293.15 K at rest; pressure: 'Pressure' in Pa.");
-
-  // Neither what a flow has itself, nor a gauge pressure.
-  EXPECT_EQ(
-    flowDefaultsFromRest({ scalar("rho", 1, 2) }, temperatureOfRoom).stagnationTemperature, 0);
-  EXPECT_EQ(
-    flowDefaultsFromRest({ scalar("T", 290, 320), scalar("p", 9e4, 1e5) }, temperatureOfRoom)
-      .arrayOf("Temperature"),
-    "T");
-  EXPECT_TRUE(flowDefaultsFromRest({ scalar("p", -200, 300) }, temperatureOfRoom).arrays.empty());
 }
 
 TEST(FlowDefaults, UniformPressureCompletesATemperature)
