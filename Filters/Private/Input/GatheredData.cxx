@@ -14,12 +14,9 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkRectilinearGrid.h"
 #include "vtkStaticCleanUnstructuredGrid.h"
 #include "vtkStructuredData.h"
-#include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -103,7 +100,7 @@ vtkIdType sizeOf(const std::array<int, 6>& extent)
   return size;
 }
 
-/// Copies the arrays of several extents to the whole grid.
+/// Copies the arrays of several extents to the whole image.
 void copyAttributes(const std::vector<vtkDataSet*>& pieces, bool ofCells, vtkDataSet* whole)
 {
   const int kind = ofCells ? vtkDataObject::CELL : vtkDataObject::POINT;
@@ -118,56 +115,7 @@ void copyAttributes(const std::vector<vtkDataSet*>& pieces, bool ofCells, vtkDat
   }
 }
 
-/// Joins the coordinates of rectilinear grids along an axis.
-vtkSmartPointer<vtkDataArray> joinedCoordinates(
-  const std::vector<vtkDataSet*>& pieces, std::size_t axis, const std::array<int, 6>& extent)
-{
-  vtkSmartPointer<vtkDataArray> joined;
-  for (vtkDataSet* piece : pieces)
-  {
-    auto* grid = vtkRectilinearGrid::SafeDownCast(piece);
-    vtkDataArray* of = axis == 0 ? grid->GetXCoordinates()
-      : axis == 1                ? grid->GetYCoordinates()
-                                 : grid->GetZCoordinates();
-    if (!joined)
-    {
-      joined.TakeReference(of->NewInstance());
-      joined->SetNumberOfTuples(extent[2 * axis + 1] - extent[2 * axis] + 1);
-    }
-    joined->InsertTuples(
-      extentOf(piece, false)[2 * axis] - extent[2 * axis], of->GetNumberOfTuples(), 0, of);
-  }
-  return joined;
-}
-
-/// Joins the points of curvilinear grids.
-vtkSmartPointer<vtkPoints> joinedPoints(
-  const std::vector<vtkDataSet*>& pieces, const std::array<int, 6>& extent)
-{
-  auto joined = vtkSmartPointer<vtkPoints>::New();
-  joined->SetDataType(vtkStructuredGrid::SafeDownCast(pieces[0])->GetPoints()->GetDataType());
-  joined->SetNumberOfPoints(sizeOf(extent));
-  for (vtkDataSet* piece : pieces)
-  {
-    const std::array<int, 6> of = extentOf(piece, false);
-    vtkDataArray* from = vtkStructuredGrid::SafeDownCast(piece)->GetPoints()->GetData();
-    vtkIdType next = 0;
-    for (int k = of[4]; k <= of[5]; ++k)
-    {
-      for (int j = of[2]; j <= of[3]; ++j)
-      {
-        const int row[3] = { of[0], j, k };
-        const vtkIdType length = of[1] - of[0] + 1;
-        joined->GetData()->InsertTuples(
-          vtkStructuredData::ComputePointIdForExtent(extent.data(), row), length, next, from);
-        next += length;
-      }
-    }
-  }
-  return joined;
-}
-
-/// Returns whether the grids contain all points of an extent.
+/// Returns whether the images contain all points of an extent.
 bool isCovered(const std::vector<vtkDataSet*>& pieces, const std::array<int, 6>& extent)
 {
   std::vector<bool> isThere(static_cast<std::size_t>(sizeOf(extent)));
@@ -187,32 +135,6 @@ bool isCovered(const std::vector<vtkDataSet*>& pieces, const std::array<int, 6>&
     }
   }
   return std::find(isThere.begin(), isThere.end(), false) == isThere.end();
-}
-
-/// Returns whether a grid's points lie where the same indices of the whole do. Readers may number
-/// the grids of each rank from 0.
-bool liesIn(vtkDataSet* piece, vtkDataSet* whole)
-{
-  const std::array<int, 6> of = extentOf(piece, false), all = extentOf(whole, false);
-  vtkIdType next = 0;
-  for (int k = of[4]; k <= of[5]; ++k)
-  {
-    for (int j = of[2]; j <= of[3]; ++j)
-    {
-      for (int i = of[0]; i <= of[1]; ++i)
-      {
-        const int index[3] = { i, j, k };
-        double own[3], ofWhole[3];
-        piece->GetPoint(next++, own);
-        whole->GetPoint(vtkStructuredData::ComputePointIdForExtent(all.data(), index), ofWhole);
-        if (!std::equal(own, own + 3, ofWhole))
-        {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
 }
 
 /// Throws std::runtime_error if arrays of points or cells (vtkDataObject::POINT, CELL) differ,
@@ -271,10 +193,11 @@ bool haveSamePlace(vtkImageData* a, vtkImageData* b)
     std::equal(direction, direction + 9, b->GetDirectionMatrix()->GetData());
 }
 
-/// Joins the extents of one image or grid; null for other datasets.
-vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& pieces)
+/// Joins the extents of one image; null for several.
+vtkSmartPointer<vtkDataSet> joinedImage(const std::vector<vtkDataSet*>& pieces)
 {
-  std::array<int, 6> extent = extentOf(pieces[0], false);
+  auto* first = vtkImageData::SafeDownCast(pieces[0]);
+  std::array<int, 6> extent = extentOf(first, false);
   for (vtkDataSet* piece : pieces)
   {
     const std::array<int, 6> of = extentOf(piece, false);
@@ -283,8 +206,7 @@ vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& pieces)
       extent[2 * axis] = std::min(extent[2 * axis], of[2 * axis]);
       extent[2 * axis + 1] = std::max(extent[2 * axis + 1], of[2 * axis + 1]);
     }
-    auto* image = vtkImageData::SafeDownCast(piece);
-    if (image && !haveSamePlace(image, vtkImageData::SafeDownCast(pieces[0])))
+    if (!haveSamePlace(vtkImageData::SafeDownCast(piece), first))
     {
       return nullptr;
     }
@@ -298,34 +220,11 @@ vtkSmartPointer<vtkDataSet> joinedGrid(const std::vector<vtkDataSet*>& pieces)
   {
     return nullptr;
   }
-  vtkSmartPointer<vtkDataSet> whole;
-  whole.TakeReference(pieces[0]->NewInstance());
-  if (auto* image = vtkImageData::SafeDownCast(whole))
-  {
-    auto* first = vtkImageData::SafeDownCast(pieces[0]);
-    image->SetOrigin(first->GetOrigin());
-    image->SetSpacing(first->GetSpacing());
-    image->SetDirectionMatrix(first->GetDirectionMatrix());
-    image->SetExtent(extent.data());
-  }
-  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(whole))
-  {
-    rectilinear->SetExtent(extent.data());
-    rectilinear->SetXCoordinates(joinedCoordinates(pieces, 0, extent));
-    rectilinear->SetYCoordinates(joinedCoordinates(pieces, 1, extent));
-    rectilinear->SetZCoordinates(joinedCoordinates(pieces, 2, extent));
-  }
-  else if (auto* structured = vtkStructuredGrid::SafeDownCast(whole))
-  {
-    structured->SetExtent(extent.data());
-    structured->SetPoints(joinedPoints(pieces, extent));
-  }
-  if (!vtkImageData::SafeDownCast(whole) &&
-    !std::all_of(
-      pieces.begin(), pieces.end(), [&](vtkDataSet* piece) { return liesIn(piece, whole); }))
-  {
-    return nullptr;
-  }
+  auto whole = vtkSmartPointer<vtkImageData>::New();
+  whole->SetOrigin(first->GetOrigin());
+  whole->SetSpacing(first->GetSpacing());
+  whole->SetDirectionMatrix(first->GetDirectionMatrix());
+  whole->SetExtent(extent.data());
   copyAttributes(pieces, false, whole);
   copyAttributes(pieces, true, whole);
   return whole;
@@ -348,7 +247,7 @@ std::vector<vtkSmartPointer<vtkDataSet>> joined(
       forgetCopies(all, kind);
       requireSameArrays(all, kind);
     }
-    whole = isGrid(all[0])                                     ? joinedGrid(all)
+    whole = type == VTK_IMAGE_DATA                             ? joinedImage(all)
       : type == VTK_UNSTRUCTURED_GRID || type == VTK_POLY_DATA ? joinedMesh(all)
                                                                : nullptr;
   }

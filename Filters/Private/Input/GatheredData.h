@@ -15,8 +15,8 @@ class vtkDataSet;
 namespace filters
 {
 
-/// Joins the pieces of each image, grid or mesh, merging points that are equal to the last bit.
-/// Copies of cells become ordinary ones.
+/// Joins the pieces of each image or mesh, merging points that are equal to the last bit; those of rectilinear and
+/// curvilinear grids stay blocks. Copies of cells become ordinary ones.
 std::vector<vtkSmartPointer<vtkDataSet>> joined(
   const std::vector<vtkSmartPointer<vtkDataSet>>& pieces);
 
