@@ -83,9 +83,8 @@ struct LightSource
 /// How light continues behind the flow.
 enum class LightModel
 {
-  Rays,  ///< straight: incoherent light
-  Waves, ///< diffracted: laser light, see WaveReport
-  Auto   ///< as waves where a pixel is fine enough to show that, and an image of waves can be made
+  Rays, ///< straight: incoherent light
+  Waves ///< diffracted: laser light, see WaveReport
 };
 
 /// A regular grid of sample points. Point (i, j, k) lies at origin + direction (i hx, j hy, k hz).

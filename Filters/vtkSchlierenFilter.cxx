@@ -61,8 +61,7 @@ static_assert(sameValue(Self::POINT, schlieren::SourceShape::Point) &&
   sameValue(Self::SLIT, schlieren::SourceShape::Slit) &&
   sameValue(Self::DISC, schlieren::SourceShape::Disc));
 static_assert(sameValue(Self::LIGHT_RAYS, schlieren::LightModel::Rays) &&
-  sameValue(Self::LIGHT_WAVES, schlieren::LightModel::Waves) &&
-  sameValue(Self::LIGHT_AUTO, schlieren::LightModel::Auto));
+  sameValue(Self::LIGHT_WAVES, schlieren::LightModel::Waves));
 static_assert(sameValue(Self::DOTS, schlieren::PatternKind::Dots) &&
   sameValue(Self::STRIPES, schlieren::PatternKind::Stripes) &&
   sameValue(Self::PICTURE, schlieren::PatternKind::Image));

@@ -99,7 +99,7 @@ void addBlocked(const TracedPass& traced, float perPass, LightAtExit& light)
 } // namespace
 
 template <class Real>
-bool WaveStage<Real>::areWanted(Image& image) const
+bool WaveStage<Real>::areWanted() const
 {
   const Scene& scene = request_.scene;
   if (scene.lightModel == LightModel::Rays)
@@ -114,26 +114,11 @@ bool WaveStage<Real>::areWanted(Image& image) const
       "window. Set ViewAngle and SourceDistance to 0, ExitInto to Surroundings," +
       orRays(scene);
   }
-  const bool isOfWavesAlone = scene.cutoff == Cutoff::PhaseContrast;
-  if (!problem.empty() && (isOfWavesAlone || scene.lightModel == LightModel::Waves))
+  if (!problem.empty())
   {
     throw Error(problem);
   }
-  const bool isOfScreen = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen;
-  if (!problem.empty() || (scene.lightModel == LightModel::Auto && !isOfScreen && !isOfWavesAlone))
-  {
-    image.lightNote =
-      !problem.empty() ? problem : "LightModel Auto takes waves of a Shadowgraph alone.";
-    return false;
-  }
-  const Screen screen = screenOf(image);
-  const double distance = parallelDistance(screen, screen.planeOtherwise);
-  image.waves.fresnelWidth =
-    fresnelWidth(scene.wavelength / (1 + view_.exitRefractivity), distance);
-  image.waves.blur =
-    blurOnScreen(screen.source, request_.field.lengthScale * frame_.pixelSize, distance);
-  return scene.lightModel == LightModel::Waves || isOfWavesAlone ||
-    image.waves.blur < blurThatHidesWaves * image.waves.fresnelWidth;
+  return true;
 }
 
 template <class Real>
@@ -309,43 +294,26 @@ std::vector<float> WaveStage<Real>::makeLight(
 template <class Real>
 bool WaveStage<Real>::run(Image& image)
 {
-  if (!areWanted(image))
+  if (!areWanted())
   {
     rays_.clear();
     return true;
   }
   Screen screen = screenOf(image);
-  const Monitor monitor = withoutPauses();
-  try
+  LightAtExit light;
+  if (!trace(image, screen, light))
   {
-    LightAtExit light;
-    if (!trace(image, screen, light))
-    {
-      return false;
-    }
-    rays_.finish();
-    continueBehindBodies(light);
-    const std::vector<float> values = makeLight(light, screen, monitor, image);
-    if (values.empty())
-    {
-      return false;
-    }
-    std::copy(values.begin(), values.end(), image.intensity.begin());
-    image.lightModel = LightModel::Waves;
+    return false;
   }
-  catch (const DeviceError&)
+  rays_.finish();
+  continueBehindBodies(light);
+  const std::vector<float> values = makeLight(light, screen, withoutPauses(), image);
+  if (values.empty())
   {
-    throw; // the CPU still can
+    return false;
   }
-  catch (const Error& problem)
-  {
-    if (request_.scene.lightModel != LightModel::Auto ||
-      request_.scene.cutoff == Cutoff::PhaseContrast)
-    {
-      throw;
-    }
-    image.lightNote = problem.what();
-  }
+  std::copy(values.begin(), values.end(), image.intensity.begin());
+  image.lightModel = LightModel::Waves;
   return true;
 }
 

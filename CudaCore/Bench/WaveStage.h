@@ -41,8 +41,8 @@ public:
   bool run(Image& image);
 
 private:
-  /// Whether waves are to be made; else notes why in the image.
-  bool areWanted(Image& image) const;
+  /// Whether waves are to be made. Throws Error where they cannot.
+  bool areWanted() const;
   Screen screenOf(const Image& image) const;
   /// What can abort waves, which cannot pause.
   Monitor withoutPauses() const;

@@ -87,9 +87,8 @@ struct Image
   Accuracy accuracy;
   LightModel lightModel = LightModel::Rays; ///< the one used
   WaveReport waves;                         ///< but of LightModel::Rays
-  std::string
-    lightNote; ///< of LightModel::Auto why not waves, of a knife edge what rays suffice for
-  bool aborted = false; ///< the monitor stopped it; all arrays are empty
+  std::string lightNote;                    ///< of waves in focus: what rays suffice for
+  bool aborted = false;                     ///< the monitor stopped it; all arrays are empty
 
   /// False where the monitor has paused it, and Bench::resume continues it. The arrays then hold the image of
   /// the samples so far (the histogram may know of more), or are empty where this call has completed none.

@@ -61,10 +61,6 @@ assert abs(spot - 0.966) < 0.015, spot
 assert rms < 4e-3, rms
 assert "waves, which matter" in status_of(shadow), status_of(shadow)
 
-# Auto: waves here, rays on pixels of 4 mm and where no waves can be made, with the reason in the view's line.
-shadow.LightModel = "Auto"
-assert np.array_equal(image_array(shadow, "Intensity"), light)
-
 # Rays make the same image whatever has been made of waves before.
 shadow.ImageSize = [128, 128]
 assert image_array(shadow, "Intensity").std() > 0 and output(shadow).GetFieldData().HasArray("FresnelWidth")
@@ -77,13 +73,6 @@ plain = Schlieren(Input=source, Bodies=shadow.Bodies, Density=["POINTS", "rho"],
                   ScreenDistance=0.5 - 2e-3)
 assert np.array_equal(image_array(plain, "Intensity"), rays)
 assert rays[63:65, 63:65].max() == 0, "There is no spot in the shadow of rays"
-shadow.LightModel = "Auto"
-shadow.ImageSize, shadow.ParallelScale = [8, 8], 2e-2
-output(shadow)
-assert "rays, which suffice" in status_of(shadow), status_of(shadow)
-shadow.Cutoff = "Color Filter"
-output(shadow)
-assert "of which no waves are made" in status_of(shadow), status_of(shadow)
 
 # What the view's line says of other techniques.
 column = Schlieren(Input=gaussian_column(96), Density=["POINTS", "N"], IndexModel="Refractivity", IndexArray=["POINTS", "N"],
@@ -104,10 +93,9 @@ truth = np.abs(math.sqrt(0.1) * np.exp(-0.5j * math.pi) + phase - 1)**2
 assert np.ptp(truth) > 0.5 and np.sqrt(np.mean((seen - truth)**2)) < 1e-2, np.sqrt(np.mean((seen - truth)**2))
 
 # It is of waves whatever LightModel says, as they alone have phases.
-for model in ("Rays", "Auto"):
-    column.LightModel = model
-    assert np.array_equal(image_array(column, "Intensity"), seen), model
-    assert "waves: " in status_of(column), status_of(column)
+column.LightModel = "Rays"
+assert np.array_equal(image_array(column, "Intensity"), seen)
+assert "waves: " in status_of(column), status_of(column)
 
 # A preview has no waves, and says so.
 column.LightModel = "Rays"

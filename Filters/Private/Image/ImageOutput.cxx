@@ -91,14 +91,11 @@ void addWaves(vtkImageData* output, const schlieren::Image& image)
   const schlieren::WaveReport& waves = image.waves;
   addFieldValue<vtkStringArray>(output, "WavesMatter", words);
   addWithUnit(output, "FresnelWidth", waves.fresnelWidth, "m");
-  if (image.lightModel == schlieren::LightModel::Waves)
-  {
-    addWithUnit(output, "WavePlane", waves.plane, "m");
-    addFieldValue<vtkDoubleArray>(output, "LeastTubeRatio", waves.leastTubeRatio);
-    addFieldValue<vtkTypeInt64Array>(output, "PointsPerPixel", waves.pointsPerPixel);
-    addFieldValues<vtkTypeInt64Array>(
-      output, "WavePoints", std::array<std::int64_t, 2>{ waves.columns, waves.rows });
-  }
+  addWithUnit(output, "WavePlane", waves.plane, "m");
+  addFieldValue<vtkDoubleArray>(output, "LeastTubeRatio", waves.leastTubeRatio);
+  addFieldValue<vtkTypeInt64Array>(output, "PointsPerPixel", waves.pointsPerPixel);
+  addFieldValues<vtkTypeInt64Array>(
+    output, "WavePoints", std::array<std::int64_t, 2>{ waves.columns, waves.rows });
 }
 
 /// Places an image in the plane z = 0. Resets the direction, which VTK copies since 9.3.

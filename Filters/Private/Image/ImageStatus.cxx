@@ -112,8 +112,7 @@ std::string wavesInWords(const schlieren::Image& image)
   const schlieren::WaveReport& waves = image.waves;
   if (!image.lightNote.empty())
   {
-    return (image.lightModel == schlieren::LightModel::Rays ? "rays: " : "waves: ") +
-      image.lightNote;
+    return "waves: " + image.lightNote;
   }
   if (!(waves.fresnelWidth > 0))
   {
@@ -124,8 +123,7 @@ std::string wavesInWords(const schlieren::Image& image)
   const double ratio = waves.blur / waves.fresnelWidth;
   const std::string widths = "the Fresnel width is " + textOf(waves.fresnelWidth / millimetre, 3) +
     " mm, a pixel with the source's image " + textOf(waves.blur / millimetre, 3) + " mm";
-  return image.lightModel == schlieren::LightModel::Rays ? "rays, which suffice: " + widths
-    : ratio < hidesLittle                                ? "waves, which matter: " + widths
+  return ratio < hidesLittle                ? "waves, which matter: " + widths
     : ratio < schlieren::blurThatHidesWaves ? "waves, which matter at edges and caustics: " + widths
                                             : "waves, but rays would suffice: " + widths;
 }

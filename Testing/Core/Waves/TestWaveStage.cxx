@@ -260,7 +260,6 @@ TEST(WaveStage, PhaseContrastIsOfItsPlate)
     { PhasePlate{ 0, 0.25, 1 }, PhasePlate{ 0, -0.25, 0.04 }, PhasePlate{ 0, 0, 0 } })
   {
     scene.phasePlate = plate;
-    scene.lightModel = plate.transmission < 1 ? LightModel::Auto : LightModel::Waves;
     const Image image = Bench().render(columnInVacuum(), scene);
     ASSERT_EQ(image.lightModel, LightModel::Waves);
     const Complex factor = std::polar(std::sqrt(plate.transmission), 2 * pi * plate.delay);
@@ -335,33 +334,11 @@ TEST(WaveStage, AllButTheLightIsOfRays)
   waves.intensity = rays.intensity;
   expectSameImage(waves, rays);
 
-  // After an image of waves there are the same rays, and with Auto on pixels of 8 mm, too.
+  // After an image of waves there are the same rays.
   scene.lightModel = LightModel::Waves;
   bench.render(columnInVacuum(), scene);
   scene.lightModel = LightModel::Rays;
   expectSameImage(bench.render(columnInVacuum(), scene), rays);
-  scene.view.parallelScale = 4e-2;
-  scene.view.width = scene.view.height = 10;
-  const Image coarse = bench.render(columnInVacuum(), scene);
-  scene.lightModel = LightModel::Auto;
-  const Image chosen = bench.render(columnInVacuum(), scene);
-  expectSameImage(chosen, coarse);
-  EXPECT_EQ(chosen.lightModel, LightModel::Rays);
-  EXPECT_GT(chosen.waves.blur, 4 * chosen.waves.fresnelWidth);
-}
-
-TEST(WaveStage, AutoTakesWavesWhereTheyShow)
-{
-  Scene scene = laserShadowgraph();
-  const Image waves = Bench().render(columnInVacuum(), scene);
-  scene.lightModel = LightModel::Auto;
-  const Image chosen = Bench().render(columnInVacuum(), scene);
-  EXPECT_EQ(chosen.lightModel, LightModel::Waves);
-  EXPECT_EQ(chosen.intensity, waves.intensity);
-  scene.cutoff = Cutoff::KnifeEdge;
-  const Image knife = Bench().render(columnInVacuum(), scene);
-  EXPECT_EQ(knife.lightModel, LightModel::Rays);
-  EXPECT_NE(knife.lightNote.find("Shadowgraph alone"), std::string::npos);
 }
 
 TEST(WaveStage, AnotherScreenNeedsNoOtherRays)

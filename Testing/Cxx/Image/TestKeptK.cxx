@@ -217,9 +217,6 @@ TEST_F(KeptK, AutomaticScreenIsKeptLikeIt)
   EXPECT_EQ(distanceAt(1), second);
   this->filter->SetKMode(Filter::K_AUTOMATIC);
   EXPECT_NE(distanceAt(1), second);
-  this->filter->SetViewDirection(0, 0, -1);
-  this->filter->SetLightModel(Filter::LIGHT_AUTO); // one depth
-  EXPECT_NEAR(distanceAt(1), 2, 1e-6);
 }
 
 namespace

@@ -216,7 +216,7 @@ TEST(Legend, ShowsLightOfAShadowgraphAndNothingOfAPattern)
   EXPECT_NEAR(
     std::atof(note.substr(note.find(' ')).c_str()), 0.01 * fieldValue(filter, "ScreenDistance"), 1)
     << note;
-  filter->SetLightModel(vtkSchlierenFilter::LIGHT_AUTO);
+  filter->SetLightModel(vtkSchlierenFilter::LIGHT_WAVES);
   filter->Update();
   EXPECT_EQ(legendText(filter, "LegendNotes"), "screen 20 mm behind the data (one depth)");
   filter->SetLightModel(vtkSchlierenFilter::LIGHT_RAYS);
