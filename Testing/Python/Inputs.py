@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Adaptive meshes of ParaView's own sources, the array that is chosen, and parts of the data."""
+"""Adaptive meshes of ParaView's own sources, and parts of the data."""
 
 import math
 
 import numpy as np
-from paraview.simple import AMRGaussianPulseSource, Calculator, Clip, ExtractSubset, HierarchicalFractal, PassArrays, Tetrahedralize
-from plugin_testing import RADIUS, RefractiveIndex, Schlieren, gaussian_column, is_empty, output, image_array
+from paraview.simple import AMRGaussianPulseSource, Clip, ExtractSubset, HierarchicalFractal, Tetrahedralize
+from plugin_testing import RADIUS, RefractiveIndex, Schlieren, gaussian_column, image_array, output
 
 
 def told_grid(bench):
@@ -33,21 +33,6 @@ for ghosts in (0, 1):
 assert np.array_equal(*images), np.abs(images[0] - images[1]).max()
 
 column = gaussian_column(64)
-# A temperature is not taken for a density, unless the user says so.
-warm = Calculator(column, ResultArrayName="T", Function="300 + 1e4*N")
-temperature = PassArrays(warm, PointDataArrays=["T"])
-both = PassArrays(warm, PointDataArrays=["T", "rho"])
-for source in (temperature, both):
-    source.UpdatePipeline()
-for kind in (Schlieren, RefractiveIndex):
-    bench = kind(temperature)
-    assert not bench.Density[1], bench.Density
-    assert is_empty(bench)
-    bench.Density = ["POINTS", "T"]
-    assert not is_empty(bench)
-    assert not is_empty(kind(temperature, Density=["POINTS", "T"]))
-    assert list(kind(both).Density) == ["POINTS", "rho"]
-
 # A box of an image, of a mesh, and what Schlieren sees of it.
 tetrahedra = Tetrahedralize(column)
 low, high = column.GetDataInformation().GetBounds()[4:]

@@ -18,7 +18,7 @@ namespace
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// A wrong setting, what the message must contain, and how to put it right.
+/// A wrong input or setting (what the tracer refuses is said alike), what the message must contain, and how to put it right.
 struct Mistake
 {
   const char* name;
@@ -148,14 +148,6 @@ std::vector<Mistake> mistakes()
         return image;
       },
       { "spacing", "y axis", "positive" }),
-    input("NanOrigin",
-      []
-      {
-        auto image = columnImage(16);
-        image->SetOrigin(0, nan, 0);
-        return image;
-      },
-      { "origin", "finite" }),
     { "IndexTakenForRefractivity",
       [](Filter* f)
       {
@@ -166,66 +158,14 @@ std::vector<Mistake> mistakes()
         f->SetGladstoneDaleConstant(1e9);
       },
       { "n - 1", "index model" }, [](Filter* f) { f->SetGladstoneDaleConstant(1); } },
-    { "NanConstant",
-      [](Filter* f)
-      {
-        f->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE);
-        f->SetInputArrayToProcess(
-          vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "N");
-        f->SetGladstoneDaleConstant(nan);
-      },
-      { "GladstoneDaleConstant", "finite" }, [](Filter* f) { f->SetGladstoneDaleConstant(1); } },
     { "NegativeHeight", [](Filter* f) { f->SetImageSize(64, -3); }, { "64 x -3", "ImageSize" },
       [](Filter* f) { f->SetImageSize(64, 64); } },
-    { "ViewUpParallel", [](Filter* f) { f->SetViewUp(0, 0, 2); }, { "ViewUp", "parallel" },
-      [](Filter* f) { f->SetViewUp(0, 1, 0); } },
-    { "NoDirection", [](Filter* f) { f->SetViewDirection(0, 0, 0); }, { "ViewDirection" },
-      [](Filter* f) { f->SetViewDirection(0, 0, 1); } },
-    { "NanDirection", [](Filter* f) { f->SetViewDirection(0, nan, -1); },
-      { "ViewDirection", "finite" }, [](Filter* f) { f->SetViewDirection(0, 0, 1); } },
-    { "NegativeK",
-      [](Filter* f)
-      {
-        f->SetKMode(Filter::K_VALUE);
-        f->SetKScale(-1);
-      },
-      { "KScale", "-1" }, [](Filter* f) { f->SetKScale(1); } },
     { "NoSamples", [](Filter* f) { f->SetSamplesPerPixel(0); }, { "SamplesPerPixel", "0" },
       [](Filter* f) { f->SetSamplesPerPixel(1); } },
-    { "NoStep", [](Filter* f) { f->SetStepSize(0); }, { "StepSize", "0" },
-      [](Filter* f) { f->SetStepSize(1); } },
-    { "EndlessSteps", [](Filter* f) { f->SetStepSize(1e-9); }, { "StepSize", "0.001" },
-      [](Filter* f) { f->SetStepSize(1); } },
     { "NanScreen", [](Filter* f) { f->SetScreenDistance(nan); }, { "ScreenDistance" },
       [](Filter* f) { f->SetScreenDistance(-1); } },
-    { "NoFocalLength",
-      [](Filter* f)
-      {
-        f->SetKMode(Filter::K_BENCH);
-        f->SetMirrorFocalLength(0);
-      },
-      { "MirrorFocalLength is 0 m", "positive" }, [](Filter* f) { f->SetMirrorFocalLength(1); } },
-    { "NoSuchImage",
-      [](Filter* f)
-      {
-        f->SetCutoff(Filter::COLOR_FILTER);
-        f->SetColorFilterImage("/no/such.png");
-      },
-      { "ColorFilterImage", "'/no/such.png'", "data:image/png" },
-      [](Filter* f) { f->SetColorFilterImage(""); } },
-    { "HalfAImage",
-      [](Filter* f)
-      {
-        f->SetCutoff(Filter::BACKGROUND_ORIENTED);
-        f->SetBackgroundPattern(Filter::PICTURE);
-        f->SetBackgroundImage("data:image/png;base64,iVBORw0KGgoAAAANSUhEUg==");
-      },
-      { "BackgroundImage", "no complete PNG" },
-      [](Filter* f) { f->SetBackgroundPattern(Filter::DOTS); } },
     { "NanAmbient", [](Filter* f) { f->SetAmbientRefractivity(nan); }, { "ambient" },
       [](Filter* f) { f->SetAmbientRefractivity(0); } },
-    { "NoLength", [](Filter* f) { f->SetLengthScale(0); }, { "LengthScale" },
-      [](Filter* f) { f->SetLengthScale(1); } },
   };
 }
 
