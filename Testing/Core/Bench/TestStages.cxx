@@ -18,30 +18,6 @@ namespace
 
 Scene smallScene() { return sceneOnCpu(40, 30); }
 
-TEST(Stages, CutoffTracesNothing)
-{
-  const SampledField<float> blob = blobField();
-  Bench bench;
-  Scene scene = smallScene();
-  bench.render(blob.field, scene);
-  const Work first = bench.work();
-  EXPECT_EQ(first.mediumBuilds, 1);
-  EXPECT_GT(first.raysTraced, 0);
-
-  scene.knifeEdgeAngle = 90;
-  Image image = bench.render(blob.field, scene);
-  EXPECT_EQ(image.traceSeconds, 0);
-  scene.kScale = 17;
-  bench.render(blob.field, scene);
-  scene.cutoffOffset = 0.1;
-  bench.render(blob.field, scene);
-  scene.cutoff = Cutoff::Shadowgraph;
-  image = bench.render(blob.field, scene);
-  EXPECT_EQ(bench.work().mediumBuilds, first.mediumBuilds);
-  EXPECT_EQ(bench.work().raysTraced, first.raysTraced);
-  expectSameImage(image, Bench().render(blob.field, scene));
-}
-
 TEST(Stages, CameraKeepsTheMedium)
 {
   const SampledField<float> blob = blobField();
