@@ -3,6 +3,7 @@
 #include "vtkSchlierenFilter.h"
 
 #include "Common/AtTheEnd.h"
+#include "Common/Sentences.h"
 #include "Common/Threads.h"
 #include "Filter/SchlierenFilterInternals.h"
 #include "Guarded.h"
@@ -419,7 +420,7 @@ void vtkSchlierenFilter::Fail(
   const std::string& problem, vtkMTimeType now, vtkInformationVector* outputs)
 {
   this->Inside->FailedAt = now;
-  vtkErrorMacro(<< problem);
+  vtkErrorMacro(<< problem << seeTroubleshooting);
   this->ForgetImage();
   this->Status = "No image: " + problem;
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)

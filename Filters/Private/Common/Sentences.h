@@ -7,6 +7,9 @@
 namespace filters
 {
 
+/// Ends messages about images, which that page explains.
+constexpr const char* seeTroubleshooting = " See Troubleshooting in the documentation.";
+
 /// Appends a sentence, which may be empty.
 inline void addText(std::string& text, const std::string& more)
 {

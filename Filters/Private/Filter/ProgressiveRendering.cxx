@@ -4,6 +4,7 @@
 #include "Filter/SchlierenFilterInternals.h"
 
 #include "Common/AvailableMemory.h"
+#include "Common/Sentences.h"
 #include "Common/Threads.h"
 #include "Guarded.h"
 #include "Image/ImageLegend.h"
@@ -333,13 +334,14 @@ bool vtkSchlierenFilter::Show(
       vtkWarningMacro(
         << outside
         << ": places that the mesh leaves out are taken for a body. If they are none, "
-           "set Outside to Passes, and give bodies as Bodies.");
+           "set Outside to Passes, and give bodies as Bodies."
+        << seeTroubleshooting);
     }
     for (const auto& [kind, warning] : inside.Images.GetWarnings(image))
     {
       if (inside.Refractivity->IsForMe(kind, this))
       {
-        vtkWarningMacro(<< warning);
+        vtkWarningMacro(<< warning << seeTroubleshooting);
       }
     }
   }

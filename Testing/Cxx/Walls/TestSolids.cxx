@@ -154,6 +154,7 @@ TEST(Solids, AWallAcrossAllLightIsSaid)
   ASSERT_EQ(complaints->Warnings.size(), 1u);
   EXPECT_NE(complaints->Warnings[0].find("All light"), std::string::npos);
   EXPECT_NE(complaints->Warnings[0].find("Outside set to Passes"), std::string::npos);
+  EXPECT_NE(complaints->Warnings[0].find("Troubleshooting"), std::string::npos);
   EXPECT_TRUE(complaints->Errors.empty());
 
   filter->SetKnifeEdgeAngle(90); // the same light: once is enough
