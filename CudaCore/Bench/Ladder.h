@@ -69,6 +69,15 @@ inline int manyMoreThan(int samples, Cutoff cutoff)
   return std::max(4 * samples, lightAll ? fewest : 1);
 }
 
+/// Whether the error of so many rays is seen beside those of finestSquares only: of fringes, of which squares of fewer rays have
+/// more noise than a few rays have, which light all of a pixel.
+inline bool needsFinerSquares(int samples, Cutoff cutoff, bool isOfWholeImage)
+{
+  constexpr int few = 4;
+  return samples <= few && techniqueOf(cutoff).hasFringes && !isOfWholeImage;
+}
+constexpr int finestSquares = 64; ///< rays per pixel
+
 /// Finds errors of steps and rays per pixel when they are requested.
 template <class Real>
 class Ladder
@@ -130,8 +139,14 @@ public:
     }
     const auto errorIn = [&](const Differences& differences)
     { return exceededBy(mayExceedAsChosen, differences); };
-    const int more = manyMoreThan(samples, pilot_.scene().cutoff);
-    return differenceOf({ longest(), samples, samples }, { longest(), more, more }, errorIn);
+    const auto differenceTo = [&](int more) {
+      return differenceOf({ longest(), samples, samples }, { longest(), more, more }, errorIn);
+    };
+    const Cutoff cutoff = pilot_.scene().cutoff;
+    const double difference = differenceTo(manyMoreThan(samples, cutoff));
+    return difference > allowed && needsFinerSquares(samples, cutoff, pilot_.isWhole())
+      ? differenceTo(finestSquares)
+      : difference;
   }
 
   /// With more where edges of bodies are.

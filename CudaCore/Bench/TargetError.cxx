@@ -308,6 +308,16 @@ bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene)
   return false;
 }
 
+/// Fringes that so many rays cannot resolve are grey at best, whatever is chosen.
+template <class Real>
+bool areFringesResolved(const Pilot<Real>& pilot)
+{
+  const double finest = std::sqrt(raysPerPixel.back()); // by pixel
+  const Scene& scene = pilot.scene();
+  return !techniqueOf(scene.cutoff).hasFringes ||
+    pilot.view().steepestPath / scene.wavelength <= finest;
+}
+
 /// Finds what other patches say of settings, and writes it into them. Nothing if aborted. `looksAtRays`: also at what more rays
 /// would change.
 template <class Real>
@@ -338,6 +348,12 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
     ofRays = isTraced
       ? compare(samples / few, samples)
       : compare(samples, samples <= few ? manyMoreThan(samples, scene.cutoff) : 2 * samples);
+    constexpr double notable = 0.5;
+    if (exceededBy(mayExceed, ofRays) > notable * scene.targetError && areFringesResolved(pilot) &&
+      needsFinerSquares(samples, scene.cutoff, pilot.isWhole()))
+    {
+      ofRays = compare(samples, finestSquares);
+    }
     for (Difference& one : ofRays)
     {
       one.value /= isTraced ? leastGain : 1;
@@ -410,10 +426,7 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
       return settings;
     }
   }
-  // Fringes that so many rays cannot resolve are grey at best, whatever is chosen.
-  const double finest = std::sqrt(raysPerPixel.back()); // by pixel
-  const bool isResolved =
-    !techniqueOf(scene.cutoff).hasFringes || pilot.view().steepestPath / scene.wavelength <= finest;
+  const bool isResolved = areFringesResolved(pilot);
   Ladder<Real> ladder(pilot, steps, isResolved && hasFilm, monitor);
   double aim = target;
   for (int tries = 0; tries < 3 && !isAborted(); ++tries)
