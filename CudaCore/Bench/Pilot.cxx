@@ -257,11 +257,16 @@ Differences Pilot<Real>::compare(Patches patches, const PatchSettings& a, const 
           ? std::max(raysOfB.samples, std::min(moreAtBodies * raysOfB.samples, most))
           : raysOfB.samples;
       }
-      // The error falls as one over the number of rays, about.
+      // The error falls as one over the number of rays, about. At edges of bodies those of the halves of twice as many are
+      // independent.
+      const Technique& technique = techniqueOf(scene_.cutoff);
+      const bool isOfEdges = place == PatchPlace::Body && !layout_.isWhole &&
+        technique.plane == RecordedPlane::Focus && !technique.hasFringes;
+      const double ofMore = 1 - static_cast<double>(samplesOfA) / raysOfB.samples;
       constexpr double partOfOthers = 0.85; // they err, too, and some see nothing of an edge
       const double part = raysOfB.areOthers ? partOfOthers
-        : isOfRays                          ? 1 - static_cast<double>(samplesOfA) / raysOfB.samples
-                                            : 1;
+        : isOfRays ? (isOfEdges && ofMore <= 0.5 ? std::sqrt(ofMore) : ofMore)
+                   : 1;
       const double factor = (choice && choice->hasEdge ? factorAtEdges : 1) / part;
       return compare(
         { group, raysOfA }, { group, raysOfB }, factor, Edges::Count, monitor, all, choice);

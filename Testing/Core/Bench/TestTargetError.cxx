@@ -245,6 +245,22 @@ TEST(TargetErrors, OfSteepFringesAreThoseOfFewRays)
   EXPECT_LT(image.accuracy.reached, 3 * error);
 }
 
+/// Edges are in 2 % of the pixels, half of which may err more: the error is that of edges that are moved as most are.
+TEST(TargetErrors, OfBodiesInFewPixelsAreThoseOfMost)
+{
+  const Field field = fieldOf(std::make_shared<SphereSource>());
+  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 1. / 256 });
+  scene.view.width = scene.view.height = 72;
+  scene.view.parallelScale = 3;
+  scene.targetError = 1. / 256;
+  const Image image = Bench().render(field, scene);
+  const Image truth = finest(field, scene, image.kScale);
+  const double error = trueError(
+    image, truth, scene, [&](std::size_t pixel) { return truth.blockedFraction[pixel] < 1; });
+  EXPECT_LT(error, image.accuracy.reached);
+  EXPECT_LT(image.accuracy.reached, 2 * error);
+}
+
 /// Where memory does not suffice for the voxels that are needed.
 TEST(TargetErrors, OfTooFewVoxelsAreSeen)
 {
