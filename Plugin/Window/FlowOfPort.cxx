@@ -4,6 +4,7 @@
 
 #include "FlowArrays.h"
 
+#include "pqActiveObjects.h"
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
 #include "pqServer.h"
@@ -128,6 +129,19 @@ QString problemOfFlow(pqOutputPort* port)
 std::vector<FlowArray> arraysOfFlow(pqOutputPort* port)
 {
   return arraysOf(port->getDataInformation());
+}
+
+void selectFlow(pqOutputPort* port)
+{
+  pqPipelineSource* source = port->getSource();
+  if (source->getNumberOfOutputPorts() > 1)
+  {
+    pqActiveObjects::instance().setActivePort(port);
+  }
+  else
+  {
+    pqActiveObjects::instance().setActiveSource(source);
+  }
 }
 
 std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name)

@@ -28,6 +28,10 @@ QString problemOfFlow(pqOutputPort* port);
 
 std::vector<FlowArray> arraysOfFlow(pqOutputPort* port);
 
+/// Makes a flow the active data, as the Pipeline Browser does: its source, and an output only of a source that has several. At
+/// *Reset Session*, ParaView may crash where a selected output has lost its source (pqDeleteReaction::canDeleteTree).
+void selectFlow(pqOutputPort* port);
+
 /// Returns the range of an array, or of field data, such as numbers in an output; else {0, -1}.
 std::array<double, 2> rangeOfArray(pqOutputPort* port, int association, const char* name);
 

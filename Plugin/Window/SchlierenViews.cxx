@@ -130,7 +130,7 @@ public:
     this->Views[0]->forceRender(); // finds the ambient refractivity
     showAsVolume(this->Flow, this->Scene, this->Defaults, benchOf(this->Images[0]));
     pqActiveObjects::instance().setActiveView(this->Views[0]);
-    pqActiveObjects::instance().setActivePort(this->Flow);
+    selectFlow(this->Flow);
     for (pqRenderView* view : this->Views)
     {
       linkCameras(this->Scene, view);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqFlowOfView.h"
 
+#include "FlowOfPort.h"
 #include "ImagesInViews.h"
 
 #include "pqActiveObjects.h"
@@ -29,7 +30,7 @@ void pqFlowOfView::onViewChanged(pqView* view)
   {
     return;
   }
-  pqActiveObjects& active = pqActiveObjects::instance();
+  const pqOutputPort* active = pqActiveObjects::instance().activePort();
   const QList<pqRepresentation*> shown = view->getRepresentations();
   const auto portOf = [](pqRepresentation* representation)
   {
@@ -37,13 +38,13 @@ void pqFlowOfView::onViewChanged(pqView* view)
     return display && display->isVisible() ? display->getOutputPortFromInput() : nullptr;
   };
   if (std::any_of(shown.begin(), shown.end(),
-        [&](pqRepresentation* one) { return portOf(one) && portOf(one) == active.activePort(); }))
+        [&](pqRepresentation* one) { return portOf(one) && portOf(one) == active; }))
   {
     return;
   }
   const auto drawn = std::find_if(shown.begin(), shown.end(), imagesInViews::isDrawn);
   if (drawn != shown.end() && portOf(*drawn))
   {
-    active.setActivePort(portOf(*drawn));
+    selectFlow(portOf(*drawn));
   }
 }

@@ -17,13 +17,17 @@ def click(view):
     until(lambda: GetActiveView() == view)
     pause(0.5)
 def selected():
+    "The name of the source; at Reset Session, ParaView may crash where an output is selected."
     source = GetActiveSource()
+    current = servermanager.ProxyManager().GetSelectionModel("ActiveSources").GetCurrentProxy()
+    assert not current or not current.IsA("vtkSMOutputPort")
     return source and [name for (name, _), one in GetSources().items() if one == source][0]
 """
 user = ViewsSession()
 user.press("OneImage")
 user.python(HELPERS + """
 settle_views()
+assert selected() == "mesh", selected()
 other = Sphere(registrationName="other")
 Show(other, scene)
 SetActiveSource(other)

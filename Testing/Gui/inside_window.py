@@ -236,7 +236,10 @@ def confirm():
 
 
 def reset_session():
-    """Edit > Reset Session, without waiting for it; its question, if ParaView asks one, is answered."""
+    """Edit > Reset Session, without waiting for it; its question, if ParaView asks one, is answered. Nothing is selected: where
+    a filter has been deleted, the output that was its input is, and ParaView crashes if nothing else keeps that one's source
+    (pqDeleteReaction::canDeleteTree)."""
+    simple.SetActiveSource(None)
     (action,) = [one for one in widget("menu_Edit").actions() if one.objectName() == "actionDelete_All"]
     confirming = QTimer(widget(), interval=100)
     confirming.timeout.connect(confirm)
