@@ -10,10 +10,9 @@
 #include "pqServer.h"
 #include "pqServerResource.h"
 #include "vtkAlgorithm.h"
-#include "vtkCellTypes.h"
+#include "vtkCellType.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkNew.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPolyData.h"
@@ -52,15 +51,14 @@ bool isOfPointsAndLines(vtkDataObject* data)
     }
     return true;
   }
+  auto* mesh = vtkPointSet::SafeDownCast(data);
   if (!vtkPolyData::SafeDownCast(data) && !vtkUnstructuredGrid::SafeDownCast(data))
   {
     return false;
   }
-  vtkNew<vtkCellTypes> types;
-  vtkPointSet::SafeDownCast(data)->GetCellTypes(types);
-  for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
   {
-    const unsigned char type = types->GetCellType(i);
+    const int type = mesh->GetCellType(i);
     if (type != VTK_VERTEX && type != VTK_POLY_VERTEX && type != VTK_LINE && type != VTK_POLY_LINE)
     {
       return false;

@@ -221,7 +221,7 @@ def check_said(user, expected, said):
     if expected:
         assert expected in said, expected
         said = "\n".join(line for line in said.splitlines() if expected not in line)
-    assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In", said)
+    assert not re.search(r"critical:|ERR\||Traceback|Generic Warning|ERROR: In|was deprecated", said)
     # What ParaView warns of where an image is shown by an array that it does not have.
     assert not re.search("Could not determine array range|Failed to locate selected", said)
 

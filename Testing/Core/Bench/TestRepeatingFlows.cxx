@@ -91,7 +91,7 @@ TEST_P(RepeatingFlows, AreSeen)
       const std::int64_t points = pixels + 1;
       const SampledField<float> field(
         areAlongRows ? slab(pixels, 3, points) : slab(pixels, points, 3),
-        [&](double x, double y, double)
+        [&, period = period](double x, double y, double)
         {
           const double off = std::remainder((areAlongRows ? y : x) - phase, period);
           return 2.7e-4 + 4e-7 * std::exp(-off * off / (2 * 0.8 * 0.8));
