@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <new>
 #include <sstream>
 #include <stdexcept>
@@ -38,8 +37,14 @@ double numberIn(const char* file, const std::string& name)
 
 bool canAllocate(double bytes)
 {
-  return bytes < static_cast<double>(std::numeric_limits<std::ptrdiff_t>::max()) &&
-    std::unique_ptr<char[]>(new (std::nothrow) char[static_cast<std::size_t>(bytes)]);
+  if (bytes >= static_cast<double>(std::numeric_limits<std::ptrdiff_t>::max()))
+  {
+    return false;
+  }
+  // Called as functions: of new and delete expressions, compilers may leave out both (GCC 16 does).
+  void* memory = ::operator new(static_cast<std::size_t>(bytes), std::nothrow);
+  ::operator delete(memory);
+  return memory != nullptr;
 }
 
 /// Returns whether the bytes can be allocated; skips the check of small ones.
