@@ -244,7 +244,7 @@ void pqCutoffView::drawAxes(QPainter& painter) const
   if (!this->isEnabled())
   {
     painter.drawText(square.adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap,
-      tr("The light on the cutoff plane is known after Apply."));
+      tr("The light on the cutoff plane is known with the image."));
     return;
   }
   const UnitPrefix prefix = unitPrefixOf(this->Range);
