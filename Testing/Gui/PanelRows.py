@@ -59,10 +59,8 @@ def look(data, technique):
     assert len([name for name in found if name != "SchlierenCutoff"]) <= {MOST}, (data, technique, found)
     least = widget("propertiesPanel", "BenchPanel").minimumSizeHint().width()
     assert least <= 250, least
-    dock = widget("propertiesDock")
-    corner = dock.mapToGlobal(QtCore.QPoint(0, 0))
-    QApplication.primaryScreen().grabWindow(0, corner.x(), corner.y(), dock.width(), dock.height()).save(
-        os.path.join(FOLDER, "panel, %s, %s.png" % (data, technique)))
+    widget("propertiesPanel", "scrollArea").verticalScrollBar().setValue(0)
+    widget("propertiesDock").grab().save(os.path.join(FOLDER, "panel, %s, %s.png" % (data, technique)))
 
 def remark(name):
     return widget("propertiesPanel", "BenchPanel", name, "Remark").text()

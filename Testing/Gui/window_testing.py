@@ -199,13 +199,13 @@ def play_together(sessions, folder, seconds, plugin=True):
              f"--test-script={paths[0]}", f"--test-directory={folder}", "--exit"],
             env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
             timeout=seconds, check=False)
+        output, end = done.stdout, done.returncode
     except subprocess.TimeoutExpired as late:
-        print((late.stdout or b"").decode(errors="replace"))
-        raise
-    before, *said = re.split(f"^{begins}.*\n", done.stdout, flags=re.MULTILINE)
+        output, end = (late.stdout or b"").decode(errors="replace"), f"its time limit of {seconds} s"
+    before, *said = re.split(f"^{begins}.*\n", output, flags=re.MULTILINE)
     said = said or [""]
     said[0] = before + said[0]
-    said[-1] += f"\nparaview ended with {done.returncode}\n"
+    said[-1] += f"\nparaview ended with {end}\n"
     return said + (len(sessions) - len(said)) * ["It did not begin."]
 
 
