@@ -59,8 +59,6 @@ menu = widget("propertiesPanel", "Cutoff").findChild(QtWidgets.QMenu, "PresetsMe
 settle_views()
 (display,) = displays()
 assert display.SchlierenBench.Cutoff == "Shadowgraph"
-distance = information(display.SchlierenBench, "AutomaticUsed")
-assert 0.01 < distance < 1, distance  # not the k that was kept before
 """)
 user.menu("menuSchlieren", "actionSaveFigure")
 user.event("pqClientMainWindow/SaveSchlierenFigure", "filesSelected", FIGURE)

@@ -124,7 +124,6 @@ void vtkSchlierenFilter::SetCutoff(int cutoff)
   if (this->Cutoff != cutoff)
   {
     this->Cutoff = cutoff;
-    this->AutomaticUsed = 0; // that of another technique
     this->Modified();
   }
 }

@@ -144,9 +144,7 @@ TEST_F(KeptK, StaysWhileAnImageHasNone)
   this->filter->SetKMode(Filter::K_AUTOMATIC);
   EXPECT_EQ(this->kAt(2), this->own[0]);
   EXPECT_TRUE(this->saysLocked());
-  EXPECT_GT(this->filter->GetAutomaticUsed(), 0);
   this->filter->SetCutoff(Filter::SHADOWGRAPH); // which has a distance instead
-  EXPECT_EQ(this->filter->GetAutomaticUsed(), 0) << "a k is no distance";
   EXPECT_EQ(this->kAt(2), 0);
   EXPECT_EQ(this->filter->GetLockedK(), 0);
   const double distance = this->filter->GetAutomaticUsed();
