@@ -25,7 +25,7 @@ smtrace.start_trace()
 def write(*_):
     if servermanager.vtkSMTrace.GetActiveTracer():
         text = smtrace.get_current_trace_output()
-        if "SetActiveSource(" in text:
+        if "AddCameraLink(" in text:
             with open({TRACE!r}, "w") as file:
                 file.write(text)
             smtrace.stop_trace()

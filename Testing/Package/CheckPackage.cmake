@@ -8,7 +8,7 @@ function(run)
 endfunction()
 file(REMOVE_RECURSE "${FOLDER}")
 run("${CMAKE_COMMAND}" --install "${BUILD}" --component core --prefix "${FOLDER}/prefix")
-run("${CMAKE_COMMAND}" -S "${source}" -B "${FOLDER}/build" "-DCMAKE_PREFIX_PATH=${FOLDER}/prefix"
+run("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${source}" -B "${FOLDER}/build" "-DCMAKE_PREFIX_PATH=${FOLDER}/prefix"
   "-DCMAKE_CXX_COMPILER=${COMPILER}" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-Werror)
 run("${CMAKE_COMMAND}" --build "${FOLDER}/build")
 run("${CMAKE_CTEST_COMMAND}" --test-dir "${FOLDER}/build" --no-tests=error --output-on-failure)

@@ -98,11 +98,10 @@ assert np.array_equal(image_array(column, "Intensity"), seen)
 assert "waves: " in status_of(column), status_of(column)
 
 # A preview has no waves, and says so.
-column.LightModel = "Rays"
+column.LightModel = "Waves"
 column.GetClientSideObject().SetPreviewReduction(4)
 output(column)
 assert status_of(column).startswith("Preview: rays as yet, "), status_of(column)
-column.LightModel = "Waves"
 column.Cutoff = "Interferogram"
 column.GetClientSideObject().SetPreviewReduction(4)
 output(column)
