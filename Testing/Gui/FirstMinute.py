@@ -59,6 +59,8 @@ menu = widget("propertiesPanel", "Cutoff").findChild(QtWidgets.QMenu, "PresetsMe
 settle_views()
 (display,) = displays()
 assert display.SchlierenBench.Cutoff == "Shadowgraph"
+distances = information(display.SchlierenBench, "AutomaticUsed"), display.SchlierenBench.LockedK
+assert all(0.01 < one < 1 for one in distances), distances  # not the k that was kept before
 """)
 user.menu("menuSchlieren", "actionSaveFigure")
 user.event("pqClientMainWindow/SaveSchlierenFigure", "filesSelected", FIGURE)

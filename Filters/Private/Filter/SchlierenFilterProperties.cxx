@@ -11,6 +11,7 @@
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVersionMacros.h"
 
 #include <algorithm>
 #include <string>
@@ -124,6 +125,10 @@ void vtkSchlierenFilter::SetCutoff(int cutoff)
   if (this->Cutoff != cutoff)
   {
     this->Cutoff = cutoff;
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 5, 0)
+    this->AutomaticUsed =
+      0; // that of another technique, which ParaView 6.1 would keep for this one
+#endif
     this->Modified();
   }
 }
