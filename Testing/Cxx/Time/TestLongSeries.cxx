@@ -100,9 +100,9 @@ void expectNoGrowth(const std::function<vtkSmartPointer<vtkDataObject>(double)>&
     }
     if (step == last)
     {
-      // An array of a step takes 1700 bytes or more. The first hundred steps of a mesh cost 150 to 420 bytes each, all
-      // of five hundred 70: malloc keeps some small pieces of each size for later.
-      EXPECT_LT(memoryInUse(), inUse + (last - warmedUp) * 1000);
+      // An array of a step takes 1700 bytes or more. The first hundred steps of a mesh cost 150 to 420 bytes each, rarely 1070,
+      // all of five hundred 70: malloc keeps some small pieces of each size for later.
+      EXPECT_LT(memoryInUse(), inUse + (last - warmedUp) * 1400);
       EXPECT_LT(residentBytes(), resident + inPart);
     }
   }
