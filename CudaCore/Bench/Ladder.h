@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Bench/Pilot.h"
+#include "Bench/TargetError.h"
 
 #include <algorithm>
 #include <array>
@@ -69,14 +70,15 @@ inline int manyMoreThan(int samples, Cutoff cutoff)
   return std::max(4 * samples, lightAll ? fewest : 1);
 }
 
-/// Whether the error of so many rays is seen beside those of finestSquares only: of fringes, of which squares of fewer rays have
+/// Rays per pixel whose error is not seen beside twice as many.
+constexpr int fewRays = 4;
+
+/// Whether the error of so many rays is seen beside the most rays only: of fringes, of which squares of fewer rays have
 /// more noise than a few rays have, which light all of a pixel.
-inline bool needsFinerSquares(int samples, Cutoff cutoff, bool isOfWholeImage)
+inline bool needsMostRays(int samples, Cutoff cutoff, bool isOfWholeImage)
 {
-  constexpr int few = 4;
-  return samples <= few && techniqueOf(cutoff).hasFringes && !isOfWholeImage;
+  return samples <= fewRays && techniqueOf(cutoff).hasFringes && !isOfWholeImage;
 }
-constexpr int finestSquares = 64; ///< rays per pixel
 
 /// Finds errors of steps and rays per pixel when they are requested.
 template <class Real>
@@ -144,8 +146,8 @@ public:
     };
     const Cutoff cutoff = pilot_.scene().cutoff;
     const double difference = differenceTo(manyMoreThan(samples, cutoff));
-    return difference > allowed && needsFinerSquares(samples, cutoff, pilot_.isWhole())
-      ? differenceTo(finestSquares)
+    return difference > allowed && needsMostRays(samples, cutoff, pilot_.isWhole())
+      ? differenceTo(raysPerPixel.back())
       : difference;
   }
 

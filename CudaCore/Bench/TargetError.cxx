@@ -359,17 +359,16 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
         { steps.longest, fewer, isSplit ? atEdges : fewer, isSplit },
         { steps.longest, more, isSplit ? 2 * atEdges : more, isSplit }, monitor);
     };
-    constexpr int few = 4;
     // Where the image is the patch, that would take longer than the image, and these rays are traced.
-    const bool isTraced = samples > few && pilot.isWhole() && !scene.estimatesErrors;
+    const bool isTraced = samples > fewRays && pilot.isWhole() && !scene.estimatesErrors;
     ofRays = isTraced
-      ? compare(samples / few, samples)
-      : compare(samples, samples <= few ? manyMoreThan(samples, scene.cutoff) : 2 * samples);
+      ? compare(samples / fewRays, samples)
+      : compare(samples, samples <= fewRays ? manyMoreThan(samples, scene.cutoff) : 2 * samples);
     constexpr double notable = 0.5;
     if (exceededBy(mayExceed, ofRays) > notable * scene.targetError && areFringesResolved(pilot) &&
-      needsFinerSquares(samples, scene.cutoff, pilot.isWhole()))
+      needsMostRays(samples, scene.cutoff, pilot.isWhole()))
     {
-      ofRays = compare(samples, finestSquares);
+      ofRays = compare(samples, raysPerPixel.back());
     }
     for (Difference& one : ofRays)
     {

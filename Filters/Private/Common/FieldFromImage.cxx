@@ -3,6 +3,8 @@
 #include "Common/FieldFromImage.h"
 
 #include "Common/AvailableMemory.h"
+#include "Common/Leaf.h"
+
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -20,9 +22,6 @@ namespace filters
 
 namespace
 {
-
-constexpr const char* maskName = "vtkValidPointMask";
-constexpr const char* transparentName = "TransparentPointMask";
 
 vtkUnsignedCharArray* bytesOf(vtkImageData* image, const char* name)
 {

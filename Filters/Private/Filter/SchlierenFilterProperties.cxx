@@ -126,8 +126,8 @@ void vtkSchlierenFilter::SetCutoff(int cutoff)
   {
     this->Cutoff = cutoff;
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 5, 0)
-    this->AutomaticUsed =
-      0; // that of another technique, which ParaView 6.1 would keep for this one
+    // ParaView 6.1 would keep that of the technique before for this one.
+    this->AutomaticUsed = 0;
 #endif
     this->Modified();
   }
