@@ -31,75 +31,6 @@ void pastePixels(
 
 } // namespace
 
-bool EdgeTiles::arePossible(const Scene& scene, const Light& light, double moved)
-{
-  constexpr double mostMoved = 2.5;
-  return moved <= mostMoved && techniqueOf(scene.cutoff).plane == RecordedPlane::Focus &&
-    !isOfCamera(scene.cutoff) && !(light.pupilTilt > 0) && scene.smoothingRadius <= 0;
-}
-
-PatchList EdgeTiles::in(const PixelArray<float>& blockedFraction, const View& view, double moved)
-{
-  constexpr std::int64_t edge = Patch::edge, longest = 16; // tiles
-  const std::int64_t around = 1 + std::llround(moved);
-  const std::int64_t columns = (view.width + edge - 1) / edge,
-                     rows = (view.height + edge - 1) / edge;
-  std::vector<bool> isWanted(static_cast<std::size_t>(columns * rows));
-  const auto isEdgeIn = [&](std::int64_t left, std::int64_t low)
-  {
-    bool stopsSome = false, stopsAll = true;
-    for (std::int64_t row = std::max<std::int64_t>(0, low - around);
-         row < std::min<std::int64_t>(view.height, low + edge + around); ++row)
-    {
-      for (std::int64_t column = std::max<std::int64_t>(0, left - around);
-           column < std::min<std::int64_t>(view.width, left + edge + around); ++column)
-      {
-        const float blocked = blockedFraction[static_cast<std::size_t>(row * view.width + column)];
-        stopsSome = stopsSome || blocked > 0;
-        stopsAll = stopsAll && blocked >= 1;
-      }
-    }
-    return stopsSome && !stopsAll;
-  };
-  for (std::size_t n = 0; n < isWanted.size(); ++n)
-  {
-    const auto tile = static_cast<std::int64_t>(n);
-    isWanted[n] = isEdgeIn(tile % columns * edge, tile / columns * edge);
-  }
-  PatchList tiles;
-  for (std::int64_t row = 0; row < rows; ++row)
-  {
-    for (std::int64_t column = 0; column < columns; ++column)
-    {
-      const auto countFrom = [&](std::int64_t right, std::int64_t up)
-      {
-        std::int64_t count = 0;
-        for (std::int64_t i = column, j = row; i < columns && j < rows && count < longest &&
-             isWanted[static_cast<std::size_t>(j * columns + i)];
-             i += right, j += up)
-        {
-          ++count;
-        }
-        return count;
-      };
-      const std::int64_t along = countFrom(1, 0), upwards = countFrom(0, 1);
-      if (along == 0)
-      {
-        continue;
-      }
-      const std::int64_t wide = along >= upwards ? along : 1, high = along >= upwards ? 1 : upwards;
-      for (std::int64_t n = 0; n < wide * high; ++n)
-      {
-        isWanted[static_cast<std::size_t>((row + n / wide) * columns + column + n % wide)] = false;
-      }
-      const std::int64_t left = column * edge, low = row * edge;
-      tiles.push_back({ left, low, 1, left, low, marginFor(moved),
-        std::min(wide * edge, view.width - left), std::min(high * edge, view.height - low) });
-    }
-  }
-  return tiles;
-}
-
 void EdgeRays::prepare(const RaysKey& key, int samples, const PatchList& tiles)
 {
   const auto isSame = [](const Patch& a, const Patch& b)
@@ -149,13 +80,16 @@ bool EdgeStage<Real>::trace(const RaysKey& key)
   while (edges.images.size() < edges.tiles.size())
   {
     const std::size_t first = edges.images.size(), end = endOfChunk(first);
-    const TracedPass* traced = raysOf(edges.chunks, first, end);
+    const auto tiles = edges.tiles.cbegin();
+    const RaysOfTiles rays(tiles + static_cast<std::ptrdiff_t>(first),
+      tiles + static_cast<std::ptrdiff_t>(end), scene_.samplesAtEdges);
+    const TracedPass* traced = trace(rays, edges.chunks, first, end);
     if (traced == nullptr || watch_.isAborted())
     {
       return false;
     }
     request_.momentumDrift = std::max(request_.momentumDrift, traced->worstDrift);
-    expose(*traced, first, end);
+    expose(*traced, rays, first, end);
     ++edges.chunks;
   }
   if (watch_.monitor().progress)
@@ -179,12 +113,6 @@ std::vector<Pass> EdgeStage<Real>::passesOf(const Patch& tile) const
 }
 
 template <class Real>
-std::int64_t EdgeStage<Real>::raysOf(const Patch& tile) const
-{
-  return scene_.samplesAtEdges * (tile.columns + 2 * tile.margin) * (tile.rows + 2 * tile.margin);
-}
-
-template <class Real>
 std::size_t EdgeStage<Real>::endOfChunk(std::size_t first) const
 {
   constexpr std::int64_t raysAtOnce = std::int64_t{ 1 } << 20;
@@ -192,26 +120,28 @@ std::size_t EdgeStage<Real>::endOfChunk(std::size_t first) const
   std::size_t end = first;
   for (std::int64_t rays = 0; end < tiles.size() && rays < raysAtOnce; ++end)
   {
-    rays += raysOf(tiles[end]);
+    const Patch& tile = tiles[end];
+    rays +=
+      scene_.samplesAtEdges * (tile.columns + 2 * tile.margin) * (tile.rows + 2 * tile.margin);
   }
   return end;
 }
 
 template <class Real>
-const TracedPass* EdgeStage<Real>::raysOf(std::size_t chunk, std::size_t first, std::size_t end)
+const TracedPass* EdgeStage<Real>::trace(
+  const RaysOfTiles& rays, std::size_t chunk, std::size_t first, std::size_t end)
 {
   if (chunk < rays_.chunks_.size())
   {
     return &rays_.chunks_[chunk];
   }
-  const PatchList& tiles = request_.edges->tiles;
   std::vector<Pass> all;
-  for (std::size_t n = first; n < end; ++n)
+  for (const Patch& rectangle : rays.rectangles())
   {
-    for (Pass& pass : passesOf(tiles[n]))
+    for (Pass& pass : passesOf(rectangle))
     {
-      pass.firstColumn += tiles[n].column;
-      pass.firstRow += tiles[n].row;
+      pass.firstColumn += rectangle.column;
+      pass.firstRow += rectangle.row;
       all.push_back(pass);
     }
   }
@@ -256,14 +186,10 @@ Monitor EdgeStage<Real>::monitorOf(std::size_t first, std::size_t end) const
 }
 
 template <class Real>
-void EdgeStage<Real>::expose(const TracedPass& traced, std::size_t first, std::size_t end)
+void EdgeStage<Real>::expose(
+  const TracedPass& traced, const RaysOfTiles& rays, std::size_t first, std::size_t end)
 {
   UnfinishedImage::Edges& edges = *request_.edges;
-  std::vector<const RayExit*> exits{ traced.exits.data() }; // of each tile
-  for (std::size_t n = first; n < end; ++n)
-  {
-    exits.push_back(exits.back() + raysOf(edges.tiles[n]));
-  }
   edges.images.resize(end);
   parallelFor(static_cast<std::int64_t>(end - first), 1, scene_.threads,
     [&](std::int64_t from, std::int64_t to)
@@ -273,13 +199,20 @@ void EdgeStage<Real>::expose(const TracedPass& traced, std::size_t first, std::s
         const Patch& tile = edges.tiles[first + n];
         PatchFilm film(
           tile, scene_, request_.image->cutoff(), view_.projection, scene_.samplesAtEdges, 1);
-        const RayExit* ray = exits[n];
         std::deque<TracedPass> all; // until the image is there
         for (const Pass& pass : passesOf(tile))
         {
           RayExits& ofPass = all.emplace_back().exits;
-          ofPass.assign(ray, ray + pass.columns * pass.rows);
-          ray += ofPass.size();
+          const auto number = static_cast<int>(all.size()) - 1;
+          for (std::int64_t row = pass.firstRow; row < pass.firstRow + pass.rows; ++row)
+          {
+            for (std::int64_t column = pass.firstColumn; column < pass.firstColumn + pass.columns;
+                 ++column)
+            {
+              ofPass.push_back(
+                traced.exits[rays.ray(tile.column + column, tile.row + row, number)]);
+            }
+          }
           film.add(all.back(), pass);
         }
         edges.images[first + n] = film.image();

@@ -5,41 +5,20 @@
 // pixel than gas does.
 #pragma once
 
-#include "Bench/Patches.h"
+#include "Bench/EdgeTiles.h"
 #include "Bench/RayCache.h"
 #include "Bench/UnfinishedImage.h"
 #include "Bench/ViewSetup.h"
 #include "Bench/Watch.h"
 #include "Schlieren.h"
 
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
 
 namespace schlieren
 {
-
-/// Where the pixels are that edges of bodies may cross: squares as large as a patch, those in a row or a column as one rectangle.
-struct EdgeTiles
-{
-  /// Pixels around a tile whose rays may light it, where light is moved by so many.
-  static std::int64_t marginFor(double moved)
-  {
-    constexpr double ofNeighbours =
-      1.5; // what a ray lights is half as wide, and depends on rays beside it
-    return static_cast<std::int64_t>(std::ceil(ofNeighbours + moved));
-  }
-
-  /// Whether edges may have rays of their own: of images in focus, whose light is moved by few pixels.
-  static bool arePossible(const Scene& scene, const Light& light, double moved);
-
-  /// Finds them by the fraction of rays that bodies stop in each pixel of a view, row by row: all or none of a square and the
-  /// pixels beside it, or an edge is there.
-  static PatchList in(const PixelArray<float>& blockedFraction, const View& view, double moved);
-};
 
 /// The rays of edges, which are cached until others are wanted.
 class EdgeRays
@@ -76,13 +55,14 @@ public:
 
 private:
   std::vector<Pass> passesOf(const Patch& tile) const;
-  std::int64_t raysOf(const Patch& tile) const;
   /// The end of those that are traced at once from a tile on.
   std::size_t endOfChunk(std::size_t first) const;
   /// The rays of some tiles, cached or traced now; null if aborted or paused.
-  const TracedPass* raysOf(std::size_t chunk, std::size_t first, std::size_t end);
+  const TracedPass* trace(
+    const RaysOfTiles& rays, std::size_t chunk, std::size_t first, std::size_t end);
   Monitor monitorOf(std::size_t first, std::size_t end) const;
-  void expose(const TracedPass& traced, std::size_t first, std::size_t end);
+  void expose(
+    const TracedPass& traced, const RaysOfTiles& rays, std::size_t first, std::size_t end);
 
   const ViewSetup<Real>& view_;
   UnfinishedImage& request_;

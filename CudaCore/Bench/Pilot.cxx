@@ -319,10 +319,10 @@ std::optional<double> Pilot<Real>::partOfEdges(double step, int samples, const M
     const double weight = (*bodies.patches)[patch].weight;
     pixels += (*exposed)[patch].hasEdge ? weight * Patch::edge * Patch::edge : 0;
   }
-  // Rows or columns of tiles have a margin.
-  constexpr double ofEnds = 1.2;
-  const double raysPerPixel = ofEnds *
-    (1 + 2. * static_cast<double>(EdgeTiles::marginFor(setup_.movedInFocus)) / Patch::edge);
+  // Tiles share their margins with their neighbours, but for those beside an edge.
+  constexpr double ofMargin = 1.2;
+  const double raysPerPixel =
+    1 + ofMargin * static_cast<double>(EdgeTiles::marginFor(setup_.movedInFocus)) / Patch::edge;
   return pixels * raysPerPixel / (static_cast<double>(scene_.view.width) * scene_.view.height);
 }
 

@@ -6,7 +6,10 @@
 #include "SameImage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace schlieren
 {
@@ -128,6 +131,50 @@ TEST(Edges, AreInSquaresThatBodiesDoNotFill)
   EXPECT_EQ(last[0].columns, 2);
   EXPECT_EQ(last[0].row, 16);
   EXPECT_EQ(last[0].rows, 2);
+}
+
+TEST(Edges, HaveEachRayOnceHoweverManyTilesNeedIt)
+{
+  // Stairs, whose margins overlap, and one that is alone.
+  constexpr int samples = 3;
+  constexpr std::int64_t margin = 3;
+  PatchList tiles{ { 0, 0, 1, 0, 0, margin, 8, 4 }, { 4, 4, 1, 4, 4, margin, 4, 12 },
+    { 8, 4, 1, 8, 4, margin, 12, 4 }, { 40, 2, 1, 40, 2, margin, 2, 4 } };
+  const RaysOfTiles rays(tiles.begin(), tiles.end(), samples);
+  std::map<std::array<std::int64_t, 3>, std::size_t> placed; // of a pixel in a pass
+  std::size_t ray = 0;
+  for (const Patch& rectangle : rays.rectangles())
+  {
+    EXPECT_EQ(rectangle.margin, 0);
+    for (int pass = 0; pass < samples; ++pass)
+    {
+      for (std::int64_t row = rectangle.row; row < rectangle.row + rectangle.rows; ++row)
+      {
+        for (std::int64_t column = rectangle.column; column < rectangle.column + rectangle.columns;
+             ++column)
+        {
+          EXPECT_TRUE(placed.insert({ { column, row, pass }, ray++ }).second);
+        }
+      }
+    }
+  }
+  std::set<std::array<std::int64_t, 3>> needed;
+  for (const Patch& tile : tiles)
+  {
+    for (std::int64_t row = tile.row - margin; row < tile.row + tile.rows + margin; ++row)
+    {
+      for (std::int64_t column = tile.column - margin; column < tile.column + tile.columns + margin;
+           ++column)
+      {
+        for (int pass = 0; pass < samples; ++pass)
+        {
+          needed.insert({ column, row, pass });
+          ASSERT_EQ(rays.ray(column, row, pass), placed.at({ column, row, pass }));
+        }
+      }
+    }
+  }
+  EXPECT_EQ(needed.size(), ray); // none that no tile needs
 }
 
 TEST(Edges, AreTracedOnceForAllCutoffs)
