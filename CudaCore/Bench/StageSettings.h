@@ -18,10 +18,6 @@
 namespace schlieren
 {
 
-/// The most that nu may change by voxel with Integrator::Leapfrog: steps of one voxel keep |p| = 1 + nu to a few
-/// thousandths then.
-constexpr double largestChangeByVoxel = 0.05;
-
 /// How a scene's rays are to be traced where nu changes by no more than `steepest` from voxel to voxel: where that is too
 /// much, as at faces of glass, steps are adaptive. What does not matter to them has its default, so that changing it needs
 /// no re-tracing.

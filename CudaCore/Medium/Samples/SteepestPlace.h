@@ -7,6 +7,10 @@
 namespace schlieren
 {
 
+/// The most that nu may change by voxel with Integrator::Leapfrog: steps of one voxel keep |p| = 1 + nu to a few
+/// thousandths then. Where it changes more, as at faces of glass, light is not nearly straight in a leaf.
+constexpr double largestChangeByVoxel = 0.05;
+
 /// Where nu changes most from voxel to voxel.
 struct SteepestPlace
 {

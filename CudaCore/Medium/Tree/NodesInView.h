@@ -30,6 +30,9 @@ class MediumTree<Real>::View
   /// Estimates how many levels a medium has, for the progress that is reported.
   static constexpr int usualLevels = 10;
 
+  /// Voxels of faces of glass and of liquids, where cells are as fine: what light meets there turns it all the way behind.
+  static constexpr double pixelsOfFaces = 0.125;
+
 public:
   /// 16 root cells of 16 samples, halved so often, count within 32 bits.
   static constexpr int finestLevelOfAll = 20;
@@ -137,16 +140,26 @@ public:
     const bool isSharp = isSeen && allows(node.place, 0.25);
     const bool hasEdge = ((hasWindow || hasWall) && !isFine) || isSharp;
     // Where nothing coarser has been compared with samples, these may have missed anything that is smaller.
-    const std::array<bool, 3> isAllowedAlong = isAllowed(node.place, pixelsOfDetail());
-    bool isUnproved = false;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    const auto canImprove = [&](double pixels)
     {
-      isUnproved = isUnproved || (node.facts.canImprove[axis] && isAllowedAlong[axis]);
+      const std::array<bool, 3> isAllowedAlong = isAllowed(node.place, pixels);
+      bool can = false;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        can = can || (node.facts.canImprove[axis] && isAllowedAlong[axis]);
+      }
+      return can;
+    };
+    const bool isUnproved = node.place.level == 0 && node.brick > 0 && canImprove(pixelsOfDetail());
+    // Errors of straight light say nothing of light that is bent within a leaf.
+    const auto& slope = node.facts.slope;
+    const bool isFace = *std::max_element(slope.begin(), slope.end()) > largestChangeByVoxel &&
+      canImprove(pixelsOfFaces);
+    double urgency = node.isWrong || error > allowed() || isFace ? error : 0;
+    if (isUnproved || isFace)
+    {
+      urgency = std::max(urgency, std::numeric_limits<double>::min());
     }
-    isUnproved = isUnproved && node.place.level == 0 && node.brick > 0;
-    double urgency = node.isWrong || error > allowed() ? error
-      : isUnproved                                     ? std::numeric_limits<double>::min()
-                                                       : 0;
     if (hasEdge)
     {
       // A shadow's edge that is wrong by a voxel is as wrong as can be.

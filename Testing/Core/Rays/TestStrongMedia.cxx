@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lenses and prisms in which every ray is known: the closed forms against an integration of their own,
 // then the tracer against the closed forms.
+#include "AnalyticSources.h"
 #include "ClosedForms.h"
 
 namespace schlieren
@@ -122,6 +123,71 @@ TEST(ClosedForms, LeapfrogErrorIsAsDerived)
       -k * x0 * (std::cos(k * tau) * phase + std::sin(k * tau) * k * k * h * h / 8),
       0.15 * k * x0 * phase);
   }
+}
+
+/// A drop of radius 1, whose surface is as thick as a few cells.
+class DropSource : public AnalyticSource
+{
+public:
+  static constexpr double excess = 0.33; ///< its n - 1
+
+  explicit DropSource(double cell)
+    : AnalyticSource(1.25)
+    , cell_(cell)
+  {
+  }
+  double refractivity(double x, double y, double z) const override
+  {
+    return at(std::hypot(x, y, z));
+  }
+  Range rangeOver(const Box& box) const override
+  {
+    const auto [nearest, farthest] = distancesTo({ 0, 0, 0 }, box);
+    return { at(farthest), at(nearest) };
+  }
+  double cellSizeOver(const Box&) const override { return cell_; }
+
+private:
+  double at(double radius) const { return 0.5 * excess * (1 - std::tanh((radius - 1) / cell_)); }
+
+  double cell_;
+};
+
+/// Snell (1621): light at a distance b from the axis is turned by 2 (asin b - asin(b / n)).
+TEST(Drop, IsMoreExactWithFinerCells)
+{
+  constexpr double n = 1 + DropSource::excess;
+  double before = 1;
+  for (const double cell : { 1. / 12, 1. / 24, 1. / 48 })
+  {
+    SCOPED_TRACE(cell);
+    Scene scene;
+    scene.samplesPerPixel = 1;
+    scene.stepSize = 0.5;
+    scene.view = raysAround({ 0, 0, 0 }, 21, 21, 0.07);
+    const Image image = Bench().render(fieldOf(std::make_shared<DropSource>(cell)), scene);
+    double squares = 0, rays = 0;
+    for (int row = 0; row < image.height; ++row)
+    {
+      for (int column = 0; column < image.width; ++column)
+      {
+        const PixelCentre at = centreOf(image, column, row);
+        const double b = std::hypot(at.u, at.v);
+        if (b > 0.02 && b < 0.7)
+        {
+          const Reading ray = readingOf(image, pixelOf(image, column, row));
+          const double sine = -std::sin(2 * (std::asin(b) - std::asin(b / n)));
+          squares += std::pow(ray.deflection[0] - sine * at.u / b, 2) +
+            std::pow(ray.deflection[1] - sine * at.v / b, 2);
+          ++rays;
+        }
+      }
+    }
+    const double error = std::sqrt(squares / rays);
+    EXPECT_LT(error, before);
+    before = error;
+  }
+  EXPECT_LT(before, 0.003);
 }
 
 class StrongMedia : public OnDevice
