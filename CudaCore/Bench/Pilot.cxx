@@ -258,14 +258,15 @@ Differences Pilot<Real>::compare(Patches patches, const PatchSettings& a, const 
           : raysOfB.samples;
       }
       // The error falls as one over the number of rays, about. At edges of bodies those of the halves of twice as many are
-      // independent.
+      // independent, and on a screen those of so many squares and of more.
       const Technique& technique = techniqueOf(scene_.cutoff);
       const bool isOfEdges = place == PatchPlace::Body && !layout_.isWhole &&
         technique.plane == RecordedPlane::Focus && !technique.hasFringes;
+      const bool isOnScreen = technique.plane == RecordedPlane::Screen;
       const double ofMore = 1 - static_cast<double>(samplesOfA) / raysOfB.samples;
       constexpr double partOfOthers = 0.85; // they err, too, and some see nothing of an edge
       const double part = raysOfB.areOthers ? partOfOthers
-        : isOfRays ? (isOfEdges && ofMore <= 0.5 ? std::sqrt(ofMore) : ofMore)
+        : isOfRays ? ((isOfEdges && ofMore <= 0.5) || isOnScreen ? std::sqrt(ofMore) : ofMore)
                    : 1;
       const double factor = (choice && choice->hasEdge ? factorAtEdges : 1) / part;
       return compare(

@@ -359,11 +359,13 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
         { steps.longest, fewer, isSplit ? atEdges : fewer, isSplit },
         { steps.longest, more, isSplit ? 2 * atEdges : more, isSplit }, monitor);
     };
+    const bool isOnScreen = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen;
     // Where the image is the patch, that would take longer than the image, and these rays are traced.
     const bool isTraced = samples > fewRays && pilot.isWhole() && !scene.estimatesErrors;
     ofRays = isTraced
       ? compare(samples / fewRays, samples)
-      : compare(samples, samples <= fewRays ? manyMoreThan(samples, scene.cutoff) : 2 * samples);
+      : compare(samples,
+          samples <= fewRays || isOnScreen ? manyMoreThan(samples, scene.cutoff) : 2 * samples);
     constexpr double notable = 0.5;
     if (exceededBy(mayExceed, ofRays) > notable * scene.targetError && areFringesResolved(pilot) &&
       needsMostRays(samples, scene.cutoff, pilot.isWhole()))

@@ -297,6 +297,19 @@ TEST(TargetErrorScenes, SeeWhatIsRare)
   }
 }
 
+/// On screens, where rays err by their noise, as in cells finer than pixels, or by the width of what they light, as in a
+/// column and in plane data.
+TEST(TargetErrorScenes, KnowRaysOnScreens)
+{
+  for (const int number : { 40011, 40092, 40116 })
+  {
+    SCOPED_TRACE(number);
+    const Trial trial = tryScene(number, false).trials[0];
+    EXPECT_GT(trial.reached, 0.6 * trial.error);
+    EXPECT_LT(trial.reached, 1.5 * trial.error);
+  }
+}
+
 } // namespace
 
 } // namespace schlieren
