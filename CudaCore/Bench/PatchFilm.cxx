@@ -15,9 +15,6 @@ namespace schlieren
 namespace
 {
 
-/// Caustics: light that is displaced by no more than this is where it should be, pixels.
-constexpr double invisibleShift = 0.05;
-
 Projection projectionOfPart(const Projection& projection, double column, double row)
 {
   Projection part = projection;

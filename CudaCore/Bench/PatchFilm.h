@@ -12,6 +12,9 @@
 namespace schlieren
 {
 
+/// Caustics: light on a screen that is displaced by no more than this is where it should be, pixels.
+constexpr double invisibleShift = 0.05;
+
 /// What of a patch's image is compared.
 struct PatchPixels
 {

@@ -30,17 +30,19 @@ double sumOf(double a, double b, double c = 0, double d = 0)
 }
 
 /// What may change where voxels move edges of bodies, by what a shift by a pixel would change: they are moved as normally
-/// distributed, each by the medians of eight equal shares of that.
-Differences atMovedEdges(const Differences& slopes)
+/// distributed, but for an eighth, which is moved further; each by the medians of eight equal shares of that. `invisible`:
+/// pixels of a shift that do not count.
+Differences atMovedEdges(const Differences& slopes, double invisible)
 {
   constexpr double deviation = 0.03; // pixels
-  constexpr std::array<double, 8> shifts{ 0.08, 0.24, 0.40, 0.58, 0.78, 1.01, 1.32, 1.86 };
+  constexpr std::array<double, 8> shifts{ 0.08, 0.24, 0.40, 0.58, 0.78, 1.01, 1.32, 2.8 };
   Differences moved;
   for (const Difference& slope : slopes)
   {
     for (const double shift : shifts)
     {
-      moved.push_back({ deviation * shift * slope.value, slope.pixels / shifts.size() });
+      moved.push_back({ std::max(0., deviation * shift - invisible) * slope.value,
+        slope.pixels / shifts.size() });
     }
   }
   return moved;
@@ -416,12 +418,15 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
   const StepRange steps = stepsFor(pilot);
   const auto isAborted = [&] { return monitor.aborted && monitor.aborted(); };
   KnownErrors known = ofMedium;
-  if (medium.tree && hasWalls(medium) && techniqueOf(scene.cutoff).plane == RecordedPlane::Focus)
+  const RecordedPlane plane = techniqueOf(scene.cutoff).plane;
+  if (medium.tree && hasWalls(medium) && plane != RecordedPlane::Background)
   {
     // Of the patches that are looked at in each view, whatever is chosen.
     const Differences slopes =
       pilot.slopesAtEdges(Pilot<Real>::Patches::ToVerify, steps.with(steps.longest), monitor);
-    known.voxels = sumOf(known.voxels, exceededBy(mayExceedAsChosen, atMovedEdges(slopes)));
+    const double invisible = plane == RecordedPlane::Screen ? invisibleShift : 0;
+    known.voxels =
+      sumOf(known.voxels, exceededBy(mayExceedAsChosen, atMovedEdges(slopes, invisible)));
   }
   AccurateSettings settings{};
   if (before)

@@ -261,6 +261,23 @@ TEST(TargetErrors, OfBodiesInFewPixelsAreThoseOfMost)
   EXPECT_LT(image.accuracy.reached, 2 * error);
 }
 
+/// On a screen, too, where what is moved by a twentieth of a pixel does not count: of a body that fills the image.
+TEST(TargetErrors, OfBodiesOnScreensAreThoseOfMovedEdges)
+{
+  const Field field = fieldOf(std::make_shared<SphereSource>());
+  Scene scene = sceneOf({ "", Cutoff::Shadowgraph, 0 });
+  scene.view.width = scene.view.height = 24;
+  scene.view.parallelScale = 1.3;
+  scene.targetError = 1. / 256;
+  const Image image = Bench().render(field, scene);
+  const Image truth = finest(field, scene, 0);
+  const double error = trueError(
+    image, truth, scene, [&](std::size_t pixel) { return truth.blockedFraction[pixel] < 1; });
+  EXPECT_EQ(image.accuracy.limit, ErrorSource::Voxels);
+  EXPECT_GT(image.accuracy.reached, 0.5 * error);
+  EXPECT_LT(image.accuracy.reached, 3 * error);
+}
+
 /// Where memory does not suffice for the voxels that are needed.
 TEST(TargetErrors, OfTooFewVoxelsAreSeen)
 {
