@@ -215,7 +215,14 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
       return false;
     }
   }
-  return this->Show(this->Begin(false, this->TimeLimit, monitor), output, histogram);
+  schlieren::Image image = this->Begin(false, this->TimeLimit, monitor);
+  // Shows no time step with the image of another: an animation does not wait until that is refined.
+  while (
+    inside.ShownTime != inside.Time && image.intensity.empty() && !image.finished && !image.aborted)
+  {
+    image = inside.Images.Resume(this->TimeLimit, monitor);
+  }
+  return this->Show(std::move(image), output, histogram);
 }
 
 ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
@@ -319,6 +326,7 @@ bool vtkSchlierenFilter::Show(
   {
     return true;
   }
+  inside.ShownTime = inside.Time;
   const schlieren::Scene& scene = inside.Images.GetScene();
   const SchlierenSettings settings = this->SettingsFor(inside.Refractivity->FlatAxis);
   const bool isWhole =

@@ -111,6 +111,7 @@ struct vtkSchlierenFilter::Internals
   }
   filters::SensitivityLock AmbientLock;
   filters::SensitivityLock DepthLock; // of a plane
+  std::optional<double> ShownTime;    // of the image at the outputs
   double KeptDepth = 0;               // what Refractivity is made with; 0: none
   bool FindsAmbient = false;          // for the image that was begun last
   std::optional<double> Time;         // time of the last update; unset: no time steps

@@ -160,6 +160,23 @@ TEST(TimeSlices, TheLastImageStaysUntilThereIsABetterOne)
     << filter->GetStatus();
 }
 
+// Slices of an animation may be too short for a ray for each pixel.
+TEST(TimeSlices, ATimeStepIsNeverShownWithTheImageOfAnother)
+{
+  const vtkSmartPointer<Changing> data = series();
+  auto filter = smallBench(columnImage());
+  filter->SetInputConnection(data->GetOutputPort());
+  filter->UpdateTimeStep(0);
+  const std::vector<double> first = valuesOf(filter, "Deflection");
+  filter->SetTimeLimit(shortest);
+  filter->UpdateTimeStep(1);
+  EXPECT_FALSE(filter->GetFinished());
+  EXPECT_EQ(std::string(filter->GetStatus()).find("1 of 3 samples per pixel"), 0u)
+    << filter->GetStatus();
+  EXPECT_NEAR(
+    relativeDifference(first, valuesOf(filter, "Deflection")), 0.5, 0.01); // twice as strong
+}
+
 // Of another size than the last one: filters after this one rely on the extent that was announced.
 TEST(TimeSlices, TheLastImageFillsThePromisedExtent)
 {
