@@ -53,7 +53,10 @@ user.save_state("three.pvsm")
 user.choose("Cutoff/ComboBox", "Color Filter")
 user.python(IN_VIEWS + 'assert [bench.Cutoff for bench in benches] == ["Color Filter", "Shadowgraph", "Interferogram"]')
 user.undo()
-user.python(IN_VIEWS + "assert [values(bench) for bench in benches] == inside_window.made")
+user.python(IN_VIEWS + """
+assert [values(bench) for bench in benches] == inside_window.made
+assert information(benches[0], "AutomaticUsed") == benches[0].LockedK, "Another k than before"
+""")
 
 # Turned in the one that was made last: all turn.
 user.drag_view(4, (0.3, 0.5), (0.35, 0.55), (0.4, 0.6), (0.45, 0.6), (0.5, 0.6))

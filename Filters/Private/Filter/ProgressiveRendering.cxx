@@ -237,8 +237,7 @@ ImageCircumstances vtkSchlierenFilter::CircumstancesOf(
 ImageCircumstances vtkSchlierenFilter::CircumstancesOfRays()
 {
   return this->CircumstancesOf(
-    { static_cast<double>(this->Cutoff), std::max(this->AmbientRefractivity, -1.),
-      static_cast<double>(this->ExitInto),
+    { std::max(this->AmbientRefractivity, -1.), static_cast<double>(this->ExitInto),
       this->ExitInto == EXIT_CUSTOM ? this->ExitRefractivity : 0 },
     settingsOfRays(*this));
 }
@@ -248,7 +247,8 @@ void vtkSchlierenFilter::UseKept(schlieren::Scene& scene)
   std::optional<double> kept;
   if (choosesK(*this) || choosesScreen(scene)) // else what is kept waits: the change may be undone
   {
-    kept = this->Inside->LockFor(this->Cutoff).For(this->KMode, this->CircumstancesOfRays());
+    kept =
+      this->Inside->SensitivityLocks[this->Cutoff].For(this->KMode, this->CircumstancesOfRays());
   }
   if (kept)
   {
@@ -304,7 +304,7 @@ void vtkSchlierenFilter::KeepFound(const schlieren::Image& image)
   const double found = hasScreen ? image.screenDistance : image.kScale;
   if (!(hasScreen ? scene.screenDistance : scene.kScale) && found > 0)
   {
-    inside.LockFor(this->Cutoff).Found(found);
+    inside.SensitivityLocks[this->Cutoff].Found(found);
   }
   if (inside.FindsAmbient)
   {

@@ -21,6 +21,7 @@
 #include "Schlieren.h"
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -103,18 +104,14 @@ struct vtkSchlierenFilter::Internals
   vtkMTimeType UnfinishedOf = 0;
   vtkTimeStamp RefineTime;
 
-  filters::SensitivityLock KLock;
-  filters::SensitivityLock ScreenLock; // distance of a shadowgraph's screen
-  filters::SensitivityLock& LockFor(int cutoff)
-  {
-    return CutoffHasScreen(cutoff) ? this->ScreenLock : this->KLock;
-  }
+  /// Of each cutoff: of k, or of the distance of the screen.
+  std::map<int, filters::SensitivityLock> SensitivityLocks;
   filters::SensitivityLock AmbientLock;
   filters::SensitivityLock DepthLock; // of a plane
-  std::optional<double> ShownTime;    // of the image at the outputs
   double KeptDepth = 0;               // what Refractivity is made with; 0: none
   bool FindsAmbient = false;          // for the image that was begun last
   std::optional<double> Time;         // time of the last update; unset: no time steps
+  std::optional<double> ShownTime;    // of the image at the outputs
 
   std::optional<double> RequestedTime;
 

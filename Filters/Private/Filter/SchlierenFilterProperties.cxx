@@ -11,7 +11,6 @@
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkVersionMacros.h"
 
 #include <algorithm>
 #include <string>
@@ -125,10 +124,7 @@ void vtkSchlierenFilter::SetCutoff(int cutoff)
   if (this->Cutoff != cutoff)
   {
     this->Cutoff = cutoff;
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 5, 0)
-    // ParaView 6.1 would keep that of the technique before for this one.
-    this->AutomaticUsed = 0;
-#endif
+    this->AutomaticUsed = 0; // until there is an image of this technique
     this->Modified();
   }
 }
@@ -305,20 +301,20 @@ void vtkSchlierenFilter::SetLockedK(double k)
 {
   if (k != this->GetLockedK())
   {
-    this->Inside->LockFor(this->Cutoff).Give(k > 0 ? std::make_optional(k) : std::nullopt);
+    this->Inside->SensitivityLocks[this->Cutoff].Give(k > 0 ? std::make_optional(k) : std::nullopt);
     this->Modified();
   }
 }
 
 void vtkSchlierenFilter::FitK()
 {
-  this->Inside->LockFor(this->Cutoff).Drop();
+  this->Inside->SensitivityLocks[this->Cutoff].Drop();
   this->Modified();
 }
 
 double vtkSchlierenFilter::GetLockedK() const
 {
-  return this->Inside->LockFor(this->Cutoff).GetKept().value_or(0);
+  return this->Inside->SensitivityLocks[this->Cutoff].GetKept().value_or(0);
 }
 
 void vtkSchlierenFilter::SetLockedAmbient(double ambient)

@@ -61,7 +61,8 @@ void vtkSchlierenFilter::FitKOverSeries()
   // Whatever happens, settings and time are as before, and k if none is found.
   Internals& inside = *this->Inside;
   vtkInformation* request = this->GetOutputInformation(IMAGE_PORT);
-  SensitivityLock kept = inside.KLock;
+  SensitivityLock& lock = inside.SensitivityLocks[this->Cutoff];
+  SensitivityLock kept = lock;
   const bool hasTime = request->Has(Pipeline::UPDATE_TIME_STEP()) != 0;
   const AtTheEnd restore(
     [&, settings = SchlierenSettings(*this),
@@ -71,7 +72,7 @@ void vtkSchlierenFilter::FitKOverSeries()
       this->SetProgressShiftScale(0, 1);
       hasTime ? request->Set(Pipeline::UPDATE_TIME_STEP(), time)
               : request->Remove(Pipeline::UPDATE_TIME_STEP());
-      inside.KLock = kept;
+      lock = kept;
       this->Modified();
     });
   this->PreviewReduction = 1;
@@ -84,7 +85,7 @@ void vtkSchlierenFilter::FitKOverSeries()
   {
     const double part = 1. / static_cast<double>(times.size());
     this->SetProgressShiftScale(static_cast<double>(i) * part, part);
-    inside.KLock.Drop(); // each step has its own
+    lock.Drop(); // each step has its own
     this->Modified();
     this->UpdateTimeStep(times[i]);
     if (!inside.HasImage || this->GetAbortExecute())

@@ -18,7 +18,7 @@ struct ImageCircumstances
   std::optional<double> time; ///< unset: no time steps
   std::vector<double> data;   ///< vtkSchlierenFilter::DescribeInputs()
   MediumSettings properties;  ///< settings of the medium, in single precision
-  std::vector<double> medium; ///< other settings of the medium and, for k, the kind of cutoff
+  std::vector<double> medium; ///< other settings of the medium
   std::vector<double> rays;   ///< for k: camera, quality, light
 };
 

@@ -123,12 +123,13 @@ TEST_F(KeptK, AnotherMediumCutoffOrDataHasItsOwn)
   this->filter->SetCutoff(Filter::BRIGHT_FIELD); // whose full scale is twice as far
   EXPECT_NEAR(this->kAt(1), 2 * this->own[1], 1e-6 * this->own[1]);
   EXPECT_FALSE(this->saysLocked());
-  this->filter->SetCutoff(Filter::KNIFE_EDGE);
-  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
-  EXPECT_EQ(this->kAt(0), this->own[1]);
+  this->filter->SetCutoff(Filter::KNIFE_EDGE);    // back to the same image
+  EXPECT_EQ(this->filter->GetAutomaticUsed(), 0); // not that of the other one
+  EXPECT_EQ(this->filter->GetLockedK(), this->own[0]);
+  EXPECT_EQ(this->kAt(1), this->own[0]);
   this->filter->SetOutside(vtkRefractiveIndex::OUTSIDE_PASSES);
-  EXPECT_DOUBLE_EQ(this->kAt(0), this->own[0]);
-  EXPECT_EQ(this->kAt(2), this->own[0]);
+  EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
+  EXPECT_EQ(this->kAt(2), this->own[1]);
   this->series->Modified(); // other data at the same time
   EXPECT_DOUBLE_EQ(this->kAt(2), this->own[2]);
 }
