@@ -125,8 +125,11 @@ void vtkSchlierenActor::UpdateImage(vtkRenderer* renderer)
     this->TraceUpTo(this->TimeSlice);
   }
   this->HasData = true;
+  this->HasNews = false;
   this->NoteTimes();
 }
+
+void vtkSchlierenActor::NoteNews() { this->HasNews = this->IsChanged(); }
 
 void vtkSchlierenActor::NoteTimes()
 {
@@ -137,7 +140,7 @@ void vtkSchlierenActor::NoteTimes()
 
 bool vtkSchlierenActor::IsChanged() const
 {
-  return this->Bench && this->Bench->GetMTime() != this->KnownTime;
+  return this->Bench && (this->HasNews || this->Bench->GetMTime() != this->KnownTime);
 }
 
 bool vtkSchlierenActor::HasFailed() const
@@ -216,6 +219,7 @@ bool vtkSchlierenActor::Refine()
     return true; // drawing takes time, too, and has a turn of its own
   }
   const Silent silent(this->Silence);
+  this->NoteNews();
   this->Reduction = 1;
   this->Bench->SetPreviewReduction(1);
   this->Bench->SetTimeLimit(this->TimeSlice);
@@ -233,6 +237,7 @@ bool vtkSchlierenActor::MakeImage(const View& view, int occasion)
     return false;
   }
   const Silent silent(this->Silence);
+  this->NoteNews();
   this->Trace(occasion, this->LookThrough(view));
   this->NoteTimes();
   if (this->Bench->GetOutput()->GetNumberOfPoints() == 0) // it failed, or rank 0 has it

@@ -76,7 +76,8 @@ public:
   /// bench's properties.
   void UpdateImage(vtkRenderer* renderer);
 
-  /// Returns whether the bench's properties have changed since the image was made.
+  /// Returns whether the bench's properties have changed since the last UpdateImage(), other than by the view, whatever was
+  /// drawn since then.
   bool IsChanged() const;
 
   /// Traces for TimeSlice, or returns true where there is more to show since the last call.
@@ -122,6 +123,8 @@ private:
   void Trace(int occasion, bool isMoved);
   void TracePreview();
   void TraceUpTo(double seconds);
+  /// Remembers changes of the bench's properties, before the actor changes some.
+  void NoteNews();
   void NoteTimes();
   /// Returns whether the image failed for any view, so that an error is reported once.
   bool HasFailed() const;
@@ -140,6 +143,7 @@ private:
   vtkNew<vtkImageData> Pixels;
   vtkMTimeType PixelsTime = 0;
   vtkMTimeType KnownTime = 0;  // of the bench at its last use
+  bool HasNews = false;        // properties that have changed since the last update
   vtkMTimeType FailedTime = 0; // of the bench at a failure; 0: none
   View Seen;
   bool HasSeen = false; // whether there was a rendering

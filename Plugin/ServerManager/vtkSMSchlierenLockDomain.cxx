@@ -7,7 +7,6 @@
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
-#include "vtkVersionMacros.h"
 
 #include <string>
 
@@ -28,11 +27,6 @@ int vtkSMSchlierenLockDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXM
   }
   property->GetParent()->AddObserver(
     vtkCommand::UpdateDataEvent, this, &vtkSMSchlierenLockDomain::OnUpdate);
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 5, 0)
-  // ParaView 6.1 does not say that an image has changed with its technique, which has another lock.
-  property->GetParent()->AddObserver(
-    vtkCommand::UpdateEvent, this, &vtkSMSchlierenLockDomain::OnUpdate);
-#endif
   return 1;
 }
 

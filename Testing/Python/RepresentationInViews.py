@@ -79,6 +79,19 @@ while information("Finished") == 0:
     updates.add((information("ImageCount") > count, len(drawn) > 0))
 view.GetRenderWindow().RemoveObserver(tag)
 assert {(True, False), (False, True)} <= updates and (True, True) not in updates, updates
+# What one of them has taken up of a change is announced by the next update all the same: state files and panels follow it.
+cutoff, announced = bench.Cutoff, []
+tag = bench.SMProxy.AddObserver("UpdateDataEvent", lambda *_: announced.append(None))
+bench.SamplesPerPixel = 301
+simple.Render(view)
+assert information("Finished") == 0
+bench.Cutoff = "Shadowgraph"
+announced.clear()
+view.SMProxy.StreamingUpdate(True)
+simple.Render(view)
+assert announced
+bench.SMProxy.RemoveObserver(tag)
+bench.Cutoff = cutoff
 display.SchlierenTimeSlice, bench.SamplesPerPixel = 0, 1
 
 # With a perspective camera it agrees with surfaces everywhere: of bodies before, beside and behind the focal point, what
