@@ -48,7 +48,17 @@ void addPieces(vtkDataObject* data, const Slot& slot, std::vector<DatasetPiece>&
     of.push_back(child);
     return of;
   };
-  if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
+  // Precedes trees, because AMR is one since VTK 9.6, whose levels would be the pieces of one dataset each.
+  if (auto* amr = vtkUniformGridAMR::SafeDownCast(data))
+  {
+    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(amr->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      addPieces(iterator->GetCurrentDataObject(),
+        below(static_cast<int>(iterator->GetCurrentFlatIndex())), pieces);
+    }
+  }
+  else if (auto* tree = vtkDataObjectTree::SafeDownCast(data))
   {
     const bool areParts = vtkPartitionedDataSet::SafeDownCast(data) != nullptr;
     auto iterator = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
@@ -60,15 +70,6 @@ void addPieces(vtkDataObject* data, const Slot& slot, std::vector<DatasetPiece>&
     {
       addPieces(iterator->GetCurrentDataObject(), areParts ? slot : below(child), pieces);
       ++child;
-    }
-  }
-  else if (auto* amr = vtkUniformGridAMR::SafeDownCast(data))
-  {
-    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(amr->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-    {
-      addPieces(iterator->GetCurrentDataObject(),
-        below(static_cast<int>(iterator->GetCurrentFlatIndex())), pieces);
     }
   }
   else if (auto* leaf = vtkDataSet::SafeDownCast(data))
