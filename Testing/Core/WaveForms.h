@@ -97,21 +97,6 @@ inline Complex fieldBehindColumn(
   return sum;
 }
 
-/// Airy's function.
-inline double airy(double x)
-{
-  constexpr double third = 1. / 3;
-  const double zeta = 2 * third * std::pow(std::abs(x), 1.5);
-  if (x > 0)
-  {
-    return std::sqrt(x / 3) / pi * std::cyl_bessel_k(third, zeta);
-  }
-  const double j = std::cyl_bessel_j(third, zeta);
-  const double mirrored =
-    std::cos(third * pi) * j - std::sin(third * pi) * std::cyl_neumann(third, zeta);
-  return std::sqrt(-x) / 3 * (j + mirrored);
-}
-
 /// Dawson's integral exp(-x^2) int_0^x exp(t^2) dt.
 inline double dawson(double x)
 {
@@ -139,9 +124,9 @@ inline double rms(const Numbers& a, const Numbers& b)
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-/// The light behind a field along x, of which `outside` is beyond it, 0 or 1. `padding`: times its length.
-inline Numbers propagated(const std::vector<Complex>& of, double spacing, double distance,
-  double padding = 1, double outside = 0, double wavelength = green)
+/// The light behind a field along x, with nothing beyond it. `padding`: times its length.
+inline Numbers propagated(
+  const std::vector<Complex>& of, double spacing, double distance, double padding)
 {
   const auto points = static_cast<std::int64_t>(of.size());
   ComplexField field(
@@ -149,13 +134,13 @@ inline Numbers propagated(const std::vector<Complex>& of, double spacing, double
   const std::int64_t before = (field.columns - points) / 2;
   for (std::size_t i = 0; i < of.size(); ++i)
   {
-    field.row(0)[before + static_cast<std::int64_t>(i)] = of[i] - outside;
+    field.row(0)[before + static_cast<std::int64_t>(i)] = of[i];
   }
-  propagate(field, { wavelength, distance, spacing }, 1);
+  propagate(field, { green, distance, spacing }, 1);
   Numbers light;
   for (std::size_t i = 0; i < of.size(); ++i)
   {
-    light.push_back(std::norm(field.row(0)[before + static_cast<std::int64_t>(i)] + outside));
+    light.push_back(std::norm(field.row(0)[before + static_cast<std::int64_t>(i)]));
   }
   return light;
 }

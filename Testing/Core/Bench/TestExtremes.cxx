@@ -70,7 +70,7 @@ class Extremes : public OnDevice
 
 TEST_P(Extremes, UnitOfLengthDoesNotBendLight)
 {
-  for (const double factor : { 1e-9, 1e-3, 1024., 1e6, 1e12 })
+  for (const double factor : { 1e-9, 1024., 1e12 })
   {
     SCOPED_TRACE(factor);
     const Scene scene = smallScene(GetParam());
@@ -107,7 +107,7 @@ TEST_P(Extremes, FaintestMediumGivesTheSameImage)
 {
   const Scene scene = smallScene(GetParam());
   const Image reference = renderBlob(1e-4, 0, scene);
-  for (const double peak : { 1e-6, 1e-9, 1e-12, 1e-14, 1e-20 })
+  for (const double peak : { 1e-9, 1e-20 })
   {
     SCOPED_TRACE(peak);
     const Image faint = renderBlob(peak, 0, scene);
@@ -122,57 +122,6 @@ TEST_P(Extremes, FaintestMediumGivesTheSameImage)
   const Image b = renderBlob(1e-12, 0, scene);
   EXPECT_LT(difference(a.deflection, b.deflection, 1e-2), 1e-6);
   EXPECT_LT(difference(a.intensity, b.intensity, 1), 1e-5);
-}
-
-TEST_P(Extremes, SingleAgreesWithDouble)
-{
-  Scene scene = smallScene(GetParam());
-  for (const double peak : { 1e-10, 3e-4, 1e-2 })
-  {
-    SCOPED_TRACE(peak);
-    scene.precision = Precision::Single;
-    const Image single = renderBlob(peak, 0, scene);
-    scene.precision = Precision::Double;
-    const Image precise = renderBlob(peak, 0, scene);
-    EXPECT_LT(difference(precise.deflection, single.deflection, 1), 5e-6);
-    EXPECT_LT(difference(precise.opticalPathDifference, single.opticalPathDifference, 1), 5e-6);
-  }
-}
-
-TEST_P(Extremes, VeryUnequalSpacings)
-{
-  // A column along y, sampled 1000 times more coarsely along y than along x and z.
-  Grid grid;
-  grid.dimensions = { 65, 5, 65 };
-  grid.spacing = { 1. / 32, 1000. / 32, 1. / 32 };
-  grid.origin = { -1, -62.5, -1 };
-  SampledField<double> medium(
-    grid, [](double x, double, double z) { return 1e-9 * std::exp(-(x * x + z * z) / 0.09); });
-  medium.field.ambient = 0;
-  Scene scene;
-  scene.device = GetParam();
-  scene.samplesPerPixel = 1;
-  scene.view.parallelScale = 0.9;
-  scene.view.width = scene.view.height = 50;
-  const Image image = Bench().render(medium.field, scene);
-  double worst = 0;
-  for (int column = 0; column < image.width; ++column)
-  {
-    const double x = centreOf(image, column, 25).u;
-    const double expected = -2 * std::sqrt(pi) * 1e-9 * x / 0.3 * std::exp(-x * x / 0.09);
-    worst = std::max(
-      worst, std::abs(image.deflection[2 * pixelOf(image, column, 25)] - expected) / 1.52e-9);
-  }
-  EXPECT_LT(worst, 5e-3); // the spline's gradient error at 9.6 points per radius is 4e-3
-  // Along the long side: five points, 125 data units.
-  scene.view.viewDirection = { 0, 1, 0 };
-  scene.view.viewUp = { 0, 0, 1 };
-  const Image along = Bench().render(medium.field, scene);
-  const double x = centreOf(along, 30, 25).u;
-  const double z = centreOf(along, 30, 25).v;
-  const double slope = -2 * x / 0.09 * 1e-9 * std::exp(-(x * x + z * z) / 0.09);
-  EXPECT_NEAR(
-    along.deflection[2 * pixelOf(along, 30, 25)], 125 * slope, 125 * 2e-2 * std::abs(slope));
 }
 
 /// Light in noise of glass-like strength goes everywhere; it must come to an end and leave numbers.

@@ -168,24 +168,6 @@ TEST(Pausing, CachedRaysAreShownToo)
   }
 }
 
-// Not one call is in vain.
-TEST(Pausing, EveryCallMakesProgress)
-{
-  const Flow flow;
-  Bench bench;
-  Scene scene = smallScene();
-  scene.threads = 1;
-  std::int64_t rays = 0;
-  Image image = bench.render(flow.field, scene, pausingAfter(0));
-  int withoutRays = 0;
-  for (; !image.finished; image = bench.resume(pausingAfter(0)))
-  {
-    withoutRays += bench.work().raysTraced == rays ? 1 : 0;
-    rays = bench.work().raysTraced;
-  }
-  EXPECT_LE(withoutRays, 3 * 8); // pieces of exposing and rays beside the grid
-}
-
 } // namespace
 
 } // namespace schlieren

@@ -76,19 +76,6 @@ TEST(Processes, ChangesNoBitOfATree)
   expectSameOf(fieldOfBalls(), scene);
 }
 
-TEST(Processes, ChangesNoBitBesideWalls)
-{
-  const auto source = std::make_shared<SphereSource>(2);
-  Field field;
-  field.source = source;
-  field.grid = coarsestGrid(*source);
-  field.version = 1;
-  Scene scene = oblique();
-  scene.view.parallelScale = 1.5;
-  scene.mediumTolerance = 0.1;
-  expectSameOf(field, scene);
-}
-
 TEST(Processes, SendsTheMediumOnce)
 {
   const BlobWithHole flow;

@@ -115,7 +115,7 @@ TEST_P(RepeatingFlows, AreSeen)
 }
 
 INSTANTIATE_TEST_SUITE_P(Pixels, RepeatingFlows,
-  testing::Values(Lattice{ 512, 16 }, Lattice{ 512, 32 }, Lattice{ 512, 64 }, Lattice{ 1024, 64 }),
+  testing::Values(Lattice{ 512, 16 }, Lattice{ 1024, 64 }),
   [](const testing::TestParamInfo<Lattice>& test)
   { return "Of" + std::to_string(test.param.pixels) + "By" + std::to_string(test.param.period); });
 
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Pixels, RepeatingFlows,
 /// fill the twelfth of the squares where neighbouring rays differ most.
 TEST(RareFlows, AreSeen)
 {
-  constexpr int pixels = 256, places = 20, strong = 32;
+  constexpr int pixels = 256, places = 10, strong = 32;
   const double radius = pixels * std::sqrt(0.02 / pi);
   int missed = 0, needed = 0;
   for (int n = 0; n < places; ++n)

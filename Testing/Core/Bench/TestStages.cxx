@@ -18,20 +18,6 @@ namespace
 
 Scene smallScene() { return sceneOnCpu(40, 30); }
 
-TEST(Stages, CameraKeepsTheMedium)
-{
-  const SampledField<float> blob = blobField();
-  Bench bench;
-  Scene scene = smallScene();
-  bench.render(blob.field, scene);
-  const std::int64_t rays = bench.work().raysTraced;
-  scene.view.viewDirection = { 1, 0.2, -1 };
-  const Image image = bench.render(blob.field, scene);
-  EXPECT_EQ(bench.work().mediumBuilds, 1);
-  EXPECT_GT(bench.work().raysTraced, rays);
-  expectSameImage(image, Bench().render(blob.field, scene));
-}
-
 /// The medium is as fine as k shows; a k that differs little needs nothing new.
 TEST(Stages, SensitivityNeedsFinerVoxels)
 {
@@ -52,22 +38,6 @@ TEST(Stages, SensitivityNeedsFinerVoxels)
   scene.kScale = automatic.kScale;
   EXPECT_EQ(bench.render(field, scene).medium.voxels, voxels);
   EXPECT_EQ(bench.work().raysTraced, again);
-}
-
-TEST(Stages, NewDataRebuildTheMedium)
-{
-  SampledField<float> blob = blobField();
-  Bench bench;
-  const Scene scene = smallScene();
-  const Image before = bench.render(blob.field, scene);
-  std::for_each(blob.samples.begin(), blob.samples.end(), [](float& n) { n *= 2; });
-  ++blob.field.version;
-  const Image after = bench.render(blob.field, scene);
-  EXPECT_EQ(bench.work().mediumBuilds, 2);
-  EXPECT_NE(before.deflection, after.deflection);
-  blob.field.ambient = 1e-4;
-  bench.render(blob.field, scene);
-  EXPECT_EQ(bench.work().mediumBuilds, 3);
 }
 
 TEST(Stages, EverythingThatMattersTracesAgain)

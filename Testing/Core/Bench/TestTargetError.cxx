@@ -193,28 +193,6 @@ TEST_P(TargetError, OfAllPixelsIsStated)
   EXPECT_GT(isBelow, 0.95 * static_cast<double>(errors.size()));
 }
 
-/// However few rays fit into memory, and however often it pauses.
-TEST(TargetErrors, OfAllPixelsNeedNoMemory)
-{
-  const SampledField<float> field(cube(32, 1), shock);
-  Scene scene = sceneOf({ "", Cutoff::KnifeEdge, 0 });
-  scene.targetError = 1. / 256;
-  scene.estimatesErrors = true;
-  const Image image = Bench().render(field.field, scene);
-  EXPECT_FALSE(image.accuracy.estimate.empty());
-  scene.memoryBudget = 1;
-  Monitor always;
-  always.paused = [] { return true; };
-  Bench bench;
-  Image again = bench.render(field.field, scene, always);
-  for (int calls = 0; bench.isUnfinished() && calls < 3000; ++calls)
-  {
-    again = bench.resume(always);
-  }
-  EXPECT_EQ(again.accuracy.estimate, image.accuracy.estimate);
-  EXPECT_EQ(again.accuracy.reached, image.accuracy.reached);
-}
-
 /// What nothing can keep is said.
 TEST(TargetErrors, ThatCannotBeKeptAreSaid)
 {
@@ -493,7 +471,7 @@ TEST(TargetErrors, OfLightThroughASlitAreSeen)
   grid.dimensions = { 257, 9, 9 };
   grid.spacing = { 1. / 128, 1. / 8, 1. / 8 };
   grid.origin = { -1, -0.5, -0.5 };
-  for (const double middle : { 5.5, 6.5, 7.5, 8.5, 9.5, 10.5 })
+  for (const double middle : { 5.5, 7.5, 10.5 })
   {
     SCOPED_TRACE(middle);
     const SampledField<float> field(grid,

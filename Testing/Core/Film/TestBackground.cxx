@@ -41,50 +41,6 @@ class Background : public OnDevice
 {
 };
 
-/// Rays are parabolas, followed from the camera: with light's direction turned around.
-TEST_P(Background, IsMetWhereParabolasGo)
-{
-  const ClosedForm form = linearMedium(2e-3, { 4e-3, -3e-3, 1e-3 });
-  const Grid grid = boxGrid(1. / 16, { 1.2, 1, 0.8 });
-  const SampledField<double> medium = sampled(grid, form);
-  Field field = medium.field;
-  field.ambient = 0;
-  for (const Vector& direction : { Vector{ 0, 0, -1 }, Vector{ -0.4, 0.3, -0.9 } })
-  {
-    Scene scene = cameraScene(GetParam());
-    scene.precision = Precision::Double;
-    scene.samplesPerPixel = 1;
-    scene.view = raysAround({ 0, 0, 0 }, 7, 5, 0.1);
-    scene.view.viewDirection = direction;
-    scene.background.distance = 5;
-    const Image image = Bench().render(field, scene);
-
-    Image backwards = image;
-    for (double& component : backwards.frame.w)
-    {
-      component = -component;
-    }
-    backwards.frame.entry = -image.frame.exit;
-    backwards.frame.exit = -image.frame.entry;
-    double worst = 0, least = std::numeric_limits<double>::infinity();
-    forRays(form, grid, backwards,
-      [&](std::size_t pixel, const RayState& start, const RayState& end)
-      {
-        const Reading truth = readingOf(start, end, backwards.frame);
-        const double cosine = std::sqrt(1 - truth.deflection[0] * truth.deflection[0] -
-          truth.deflection[1] * truth.deflection[1]);
-        for (std::size_t axis = 0; axis < 2; ++axis)
-        {
-          const double moved = truth.displacement[axis] + 5 * truth.deflection[axis] / cosine;
-          worst = std::max(worst, std::abs(image.backgroundDisplacement[2 * pixel + axis] - moved));
-          least = std::min(least, std::abs(moved));
-        }
-      });
-    EXPECT_GT(least, 1e-3);
-    EXPECT_LT(worst, 1e-6);
-  }
-}
-
 /// A column of dense gas is a converging lens: beside it the camera sees what lies nearer to it, so that the
 /// pattern is moved outwards. N = peak exp(-(x^2 + y^2) / radius^2) along z, seen along -y.
 TEST_P(Background, IsSeenThroughAColumn)

@@ -413,29 +413,6 @@ TEST(Estimators, ManyRaysPerPixelShowFringesOfBentPaths)
   }
 }
 
-/// The closed form at points, where it varies little in a pixel: before the focus, and in the three folds.
-TEST(Estimators, BrightnessIsTheSumOverFolds)
-{
-  const GaussianLens lens{ GaussianLens::Shape::Column, 3 };
-  const PixelArray<float> image = lens.image(4);
-  for (const int column : { 45, 47, 49, 80, 10 })
-  {
-    const double there = column - GaussianLens::middle;
-    double expected = 0;
-    constexpr double step = 1e-3;
-    for (double x = -58; x < 58; x += step)
-    {
-      const double a = lens(x, 0)[0] - there, b = lens(x + step, 0)[0] - there;
-      if ((a < 0) != (b < 0))
-      {
-        expected += step / std::abs(b - a);
-      }
-    }
-    EXPECT_NEAR(
-      image[static_cast<std::size_t>(40 * GaussianLens::size + column)], expected, 0.01 * expected);
-  }
-}
-
 /// The fixed-point scale has room for any number of samples, wherever their light lands.
 TEST(Estimators, SumsHaveRoom)
 {
@@ -448,22 +425,6 @@ TEST(Estimators, SumsHaveRoom)
     EXPECT_LT(film.one() * static_cast<double>(rays) * samples, std::ldexp(1., 63));
   }
   EXPECT_EQ(passesToHold(1), passesToHold(4096));
-}
-
-TEST(Estimators, AMillionSamplesOnOnePixel)
-{
-  const SampledField<float> gas(cube(2, 1), [](double, double, double) { return 2.7e-4; });
-  Scene scene;
-  scene.device = Device::Cpu;
-  scene.view.width = scene.view.height = 1;
-  scene.stepSize = 16;
-  scene.samplesPerPixel = 1000000;
-  scene.memoryBudget = 0;
-  scene.pathModel = PathModel::Straight;
-  scene.threads = 1;
-  const Image image = Bench().render(gas.field, scene);
-  EXPECT_FLOAT_EQ(image.intensity[0], 0.5f);
-  EXPECT_NEAR(image.light.onFilm, 0.5, 1e-7);
 }
 
 } // namespace

@@ -223,41 +223,6 @@ TEST(Light, EdgesOfAnyAngleAreCovered)
   }
 }
 
-/// A knife's image of a gentle flow: I = 1/2 + k eps, and the automatic k uses the scale well.
-TEST(KnifeEdge, ImageFollowsTheDeflection)
-{
-  const SampledField<float> blob(cube(32, 1),
-    [](double x, double y, double z) { return 1e-8 * std::exp(-(x * x + y * y + z * z) / 0.1); });
-  Scene scene;
-  scene.device = Device::Cpu;
-  scene.view.width = scene.view.height = 50;
-  scene.samplesPerPixel = 1;
-  for (const double angle : { 0., 90., 30. })
-  {
-    scene.knifeEdgeAngle = angle;
-    const Image image = Bench().render(blob.field, scene);
-    const double c = std::cos(angle * pi / 180), s = std::sin(angle * pi / 180);
-    std::vector<double> light;
-    for (std::size_t pixel = 0; pixel < image.intensity.size(); ++pixel)
-    {
-      const double eps = c * image.deflection[2 * pixel] + s * image.deflection[2 * pixel + 1];
-      light.push_back(std::clamp(0.5 + image.kScale * eps, 0., 1.));
-    }
-    const std::vector<double> expected = meansOver(image, light);
-    double worst = 0;
-    for (int row = 2; row < image.height - 2; ++row)
-    {
-      for (int column = 2; column < image.width - 2; ++column)
-      {
-        const std::size_t pixel = pixelOf(image, column, row);
-        worst = std::max(worst, std::abs(image.intensity[pixel] - expected[pixel]));
-      }
-    }
-    EXPECT_LT(worst, 1e-5);
-    EXPECT_GT(*std::max_element(image.intensity.begin(), image.intensity.end()), 0.95f);
-  }
-}
-
 /// Rounding must not be blown up to an image: the field varies along the light only.
 TEST(AutomaticK, LeavesRoundingInvisible)
 {
@@ -274,24 +239,6 @@ TEST(AutomaticK, LeavesRoundingInvisible)
     EXPECT_GT(*least, 0.45f);
     EXPECT_LT(*most, 0.55f);
   }
-}
-
-/// Light that a weak flow bends stays on a film that holds all of its surroundings.
-TEST(Shadowgraph, ConservesEnergy)
-{
-  const SampledField<float> blob(cube(32, 1),
-    [](double x, double y, double z) { return 1e-3 * std::exp(-(x * x + y * y + z * z) / 0.05); });
-  Scene scene;
-  scene.device = Device::Cpu;
-  scene.cutoff = Cutoff::Shadowgraph;
-  scene.view.width = scene.view.height = 80;
-  scene.view.parallelScale = 1.5;
-  scene.screenDistance = 20;
-  const Image image = Bench().render(blob.field, scene);
-  const double pixels = 80. * 80.;
-  EXPECT_NEAR(sum(image.intensity), pixels, 1e-6 * pixels);
-  const auto [least, most] = std::minmax_element(image.intensity.begin(), image.intensity.end());
-  EXPECT_GT(*most - *least, 0.2f);
 }
 
 } // namespace

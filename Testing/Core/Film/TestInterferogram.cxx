@@ -71,29 +71,6 @@ TEST(Interferogram, KeepsItsPhaseOverTenMillionFringes)
   }
 }
 
-/// Of a row of samples: how often light falls below one half and comes back.
-int darkFringes(const std::vector<double>& light)
-{
-  int fringes = 0;
-  for (std::size_t n = 1; n < light.size(); ++n)
-  {
-    fringes += light[n - 1] >= 0.5 && light[n] < 0.5 ? 1 : 0;
-  }
-  return fringes;
-}
-
-TEST(Interferogram, CountsTheFringesOfAPath)
-{
-  const Interferogram fringes = cutoffOf(interferogram(), 1);
-  // A wedge: the path grows by 37 wavelengths over the row.
-  std::vector<double> light;
-  for (int n = 0; n <= 5000; ++n)
-  {
-    light.push_back(lightOf(fringes, behind(37 * heliumNeon * n / 5000)));
-  }
-  EXPECT_EQ(darkFringes(light), 37);
-}
-
 /// A prism of rays that are straight: all is of first order, and no bend makes a path longer.
 TEST(Interferogram, OfStraightRaysIsOfTheirPathAlone)
 {
@@ -115,19 +92,6 @@ TEST(Interferogram, OfStraightRaysIsOfTheirPathAlone)
     const double waves = slope * depth * centreOf(image, column, 1).u / scene.wavelength;
     EXPECT_NEAR(
       image.intensity[pixelOf(image, column, 1)], (1 + std::cos(2 * pi * waves)) / 2, 2e-3);
-  }
-}
-
-TEST(Interferogram, TakesAnyWavelength)
-{
-  for (const double wavelength : { 1e-12, 1e-9, 1., 1e3 })
-  {
-    Scene scene = interferogram();
-    scene.wavelength = wavelength;
-    const Interferogram fringes = cutoffOf(scene, 1);
-    EXPECT_NEAR(lightOf(fringes, behind(0.25 * wavelength)), 0.5, 1e-9) << wavelength;
-    EXPECT_NEAR(lightOf(fringes, behind(0.5 * wavelength)), 0, 1e-9) << wavelength;
-    EXPECT_NEAR(lightOf(fringes, behind(3 * wavelength)), 1, 1e-9) << wavelength;
   }
 }
 

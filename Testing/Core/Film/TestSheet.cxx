@@ -336,29 +336,6 @@ TEST(Sheet, NothingIsLeftOver)
   }
 }
 
-/// A sheet that is folded over: where x' = f(x) is reached from several places, light adds up.
-TEST(Sheet, FoldsAddUp)
-{
-  // f(x) = 3 + (x - 6)^2 / 8: pixel [a, b] is reached from both sides of 6.
-  const Recorder film = exposed(-6, 20, { 0.5, 0.5 },
-    [](double x, double y) {
-      return std::array<double, 2>{ 3 + 0.125 * (x - 6) * (x - 6), y };
-    });
-  for (int column = 4; column < width; ++column)
-  {
-    const double expected = 2 * std::sqrt(8.) * (std::sqrt(column + 1 - 3) - std::sqrt(column - 3));
-    EXPECT_NEAR(film.at(column, 4), expected, 0.04 * expected) << column;
-  }
-  EXPECT_EQ(film.at(2, 4), 0);
-  const double all = 2 * std::sqrt(8 * 9.);
-  double sum = 0;
-  for (int column = 0; column < width; ++column)
-  {
-    sum += film.at(column, 4);
-  }
-  EXPECT_NEAR(sum, all, 0.05);
-}
-
 /// The light of a phase that is linear in a parallelogram that covers several pixels.
 TEST(Sheet, FringesOfAnyCellHaveTheirMean)
 {

@@ -210,9 +210,9 @@ TEST(BrickMaker, FrontsHardlyOvershoot)
   for (const Vec3<double>& normal : { Vec3<double>{ 1, 0, 0 }, Vec3<double>{ 0, 0, 1 },
          Vec3<double>{ 0.9, 0.3, 0.316 }, Vec3<double>{ 1, 1, 1 } })
   {
-    for (const double cell : { 0.05, 0.036, 0.023 })
+    for (const double cell : { 0.05, 0.023 })
     {
-      for (const double place : { 0., 0.23, 0.5, 0.81 })
+      for (const double place : { 0., 0.23, 0.5 })
       {
         TreeSettings settings;
         settings.tolerance = 1e-3;

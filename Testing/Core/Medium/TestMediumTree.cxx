@@ -69,11 +69,11 @@ TEST(MediumTree, DeflectionIsWithinTolerance)
   const auto [u, v] = obliqueAxes();
   for (const Interpolation interpolation : { Interpolation::Quadratic, Interpolation::Cubic })
   {
-    for (const double width : { 0.25, 0.05, 0.02 })
+    for (const double width : { 0.25, 0.02 })
     {
       const Ball ball{ { 0.11, -0.23, 0.07 }, width, 1e-4 };
       const auto source = std::make_shared<BallsSource>(std::vector<Ball>{ ball });
-      for (const double tolerance : { 1e-1, 1e-2, 1e-3 })
+      for (const double tolerance : { 1e-1, 1e-3 })
       {
         TreeSettings settings = settingsOf(tolerance);
         settings.interpolation = interpolation;
@@ -265,29 +265,6 @@ TEST(MediumTree, NoVoxelIsFinerThanHalfAPixel)
   }
 }
 
-TEST(MediumTree, NoVoxelIsMuchFinerThanTheCells)
-{
-  const auto source = std::make_shared<BallsSource>(threeBalls(1e-4), 1, 0.1);
-  Tree tree(source, 0, settingsOf(0)); // as fine as the data
-  tree.refine(everything());
-  for (const Leaf<float>& leaf : tree.leaves())
-  {
-    const double voxel = tree.grid().spacing[0] / leaf.perIndex;
-    Box box{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      box.low[axis] = -1 + tree.grid().spacing[axis] * leaf.first[axis] - 1.5 * voxel;
-      box.high[axis] = box.low[axis] + 18 * voxel;
-    }
-    const double cell = source->cellSizeOver(box);
-    if (leaf.kind == Leaf<float>::Samples)
-    {
-      EXPECT_LE(voxel, 1.401 * cell);
-    }
-  }
-  EXPECT_GT(tree.statistics().smallestVoxel, 0.7 * 0.1 * 0.02);
-}
-
 TEST(MediumTree, FacetsOfLinearCellsAreNotResolved)
 {
   static constexpr double cell = 0.025;
@@ -362,20 +339,6 @@ TEST(MediumTree, FindsWhatLiesBetweenSamples)
   EXPECT_LT(
     worstError(tree, *source, Interpolation::Quadratic, x, y, 0.009, { 0.516, 0.0, -0.001 }), 4e-2);
   EXPECT_LT(tree.statistics().bricks, 2000);
-}
-
-TEST(MediumTree, ThinShockIsResolved)
-{
-  const auto source = std::make_shared<ShellSource>();
-  Tree tree(source, 0, settingsOf(1e-2));
-  tree.refine(everything());
-  for (int n = 0; n < 2000; ++n)
-  {
-    const double r = 0.44 + 6e-5 * n;
-    const Vec3<double> at{ 0.6 * r, 0.64 * r, 0.48 * r };
-    EXPECT_NEAR(
-      sampleAt(tree, Interpolation::Quadratic, at).value, ShellSource::profile(r), 1e-4 * 6e-3);
-  }
 }
 
 } // namespace

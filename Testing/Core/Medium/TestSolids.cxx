@@ -93,35 +93,6 @@ TEST_P(Solids, UniformGasAroundABodyBendsNothing)
   }
 }
 
-TEST_P(Solids, ABodyCastsItsShadow)
-{
-  const FieldWithBody body([](double, double, double) { return 2.7e-4; }, Marked::ByNaN);
-  const Image image = Bench().render(body.field, scene(GetParam()));
-  double area = 0;
-  for (int row = 0; row < image.height; ++row)
-  {
-    for (int column = 0; column < image.width; ++column)
-    {
-      const PixelCentre at = centreOf(image, column, row);
-      const std::size_t pixel = pixelOf(image, column, row);
-      const double radius = std::hypot(at.u, at.v);
-      const double voxels = (radius - bodyRadius) / 0.05;
-      if (voxels < -1.5)
-      {
-        EXPECT_EQ(image.blockedFraction[pixel], 1);
-        EXPECT_EQ(image.intensity[pixel], 0);
-      }
-      if (voxels > 1.5)
-      {
-        EXPECT_EQ(image.blockedFraction[pixel], 0);
-        EXPECT_EQ(image.intensity[pixel], 0.5f);
-      }
-      area += image.blockedFraction[pixel] * image.frame.pixelSize * image.frame.pixelSize;
-    }
-  }
-  EXPECT_NEAR(area, pi * bodyRadius * bodyRadius, 0.06 * pi * bodyRadius * bodyRadius);
-}
-
 /// The spline's coefficients feel their neighbours' neighbours; the body's fill must not reach far.
 TEST_P(Solids, GasBesideABodyKeepsItsDeflection)
 {

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <random>
 #include <vector>
 
@@ -152,38 +151,6 @@ TEST(MediumTree, WallsAreSharp)
   {
     ASSERT_EQ(distance & 1, 0); // nowhere a window
   }
-}
-
-/// Remembers the largest voxels of lattices with distances to walls, and none to windows.
-class WatchedSphere : public SphereSource
-{
-public:
-  void sample(
-    const Lattice& lattice, double* refractivity, Place* places, float* distances) const override
-  {
-    SphereSource::sample(lattice, refractivity, places, distances);
-    if (distances &&
-      std::find(places, places + lattice.size(), Place::Window) == places + lattice.size())
-    {
-      const std::lock_guard<std::mutex> lock(one_);
-      coarsest_ = std::max(coarsest_, lattice.spacing[0]);
-    }
-  }
-  double coarsest() const { return coarsest_; }
-
-private:
-  mutable std::mutex one_;
-  mutable double coarsest_ = 0;
-};
-
-TEST(MediumTree, WallsAreNotSampledWhereVoxelsAreTooLarge)
-{
-  const auto source = std::make_shared<WatchedSphere>();
-  constexpr double finest = 0.01;
-  Tree tree(source, 0, settingsOf(1e-2));
-  tree.refine(around(0, 0, 1.5, finest));
-  EXPECT_GT(source->coarsest(), finest);
-  EXPECT_LE(source->coarsest(), 8 * finest);
 }
 
 TEST(MediumTree, WallsAreThereWhereMemoryIsShort)

@@ -91,23 +91,11 @@ class GaussianColumn : public OnDevice
 {
 };
 
-TEST_P(GaussianColumn, DeflectionAndOpdMatchClosedForm)
-{
-  for (const Precision precision : { Precision::Single, Precision::Double })
-  {
-    const Errors errors = errorsAt(128, GetParam(), precision, Interpolation::Quadratic);
-    EXPECT_LT(errors.deflection, 1e-3) << name(precision);
-    EXPECT_LT(errors.opd, 1e-3) << name(precision);
-    RecordProperty(std::string("deflection") + name(precision), std::to_string(errors.deflection));
-    RecordProperty(std::string("opd") + name(precision), std::to_string(errors.opd));
-  }
-}
-
 /// However many rays a pixel has, and wherever their mean place is.
 TEST_P(GaussianColumn, DeflectionAndOpdAreThoseOfThePixelsCentre)
 {
   const Errors ofOne = errorsAt(112, GetParam(), Precision::Single, Interpolation::Quadratic);
-  for (const int samples : { 2, 3, 4, 8, 16, 32, 64 })
+  for (const int samples : { 2, 3, 64 })
   {
     const Errors errors =
       errorsAt(112, GetParam(), Precision::Single, Interpolation::Quadratic, samples);
@@ -116,15 +104,6 @@ TEST_P(GaussianColumn, DeflectionAndOpdAreThoseOfThePixelsCentre)
     EXPECT_LT(errors.deflection, 1e-3) << samples;
     EXPECT_LT(errors.opd, 1e-3) << samples;
   }
-}
-
-/// The error of a quadratic spline is O(h^3), that of its derivative O(h^2). The coarse grids keep both well above what the finite box cuts off.
-TEST_P(GaussianColumn, QuadraticConvergesWithTheGrid)
-{
-  const Errors coarse = errorsAt(21, GetParam(), Precision::Double, Interpolation::Quadratic);
-  const Errors fine = errorsAt(41, GetParam(), Precision::Double, Interpolation::Quadratic);
-  EXPECT_NEAR(std::log2(coarse.deflection / fine.deflection), 2, 0.2);
-  EXPECT_NEAR(std::log2(coarse.opd / fine.opd), 3, 0.4);
 }
 
 /// The column lies across the image at an angle and light crosses the grid obliquely, so that

@@ -236,76 +236,6 @@ Scene wallScene(Device device)
   return scene;
 }
 
-/// The place in the image, from its axis, where the wall begins to darken.
-double edgeIn(const Image& image)
-{
-  double light = 0;
-  for (int column = 0; column < image.width; ++column)
-  {
-    light += image.intensity[pixelOf(image, column, 0)] / 0.5;
-  }
-  return (light - 0.5 * image.width) * image.frame.pixelSize;
-}
-
-/// The shadow of what is at zeta lies where the ray through it crosses the middle of the data.
-TEST_P(DivergingLight, MagnifiesWhatIsNearToItsSource)
-{
-  for (const double place : { -0.75, 0., 0.75 })
-  {
-    const SampledField<float> field = wall(place);
-    Scene scene = wallScene(GetParam());
-    scene.source.distance = 2.5;
-    const double expected = (wallEdge - 0.1) / (1 + place / 2.5);
-    for (const double focus : { 0., 0.6, -0.9, 30. })
-    {
-      scene.focusOffset = focus;
-      const Image image = Bench().render(field.field, scene);
-      EXPECT_NEAR(edgeIn(image), expected, 1.5 * image.frame.pixelSize) << place;
-    }
-    scene.cutoff = Cutoff::Shadowgraph;
-    scene.screenDistance = 5;
-    const Image image = Bench().render(field.field, scene);
-    EXPECT_NEAR(image.intensity[pixelOf(image, 10, 0)], 1, 1e-6);
-    EXPECT_NEAR(image.intensity[pixelOf(image, 290, 0)], 0, 1e-6);
-  }
-}
-
-/// Light from R casts on a screen at z the shadow that collimated light casts at z R / (z + R), magnified
-/// (Settles 2001, ch. 6).
-TEST_P(DivergingLight, CastsTheShadowOfANearerScreen)
-{
-  constexpr double peak = 2.7e-3, half = 3, source = 30, screen = 20;
-  const SampledField<float> column(
-    cube(64, half), [](double x, double y, double) { return peak * std::exp(-x * x - y * y); });
-  Field field = column.field;
-  field.ambient = 0;
-  Scene scene;
-  scene.device = GetParam();
-  scene.cutoff = Cutoff::Shadowgraph;
-  scene.samplesPerPixel = 4;
-  scene.view.viewDirection = { 0, -1, 0 };
-  scene.view.viewUp = { 0, 0, 1 };
-  scene.view.width = 150;
-  scene.view.height = 3;
-  scene.view.parallelScale = 0.03;
-  const auto at = [&](std::optional<double> distance, double fromMiddle)
-  {
-    scene.source.distance = distance;
-    scene.screenDistance = fromMiddle - half;
-    return Bench().render(field, scene).intensity;
-  };
-  const PixelArray<float> nearer = at({}, screen * source / (screen + source));
-  const PixelArray<float> diverging = at(source, screen);
-  float worst = 0, most = 0;
-  for (std::size_t pixel = 0; pixel < nearer.size(); ++pixel)
-  {
-    worst = std::max(worst, std::abs(diverging[pixel] - nearer[pixel]));
-    most = std::max(most, std::abs(nearer[pixel] - 1));
-  }
-  EXPECT_GT(most, 0.1f);
-  EXPECT_LT(worst, 0.03f * most); // the second order of the column's width by R
-}
-
 INSTANTIATE_TEST_SUITE_P(, DivergingLight, bothDevices(), deviceName);
 
 class ExtendedSource : public OnDevice
@@ -365,32 +295,6 @@ TEST_P(ExtendedSource, BlursWhatIsOutOfFocus)
       EXPECT_LT(worst, 0.03);
     }
   }
-}
-
-/// A slit is across the knife edge's normal by its width only: an edge of the flow in that direction stays
-/// sharp.
-TEST_P(ExtendedSource, OfASlitBlursAcrossTheKnifeEdge)
-{
-  const SampledField<float> field = wall(0.75);
-  Scene scene = wallScene(GetParam());
-  scene.view.width = 100;
-  scene.samplesPerPixel = 64;
-  scene.source = { {}, SourceShape::Slit, 0.2, 0 };
-  const auto greys = [&](double knifeEdgeAngle)
-  {
-    scene.knifeEdgeAngle = knifeEdgeAngle;
-    const Image image = Bench().render(field.field, scene);
-    int count = 0;
-    for (int column = 0; column < image.width; ++column)
-    {
-      const float light = image.intensity[pixelOf(image, column, 0)] / 0.5f;
-      count += light > 0.01f && light < 0.99f ? 1 : 0;
-    }
-    return count;
-  };
-  EXPECT_GE(greys(0), 8); // 0.15 of pixels of 0.015
-  EXPECT_GE(greys(180), 8);
-  EXPECT_LE(greys(90), 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(, ExtendedSource, bothDevices(), deviceName);

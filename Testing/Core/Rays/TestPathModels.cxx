@@ -11,33 +11,6 @@ namespace schlieren
 namespace
 {
 
-/// A sum of waves with random phases, none shorter than a third of the cube (-1, 1)^3.
-std::function<double(double, double, double)> smoothNoise(unsigned seed, double peak)
-{
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> any(-1, 1);
-  struct Wave
-  {
-    Point k;
-    double phase, height;
-  };
-  std::vector<Wave> waves(12);
-  for (Wave& wave : waves)
-  {
-    wave = { { 9 * any(random), 9 * any(random), 9 * any(random) }, 4 * any(random),
-      peak / 12 * any(random) };
-  }
-  return [waves](double x, double y, double z)
-  {
-    double sum = 0;
-    for (const Wave& wave : waves)
-    {
-      sum += wave.height * std::sin(dot(wave.k, Point{ x, y, z }) + wave.phase);
-    }
-    return sum;
-  };
-}
-
 class PathModels : public OnDevice
 {
 protected:
@@ -133,57 +106,6 @@ TEST_P(PathModels, AbelPair)
       }
     }
   }
-}
-
-/// What a line of sight leaves out is of second order: by the fraction (bend times depth^2) / (size of what
-/// bends), here about 7 A.
-TEST_P(PathModels, StraightDiffersAtSecondOrder)
-{
-  const Point box{ 1, 1, 1 };
-  const double peaks[] = { 1e-6, 1e-4, 1e-2 };
-  for (const double peak : peaks)
-  {
-    SCOPED_TRACE(peak);
-    const auto noise = smoothNoise(3, peak);
-    SampledField<double> field(boxGrid(1. / 24, box), noise);
-    field.field.ambient = 0;
-    Bench bench;
-    Scene scene = sceneOf(PathModel::Refracted, raysAround({ 0.01, 0.02, 0 }, 15, 15, 0.12));
-    scene.precision = Precision::Double;
-    const Image bent = bench.render(field.field, scene);
-    scene.pathModel = PathModel::Straight;
-    const Image straight = bench.render(field.field, scene);
-    EXPECT_EQ(straight.raysLost, 0);
-    Worst size;
-    for (std::size_t pixel = 0; pixel < 15 * 15; ++pixel)
-    {
-      size.include(readingOf(bent, pixel));
-    }
-    const Worst difference = differences(bent, straight);
-    EXPECT_LT(difference.deflection, (20 * peak + 2e-7) * size.deflection);
-    EXPECT_LT(difference.displacement, (20 * peak + 2e-7) * size.displacement);
-    EXPECT_LT(difference.opticalPathDifference, (20 * peak + 2e-7) * size.opticalPathDifference);
-    if (peak > 1e-5)
-    {
-      EXPECT_GT(difference.deflection, 0.1 * peak * size.deflection);
-    }
-  }
-}
-
-/// In a rod a ray is bent back and forth; a line of sight knows nothing of it.
-TEST_P(PathModels, StraightIsNoModelOfLenses)
-{
-  const ClosedForm rod = oscillator(1.5, { 1.5, 1.5, 0 });
-  const Grid grid = boxGrid(1. / 32, { 0.5, 0.5, 1 });
-  SampledField<double> field = sampled(grid, rod);
-  field.field.ambient = 0;
-  Scene scene = sceneOf(PathModel::Refracted, raysAround({ 0, 0, 0 }, 9, 1, 0.09));
-  const Worst bent = errorsOf(rod, grid, Bench().render(field.field, scene));
-  scene.pathModel = PathModel::Straight;
-  const Image image = Bench().render(field.field, scene);
-  const Worst straight = errorsOf(rod, grid, image);
-  EXPECT_LT(bent.deflection, 1e-3);
-  EXPECT_GT(straight.deflection, 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(, PathModels, bothDevices(), deviceName);

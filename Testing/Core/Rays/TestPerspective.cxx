@@ -118,29 +118,6 @@ TEST_P(Perspective, IsBentAsTheEquationOfRaysSays)
   }
 }
 
-/// The further the pupil, the less it differs from parallel light: by the ratio of the distances.
-TEST_P(Perspective, OfAFarPupilIsParallel)
-{
-  const Grid grid = boxGrid(1. / 8, { half, half, half });
-  const SampledField<double> medium = sampled(grid, blob(1e-3));
-  Field field = medium.field;
-  field.ambient = 0;
-  Scene scene = perspectiveScene(GetParam(), 1);
-  scene.precision = Precision::Double;
-  scene.pathModel = PathModel::Straight;
-  Bench bench;
-  const auto at = [&](double distance)
-  {
-    setPupil(scene.view, distance);
-    return bench.render(field, scene);
-  };
-  const Image parallel = at(std::numeric_limits<double>::infinity());
-  EXPECT_EQ(parallel.frame.pupil, 0);
-  const double near = differences(at(1e3), parallel).deflection;
-  EXPECT_GT(near, 0);
-  EXPECT_NEAR(differences(at(1e5), parallel).deflection / near, 1e-2, 1e-3);
-}
-
 /// What is behind the pupil does not count, and a view away from the data is undisturbed.
 TEST_P(Perspective, SeesNothingBehindThePupil)
 {
@@ -266,32 +243,6 @@ TEST(PerspectiveMedium, HasVoxelsWithinTheViewAlone)
   scene.view.viewAngle = 0;
   scene.view.parallelScale = 1;
   EXPECT_GT(static_cast<double>(bricksOf(all)), 1.5 * static_cast<double>(bricksOf(seen)));
-}
-
-/// The tangent cone of a sphere is a circle in an image through whose middle its axis goes.
-TEST_P(Perspective, SilhouettesAreThoseOfTangentCones)
-{
-  const auto source = std::make_shared<SphereSource>();
-  Scene scene;
-  scene.device = GetParam();
-  scene.kScale = 0; // half of all light, where a wall does not stop it
-  scene.samplesPerPixel = 4;
-  scene.view = raysAround({ 0, 0, 0.4 }, 100, 100, 0.04);
-  for (const double distance : { 30., 4., 2. })
-  {
-    SCOPED_TRACE(distance);
-    setPupil(scene.view, distance);
-    const Image image = Bench().render(fieldOf(source), scene);
-    double dark = 0; // pixels
-    for (const float intensity : image.intensity)
-    {
-      dark += 1 - static_cast<double>(intensity) / 0.5;
-    }
-    const double fromCentre = distance + 0.4;
-    const double radius = distance / std::sqrt(fromCentre * fromCentre - 1);
-    const double found = std::sqrt(dark / pi) * image.frame.pixelSize;
-    EXPECT_NEAR(found, radius, 0.1 * image.frame.pixelSize);
-  }
 }
 
 /// The pattern's displacement, where the pattern is.

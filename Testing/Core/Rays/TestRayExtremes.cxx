@@ -42,7 +42,7 @@ void expectFinite(const Image& image)
 /// beside the difference of its neighbours, 1/128 of it; three times that for the sums it is in.
 TEST_P(RayExtremes, RelativeAccuracyDoesNotDependOnTheStrength)
 {
-  for (const double peak : { 1e-14, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 0.3, 1., 3. })
+  for (const double peak : { 1e-14, 1e-9, 1e-4, 0.3, 3. })
   {
     // n from 1 to 1 + peak over x = -1 ... 1.
     const double square = peak * (2 + peak);
@@ -361,37 +361,6 @@ TEST_P(RayExtremes, OneVoxelRefractsAndReflectsAsASurface)
         const Reading ray = readingOf(image, static_cast<std::size_t>(i));
         EXPECT_NEAR(std::abs(ray.deflection[0]), std::abs(std::sin(turned)), 1e-3);
         EXPECT_NEAR(ray.deflection[1], 0, 1e-9);
-      }
-    }
-  }
-}
-
-/// A step of one voxel: what it bends in all, its height times the depth, does not depend on how it is
-/// interpolated.
-TEST_P(RayExtremes, StepsOfOneVoxelKeepTheirHeight)
-{
-  const Grid grid = boxGrid(1. / 8, { 2, 0.5, 1 });
-  SampledField<double> field(grid, [](double x, double, double) { return x > 0.03 ? 1e-6 : 0; });
-  field.field.ambient = 0;
-  Scene scene = sceneOf(raysAround({ 0.07, 0, 0 }, 513, 1, 1. / 128)); // 16 a voxel
-  for (const Interpolation interpolation : allInterpolations)
-  {
-    for (const Precision precision : bothPrecisions)
-    {
-      for (const Integrator integrator : allIntegrators)
-      {
-        SCOPED_TRACE(
-          std::string(name(interpolation)) + " " + name(precision) + " " + name(integrator));
-        scene.interpolation = interpolation;
-        scene.precision = precision;
-        scene.integrator = integrator;
-        const Image image = Bench().render(field.field, scene);
-        double sum = 0;
-        for (int i = 0; i < image.width; ++i)
-        {
-          sum += image.deflection[2 * pixelOf(image, i, 0)] / 128.;
-        }
-        EXPECT_NEAR(sum / 2e-6, 1, 1e-3); // 1e-6 times the depth of 2
       }
     }
   }

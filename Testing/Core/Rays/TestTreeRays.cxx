@@ -340,41 +340,4 @@ TEST(RaysSideBySideInATree, DoWhatOneDoes)
   expectPacksToDoWhatOneDoes(fieldOf(std::make_shared<BallsSource>(threeBalls(1e-3))));
 }
 
-TEST(RaysInATreeOf, AnyNumberOfThreadsAreTheSame)
-{
-  const auto source = std::make_shared<BallsSource>(threeBalls(1e-4));
-  std::vector<Image> images;
-  for (const int threads : { 1, 2, 5 })
-  {
-    Scene scene = shadowgraphOf({ 0.3, -0.5, -0.8 });
-    scene.threads = threads;
-    images.push_back(Bench().render(fieldOf(source), scene));
-    const auto isSame = [&](const auto& a, const auto& b)
-    { return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin()); };
-    EXPECT_TRUE(isSame(images[0].deflection, images.back().deflection));
-    EXPECT_TRUE(isSame(images[0].intensity, images.back().intensity));
-  }
-}
-
-TEST(ViewsOfATree, AddLeavesAndTraceAnew)
-{
-  const auto source = std::make_shared<BallsSource>(threeBalls(1e-4));
-  const Field field = fieldOf(source);
-  Bench bench;
-  Scene scene = shadowgraphOf({ 0, 0, -1 });
-  const Image first = bench.render(field, scene);
-  scene.kScale = 100;
-  scene.cutoff = Cutoff::KnifeEdge;
-  bench.render(field, scene);
-  EXPECT_EQ(bench.work().raySets, 1); // another cutoff needs no re-tracing
-  scene.view.parallelScale = 0.05;
-  scene.view.focalPoint = Vector{ -0.37, 0.44, -0.5 };
-  const Image near = bench.render(field, scene);
-  EXPECT_GT(near.medium.finestLevel, first.medium.finestLevel);
-  EXPECT_EQ(bench.work().mediumBuilds, 1);
-  scene.mediumTolerance = 0.5;
-  bench.render(field, scene);
-  EXPECT_EQ(bench.work().mediumBuilds, 2);
-}
-
 } // namespace schlieren

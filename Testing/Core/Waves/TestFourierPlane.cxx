@@ -160,54 +160,6 @@ TEST(FourierPlane, SlitSeesSlopesOfFeaturesThatAreNotTooFine)
   }
 }
 
-TEST(FourierPlane, FilterBecomesThatOfRaysAsTheWavelengthFalls)
-{
-  const double size = 1e-3, path = 30 * perWave, source = 5 * steepestOfColumn(path, size);
-  struct Case
-  {
-    std::function<double(const Angles&)> filter;
-    double error[3];
-  };
-  const auto fromAxis = [source](const Angles& at)
-  { return 2 * std::hypot(at[0], at[1]) / source; };
-  const Case cases[] = {
-    // A filter whose transmission is in proportion to the place shows slopes of any phase.
-    { [source](const Angles& at) { return std::clamp(0.5 + at[0] / source, 0., 1.); },
-      { 5e-5, 5e-5, 5e-5 } },
-    { [=](const Angles& at) { return std::max(0., 1 - fromAxis(at)); }, { 0.01, 4e-3, 2e-3 } },
-    { [=](const Angles& at) { return std::min(1., fromAxis(at)); }, { 0.05, 0.025, 0.012 } }
-  };
-  for (const Case& each : cases)
-  {
-    for (const auto& [part, error] :
-      { std::pair(1, each.error[0]), std::pair(4, each.error[1]), std::pair(8, each.error[2]) })
-    {
-      Bench1d bench = benchOf(4e-5, 150, { filterMask(each.filter) });
-      bench.wavelength = green / part;
-      bench.height = bench.width;
-      const Numbers seen = bench.image(column(path, size));
-      Numbers rays;
-      for (const double x : bench.pixels())
-      {
-        rays.push_back(each.filter({ column(path, size)(x).deflection, 0 }));
-      }
-      EXPECT_LT(rms(seen, rays), error) << part;
-    }
-  }
-}
-
-TEST(FourierPlane, FollowTheEdgesAngle)
-{
-  const double size = 1e-3, path = 30 * perWave;
-  const double source = 5 * steepestOfColumn(path, size);
-  const Numbers right = benchOf(4e-5, 100, edgeOf(source, 32)).image(column(path, size));
-  const Numbers left = benchOf(4e-5, 100, edgeOf(source, 32, 0, 180)).image(column(path, size));
-  for (std::size_t i = 0; i < left.size(); ++i)
-  {
-    EXPECT_NEAR(left[i], right[left.size() - 1 - i], 1e-6);
-  }
-}
-
 TEST(FourierPlane, DarkFieldShowsTheSquareOfAWeakPhase)
 {
   const double width = 5e-4, amplitude = 0.1;
@@ -294,48 +246,6 @@ TEST(FourierPlane, PointOfASourceMovesTheImageOutOfFocus)
     EXPECT_NEAR(moved[i], still[i - shift], 2e-3);
   }
   EXPECT_GT(rms(still, moved), 0.02);
-}
-
-namespace
-{
-
-/// The mean light of an image of a lens, whose light remains in it.
-double lightBehindLens(const Mask& mask, double distance)
-{
-  const double size = 5e-4, path = 3 * perWave, pixel = 5e-5;
-  Bench1d bench = benchOf(pixel, 128, { mask });
-  bench.height = bench.width;
-  bench.distance = distance;
-  LightAtExit light = bench.rays(straight);
-  const Numbers x = places(light.columns, pixel);
-  for (std::size_t ray = 0; ray < light.size(); ++ray)
-  {
-    const double place[2] = { x[ray % x.size()], x[ray / x.size()] };
-    const double square = place[0] * place[0] + place[1] * place[1];
-    light.path[ray] = path * std::exp(-square / (size * size));
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      light.deflection[axis][ray] = -2 * place[axis] / (size * size) * light.path[ray];
-    }
-  }
-  WaveReport report;
-  const std::vector<float> image = mask
-    ? lightInFocus(light, bench.screen(), *bench.imaging, {}, report)
-    : lightOnScreen(light, bench.screen(), {}, report);
-  return meanOf({ image.begin(), image.end() });
-}
-
-} // namespace
-
-TEST(FourierPlane, WholeImagesKeepTheLight)
-{
-  EXPECT_NEAR(lightBehindLens({}, 0.02), 1, 1e-3);
-  for (const double diameter : { 1e-3, 2e-3 })
-  {
-    const double aperture = lightBehindLens(discMask(diameter, 1, 0), 0);
-    const double stop = lightBehindLens(discMask(diameter, 0, 1), 0);
-    EXPECT_NEAR(aperture + stop, 1, 1e-3);
-  }
 }
 
 namespace
