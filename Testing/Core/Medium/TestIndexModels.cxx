@@ -476,30 +476,6 @@ TEST(Mixture, IsAPureGasWhereOneGasIsAll)
   EXPECT_DOUBLE_EQ(alone.constantByVolume(nullptr), lightAir.constant);
 }
 
-TEST(Mixture, OfTwoGasesInterpolatesByMass)
-{
-  const Mixture mixture{ { helium }, lightAir };
-  for (int eighths = 0; eighths <= 8; ++eighths)
-  {
-    const double Y = 0.125 * eighths;
-    const double rho = 0.7;
-    EXPECT_NEAR(gladstoneDaleRefractivity(mixture.constantByMass(&Y), rho),
-      rho * (helium.constant * Y + lightAir.constant * (1 - Y)), 1e-19);
-  }
-}
-
-TEST(Mixture, LeavesTheRemainderToTheBackground)
-{
-  const Mixture mixture{ { { 1e-4 }, { 2e-4 }, { 4e-4 } }, { 8e-4 } };
-  const double fractions[] = { 0.1, 0.2, 0.3 };
-  EXPECT_NEAR(mixture.constantByMass(fractions), 0.1e-4 + 0.4e-4 + 1.2e-4 + 3.2e-4, 1e-18);
-  // Overshoot is taken from the background.
-  const double tooMuch[] = { 1.1, 0, 0 };
-  EXPECT_NEAR(mixture.constantByMass(tooMuch), 1.1e-4 - 0.8e-4, 1e-18);
-  const double unknown[] = { notANumber, 0, 0 };
-  EXPECT_TRUE(std::isnan(mixture.constantByMass(unknown)));
-}
-
 TEST(Mixture, ByVolumeAddsTheRefractivitiesOfItsParts)
 {
   // At one pressure and temperature, ideal gases have partial densities X_i p M_i / R T.
@@ -514,13 +490,6 @@ TEST(Mixture, ByVolumeAddsTheRefractivitiesOfItsParts)
   // Half and half: far from the mean of the constants.
   const double half = 0.5;
   EXPECT_NEAR((Mixture{ { helium }, lightAir }.constantByVolume(&half)), 2.2236e-4, 1e-8);
-}
-
-TEST(Mixture, ByVolumeIsByMassWhereMolarMassesAreEqual)
-{
-  const Mixture mixture{ { { 1e-4, 0.03 }, { 2e-4, 0.03 } }, { 3e-4, 0.03 } };
-  const double fractions[] = { 0.3, 0.45 };
-  EXPECT_NEAR(mixture.constantByVolume(fractions), mixture.constantByMass(fractions), 1e-18);
 }
 
 TEST(Mixture, ByVolumeNeedsMolarMasses)

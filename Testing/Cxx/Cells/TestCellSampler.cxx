@@ -210,33 +210,6 @@ TEST_P(CellsOnLattices, AreWhatEachCellSays)
 INSTANTIATE_TEST_SUITE_P(Types, CellsOnLattices, testing::ValuesIn(linearKinds()),
   [](const auto& tested) { return tested.param.name; });
 
-TEST(CellSampler, PolyhedraAreCutIntoTetrahedra)
-{
-  const Mesh boxesOnly = meshOf(VTK_HEXAHEDRON, 2, { unitCell(VTK_HEXAHEDRON, 8) }, 0, false);
-  auto mesh = Mesh::New();
-  mesh->SetPoints(boxesOnly->GetPoints());
-  constexpr int faces[6][4] = { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 }, { 1, 2, 6, 5 },
-    { 2, 3, 7, 6 }, { 3, 0, 4, 7 } };
-  for (vtkIdType i = 0; i < 8; ++i)
-  {
-    vtkNew<vtkIdList> corners, stream;
-    boxesOnly->GetCellPoints(i, corners);
-    stream->InsertNextId(6);
-    for (const auto& face : faces)
-    {
-      stream->InsertNextId(4);
-      for (const int corner : face)
-      {
-        stream->InsertNextId(corners->GetId(corner));
-      }
-    }
-    mesh->InsertNextCell(VTK_POLYHEDRON, stream);
-  }
-  setN(mesh, linear);
-  const auto cutMesh = filters::withoutPolyhedra(mesh);
-  EXPECT_LT(errorOf(sampled({ cutMesh }, unitLattice(19)), unitLattice(19)), 1e-15);
-}
-
 // Structured data have no lists of points; what VTK says of their cells is the truth.
 TEST(CellSampler, TakesStructuredData)
 {
@@ -375,33 +348,6 @@ TEST(CellSampler, CollapsedHexahedraLeaveNoHoles)
   }
 }
 
-// Boundary layers: a thousandth as thick as wide, sheared and bent.
-TEST(CellSampler, TakesStretchedCells)
-{
-  for (const CellKind& kind : linearKinds())
-  {
-    const Mesh mesh = meshOf(kind.type, 3, kind.cells, 0.1, false);
-    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-    {
-      double x[3];
-      mesh->GetPoint(i, x);
-      mesh->GetPoints()->SetPoint(i, x[0], x[1], 1e-3 * x[2] + 0.3 * x[0] + 0.002 * x[1] * x[1]);
-    }
-    setN(mesh, linear);
-    const Lattice lattice = { { 0.3, 0.01, 0.0902 }, { 2e-4, 0.05, 1e-4 }, { 10, 10, 30 } };
-    const Found found = sampled({ mesh }, lattice);
-    EXPECT_GT(std::count(found.found.begin(), found.found.end(), 1), 700) << kind.name;
-    EXPECT_LT(std::count(found.found.begin(), found.found.end(), 1), 2500) << kind.name;
-    for (std::size_t i = 0; i < found.values.size(); ++i)
-    {
-      if (found.found[i])
-      {
-        EXPECT_NEAR(found.values[i], linear(pointOf(lattice, i)), 1e-10 * 3e-4) << kind.name;
-      }
-    }
-  }
-}
-
 TEST(CellSampler, TakesCellsFarAway)
 {
   for (const CellKind& kind : linearKinds())
@@ -425,24 +371,6 @@ TEST(CellSampler, TakesCellsFarAway)
     const Found found = sampled({ mesh }, lattice);
     EXPECT_EQ(std::count(found.found.begin(), found.found.end(), 1), lattice.size()) << kind.name;
   }
-}
-
-TEST(CellSampler, LinearFieldsInCurvedCellsOfOrder3AreExact)
-{
-  vtkNew<vtkXMLUnstructuredGridReader> file;
-  file->SetFileName(SCHLIEREN_TEST_DATA "/blob_lagrange_hex.vtu");
-  file->Update();
-  setN(file->GetOutput(), linear);
-  const auto mesh = filters::asLinearCells(file->GetOutput());
-  const double* bounds = mesh->GetBounds();
-  Lattice lattice;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    lattice.first[axis] = bounds[2 * axis];
-    lattice.spacing[axis] = (bounds[2 * axis + 1] - bounds[2 * axis]) / 11;
-    lattice.points[axis] = 12;
-  }
-  EXPECT_LT(errorOf(sampled({ mesh }, lattice), lattice), 1e-10);
 }
 
 // Each point is itself, whatever is computed along with it.

@@ -113,40 +113,6 @@ TEST(Extrema, SmoothOnesAreKeptBetweenPoints)
   }
 }
 
-// Of shocks over one cell and some, plane and curved, and of peaks behind a shock; three cells and more from the
-// boundary, at which half of a shock looks like half of an extremum.
-TEST(Extrema, ShocksMakeNone)
-{
-  for (const double by : { 0., 0.05 })
-  {
-    for (const double jump : { 0.5, 0.46, 0.6 })
-    {
-      for (const double slope : { 0., 0.2 })
-      {
-        for (const double width : { 1e-6, 0.1, 0.2 })
-        {
-          const auto shock = [&](const Vec& x)
-          {
-            const double behind = x[0] + slope * x[1] * x[1] - jump;
-            const double front = std::clamp(behind / width + 0.5, 0., 1.);
-            return front * (1 - 0.3 * std::max(behind, 0.));
-          };
-          const Lattice lattice = { { 0.01, 0.01, 0.01 }, { 0.0295, 0.0295, 0.0295 },
-            { 34, 34, 34 } };
-          for (const KnownMesh& mesh : meshesOf(8, by, shock))
-          {
-            const std::vector<double> values = sampled(mesh.data, lattice);
-            EXPECT_GT(*std::min_element(values.begin(), values.end()), -0.018)
-              << mesh.name << by << jump << slope << width;
-            EXPECT_LT(*std::max_element(values.begin(), values.end()), 1.018)
-              << mesh.name << by << jump << slope << width;
-          }
-        }
-      }
-    }
-  }
-}
-
 // In their middles, too, which are no points of the mesh.
 TEST(Polyhedra, QuadraticFieldsAreExact)
 {

@@ -392,24 +392,6 @@ TEST(LinearCells, FacesWithinAMeshAreNoBoundary)
   }
 }
 
-// Parts of a tetrahedron's faces cover them once: their areas add up.
-TEST(LinearCells, PartsOfTrianglesCoverThem)
-{
-  const Mesh mesh = meshOf(VTK_QUADRATIC_TETRA, 1, { unitCell(VTK_QUADRATIC_TETRA, 10) }, 0, false);
-  const Faces faces = facesOf(mesh);
-  ASSERT_EQ(faces.size(), 4u * 4);
-  double area = 0;
-  for (std::size_t face = 0; face < faces.size(); ++face)
-  {
-    ASSERT_EQ(faces.starts[face + 1] - faces.starts[face], 3u);
-    const auto corner = [&](std::size_t i)
-    { return faces.points[static_cast<std::size_t>(faces.corners[faces.starts[face] + i])]; };
-    using filters::operator-;
-    area += 0.5 * filters::norm(cross(corner(1) - corner(0), corner(2) - corner(0)));
-  }
-  EXPECT_NEAR(area, 1.5 + std::sqrt(3.) / 2, 1e-12);
-}
-
 // Values of cells are those of linear cells with the same corners, which are hidden as the cells are.
 TEST(LinearCells, WithValuesOfCellsAreTheirCorners)
 {
@@ -455,33 +437,5 @@ TEST(LinearCells, LinearCellsStayWhatTheyAre)
   {
     const Mesh mesh = meshOf(kind.type, 2, kind.cells, 0.1, false);
     EXPECT_EQ(linearCellsOf(mesh), mesh) << kind.name;
-  }
-}
-
-TEST(MeshFaces, FacesOfLinearCellsBoundThem)
-{
-  std::vector<CellKind> kinds = linearKinds();
-  kinds.push_back({ "Voxels", VTK_VOXEL, { unitCell(VTK_VOXEL, 8) } });
-  for (const CellKind& kind : kinds)
-  {
-    const Mesh mesh = meshOf(kind.type, 3, kind.cells, 0, false);
-    addPointArray(mesh, "N", linear);
-    mesh->GetPointData()->SetActiveScalars("N");
-    const Faces faces = filters::facesOf({ mesh }, filters::WorkProgress());
-    using filters::operator+, filters::operator-, filters::operator*;
-    double sum = 0; // of areas, whose faces' corners are in order
-    for (std::size_t face = 0; face < faces.size(); ++face)
-    {
-      const auto at = [&](std::size_t i) -> const filters::Point&
-      { return faces.points[static_cast<std::size_t>(faces.corners[i])]; };
-      const std::size_t first = faces.starts[face];
-      filters::Point area{ 0, 0, 0 };
-      for (std::size_t i = first + 1; i + 1 < faces.starts[face + 1]; ++i)
-      {
-        area = area + 0.5 * filters::cross(at(i) - at(first), at(i + 1) - at(first));
-      }
-      sum += filters::norm(area);
-    }
-    EXPECT_NEAR(sum, 6, 1e-9) << kind.name;
   }
 }

@@ -291,18 +291,6 @@ TEST(Reconstruction, ABallOnTetrahedraIsSmooth)
   }
 }
 
-// Limits that know no smooth extrema from shocks flatten them.
-TEST(Reconstruction, WavesKeepTheirCrests)
-{
-  const auto wave = [](const Vec& x) { return std::sin(4 * pi * (x[0] + 0.1 * x[1])); };
-  const Mesh mesh = jittered(40, 0.2);
-  setN(mesh, wave);
-  EXPECT_GT(errorsOf(mesh, Reconstruction::Linear, wave, 60).divergence, 0.15);
-  const Errors smooth = errorsOf(mesh, Reconstruction::Smooth, wave, 60);
-  EXPECT_LT(smooth.deflection, 1.5e-3);
-  EXPECT_LT(smooth.divergence, 1.5e-2);
-}
-
 // Where a point has neighbours on all sides.
 TEST(Reconstruction, QuadraticFieldsAreExact)
 {
@@ -622,29 +610,4 @@ TEST(CellMeans, OneLayerOfCellsIsUniformAcross)
     error = isInside ? std::max(error, std::abs(value - field(x))) : error;
   }
   EXPECT_LT(error, 0.004);
-}
-
-TEST(CellMeans, MomentsOfPolyhedraAreThoseOfTheSameCells)
-{
-  for (const CellKind& kind : linearKinds())
-  {
-    const Mesh mesh = meshOf(kind.type, 2, kind.cells, 0, false);
-    setN(mesh, linear);
-    const Mesh polyhedra = asPolyhedra(mesh);
-    const filters::MeshArrays arrays(mesh);
-    for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
-    {
-      const auto right = filters::momentsOf(arrays, i);
-      const auto made = filters::momentsOfPolyhedron(polyhedra, i);
-      for (std::size_t n = 0; n < 3; ++n)
-      {
-        EXPECT_NEAR(made.middle[n], right.middle[n], 1e-12) << kind.name;
-      }
-      for (std::size_t n = 0; n < 6; ++n)
-      {
-        EXPECT_NEAR(made.second[n], right.second[n], kind.name == "Wedges" ? 1e-3 : 1e-12)
-          << kind.name;
-      }
-    }
-  }
 }

@@ -248,21 +248,6 @@ TEST(SharedPoints, BlocksHaveNoSeams)
   }
 }
 
-TEST(SharedPoints, BlocksOfImagesHaveNoSeams)
-{
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  for (const int side : { 0, 1 })
-  {
-    vtkNew<vtkImageData> block;
-    block->SetDimensions(9, 17, 9);
-    block->SetSpacing(0.125, 0.125, 0.25);
-    block->SetOrigin(side == 0 ? -1 : 0, -1, -1);
-    addPointArray(block, "N", column);
-    blocks->SetBlock(static_cast<unsigned>(side), block);
-  }
-  EXPECT_LT(errorOf(straightBench(blocks, false), byColumn(2)), 0.055); // 0.12 with a seam
-}
-
 // An O-grid: its first and last points along the angle coincide but for rounding, where the field is steep.
 TEST(SharedPoints, AGridThatMeetsItselfHasNoSeam)
 {
@@ -333,17 +318,6 @@ TEST(SharedPoints, ShocksInDiscontinuousElementsAreNoWalls)
     EXPECT_EQ(largest(valuesOf(filter, "BlockedFraction")), 0) << part;
     EXPECT_LT(errorOf(filter, expected), 0.15) << part;
   }
-}
-
-// The two sides of a wall without thickness stay apart where the mesh around it is joined.
-TEST(SharedPoints, SheetsStayWalls)
-{
-  const auto mesh = cutMesh(20);
-  setJump(
-    mesh, [](const Vec& x) { return std::abs(x[0]) < 0.45 && std::abs(x[1]) < 0.45 ? 0.3 : 0; });
-  auto filter = bench(mesh, pixels);
-  filter->SetPathModel(vtkSchlierenFilter::STRAIGHT);
-  expectSquare(filter, 0.35, 0.55);
 }
 
 // A cell without a value hides itself alone, though others have values at its points.

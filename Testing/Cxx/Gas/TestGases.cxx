@@ -128,17 +128,6 @@ constexpr double rounding = 1e-15;
 // Merzkirch 1987: every gas refracts as if alone, N = rho (K_He Y + K_air (1 - Y)).
 TEST(Mixture, OfTwoGasesByMass) { EXPECT_LT(largestError(mixture(flow()), mixtureOf), rounding); }
 
-TEST(Mixture, DensityScaleAndBackgroundCount)
-{
-  auto filter = mixture(flow());
-  filter->SetDensityScale(3);
-  filter->SetBackgroundGas("2e-4");
-  EXPECT_LT(largestError(filter,
-              [](const Vec& x)
-              { return 3 * density(x) * (helium * fraction(x) + 2e-4 * (1 - fraction(x))); }),
-    rounding);
-}
-
 // Two species and a background.
 TEST(Mixture, OfThreeGases)
 {

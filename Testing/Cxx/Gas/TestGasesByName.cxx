@@ -67,34 +67,6 @@ constexpr double rounding = 1e-14;
 
 } // namespace
 
-// Merzkirch 1987, Flow Visualization, 2nd ed., ch. 3: K in 1e-4 m^3/kg of gases, to three digits, and of
-// air at several wavelengths.
-TEST(GasByName, HasThePublishedConstant)
-{
-  struct Row
-  {
-    const char* gas;
-    double wavelength, constant, tolerance;
-  };
-  for (const Row& row : { Row{ "helium", 633, 1.96, 0.01 }, Row{ "argon", 633, 1.57, 0.01 },
-         Row{ "neon", 633, 0.75, 0.01 }, Row{ "hydrogen", 633, 1.55e1, 0.01 },
-         Row{ "nitrogen", 589, 2.38, 0.01 }, Row{ "oxygen", 589, 1.90, 0.01 },
-         Row{ "CO2", 589, 2.27, 0.01 },
-         // as of an ideal gas, whose density is 1.3 % less
-         Row{ "SF6", 633, 1.13, 0.035 }, Row{ "air", 912.5, 2.239, 5e-4 },
-         Row{ "air", 703.4, 2.250, 5e-4 }, Row{ "air", 607.4, 2.259, 5e-4 },
-         Row{ "air", 509.7, 2.274, 5e-4 }, Row{ "air", 407.9, 2.304, 5e-4 },
-         Row{ "air", 356.2, 2.330, 1e-3 } })
-  {
-    auto filter = filterOf(Index::GLADSTONE_DALE);
-    filter->SetGas(row.gas);
-    filter->SetWavelength(row.wavelength);
-    EXPECT_NEAR(constantOf(filter) / (row.constant * 1e-4), 1, row.tolerance)
-      << row.gas << " " << row.wavelength;
-    EXPECT_NEAR(constantOf(filter), vtkGasTable::GetConstant(row.gas, row.wavelength), 1e-18);
-  }
-}
-
 TEST(GasByName, IsAirOrOfTheConstantGiven)
 {
   auto filter = filterOf(Index::GLADSTONE_DALE);
@@ -131,24 +103,6 @@ TEST(GasByName, TableHoldsNothingElse)
     EXPECT_TRUE(std::isnan(vtkGasTable::GetConstant(none, 633)));
     EXPECT_TRUE(std::isnan(vtkGasTable::GetMolarMass(none)));
   }
-}
-
-// K = sum K_i Y_i, with K_i of the table or, of other gases, as given.
-TEST(MixtureByName, OfMasses)
-{
-  const double helium = vtkGasTable::GetConstant("helium", 532);
-  const double air = vtkGasTable::GetConstant("air", 532);
-  auto filter = mixtureOf({ "He" });
-  filter->SetWavelength(532);
-  EXPECT_STREQ(filter->GetBackgroundGas(), "air");
-  EXPECT_NEAR(constantOf(filter), fraction * helium + (1 - fraction) * air, rounding * 1e-4);
-  filter->SetBackgroundGas("2.26e-4");
-  EXPECT_NEAR(constantOf(filter), fraction * helium + (1 - fraction) * 2.26e-4, rounding * 1e-4);
-
-  filter = mixtureOf({ "helium", "5e-4" });
-  filter->SetWavelength(532);
-  EXPECT_NEAR(
-    constantOf(filter), fraction * helium + 0.5 * 5e-4 + (0.5 - fraction) * air, rounding * 1e-4);
 }
 
 // A decimal point is one also where a program has set a language with commas.

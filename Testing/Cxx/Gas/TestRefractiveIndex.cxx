@@ -78,21 +78,6 @@ TEST(RefractiveIndex, IndexKeepsItsDigits)
   EXPECT_NEAR(arrayOf(filter, "Refractivity")->GetComponent(2, 0), 3e-9, 2.3e-16);
 }
 
-TEST(RefractiveIndex, DoublesAreNotRounded)
-{
-  auto image = cube(3);
-  addPointArray(image, "N", [](const Vec& x) { return 1e-4 * (1 + x[0] / 3); });
-  auto filter =
-    refractiveIndex(image, vtkRefractiveIndex::REFRACTIVITY, vtkRefractiveIndex::INDEX_ARRAY, "N");
-  filter->Update();
-  EXPECT_EQ(arrayOf(filter, "Refractivity")->GetDataType(), VTK_DOUBLE);
-  for (vtkIdType i = 0; i < 27; ++i)
-  {
-    EXPECT_EQ(arrayOf(filter, "Refractivity")->GetComponent(i, 0),
-      image->GetPointData()->GetArray("N")->GetComponent(i, 0));
-  }
-}
-
 // Of points and of cells, as the data of an image and of a mesh.
 TEST(RefractiveIndex, TakesAnyNumericArray)
 {

@@ -132,27 +132,6 @@ TEST(Pipeline, RequestsFitHyperTrees)
   EXPECT_TRUE(ofVtk->Errors.empty());
 }
 
-TEST(Pipeline, TheHistogramIsASecondOutput)
-{
-  auto filter = bench(columnImage(32), 20);
-  filter->UpdateInformation();
-  vtkInformation* info = filter->GetOutputInformation(vtkSchlierenFilter::HISTOGRAM_PORT);
-  const std::array<int, 6> whole{ 0, 255, 0, 255, 0, 0 };
-  EXPECT_TRUE(std::equal(
-    whole.begin(), whole.end(), info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT())));
-  EXPECT_EQ(vtkImageData::GetScalarType(info), VTK_TYPE_INT64);
-  filter->Update(vtkSchlierenFilter::HISTOGRAM_PORT);
-  auto* histogram =
-    vtkImageData::SafeDownCast(filter->GetOutputDataObject(vtkSchlierenFilter::HISTOGRAM_PORT));
-  EXPECT_TRUE(std::equal(whole.begin(), whole.end(), histogram->GetExtent()));
-  ASSERT_NE(histogram->GetPointData()->GetScalars(), nullptr);
-  EXPECT_STREQ(histogram->GetPointData()->GetScalars()->GetName(), "Rays");
-  EXPECT_NEAR(
-    histogram->GetOrigin()[0], -127.5 * histogram->GetSpacing()[0], 1e-9); // bins' centres
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 20 * 20);            // one update makes both
-  EXPECT_TRUE(workOfUpdate(filter) == none);
-}
-
 TEST(Pipeline, OutputsAreNotTurnedWithTheInput)
 {
   const double turned[9] = { 0, -1, 0, 1, 0, 0, 0, 0, 1 };
@@ -265,37 +244,6 @@ TEST(Pipeline, AnotherWavelengthConvertsOnlyWhatDependsOnIt)
   EXPECT_EQ(workOfUpdate(filter).builds, 1);
   EXPECT_NEAR(largest(valuesOf(filter, "OpticalPathDifference")) / red,
     vtkGasTable::GetConstant("helium", 400) / vtkGasTable::GetConstant("helium", 600), 1e-5);
-}
-
-TEST(Pipeline, ProgressRunsFromZeroToOne)
-{
-  auto filter = bench(columnImage(64), 128);
-  const WatchedProgress watch(filter);
-  const std::vector<double>& progress = watch.seen;
-  filter->Update();
-  ASSERT_GT(progress.size(), 3u);
-  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
-  EXPECT_EQ(progress.back(), 1);
-}
-
-// Stopped while the refractivity is found (0.01) or while rays are traced (0.3).
-TEST(Pipeline, AbortLeavesAnEmptyImageAndTheNextUpdateAWholeOne)
-{
-  for (const double limit : { 0.01, 0.3 })
-  {
-    auto filter = bench(columnImage(64), 256);
-    Complaints* complaints = new Complaints(filter);
-    {
-      const WatchedProgress watch(filter, limit);
-      filter->Update();
-    }
-    EXPECT_TRUE(isEmpty(filter)) << limit;
-    EXPECT_TRUE(complaints->Errors.empty()) << limit;
-    filter->Update();
-    EXPECT_FALSE(isEmpty(filter)) << limit;
-    EXPECT_EQ(filter->GetMediumBuilds(), 1) << limit;
-    complaints->Delete();
-  }
 }
 
 TEST(Pipeline, ChainWithRefractiveIndexIsTheSame)

@@ -110,64 +110,6 @@ TEST(ArrayChoice, WhatIsChosenWins)
   EXPECT_STREQ(filter->GetArraysUsed(), "Temperature: 'D'; Pressure: 'p'.");
 }
 
-TEST(ArrayChoice, TheUnitInANameCountsUnlessAScaleIsGiven)
-{
-  for (const char* name : { "Density [g/cm3]", "rho_gcc" })
-  {
-    auto flow = cube(17);
-    addPointArray(flow, name, bump(1.2e-3, 1.3e-3));
-    auto inSI = cube(17);
-    addPointArray(inSI, "rho", bump(1.2, 1.3));
-    auto given = filterOf(flow);
-    choose(given, Medium::DENSITY, name);
-    given->SetDensityScale(1000);
-    auto left = filterOf(flow);
-    expectSameImage(left, given);
-    EXPECT_EQ(left->GetArraysUsed(), "Density: '" + std::string(name) + "' times 1000.");
-    auto half = filterOf(flow);
-    choose(half, Medium::DENSITY, name);
-    expectSameImage(half, given);
-    auto reference = filterOf(inSI);
-    reference->Update();
-    EXPECT_LT(relativeDifference(valuesOf(left, "OpticalPathDifference"),
-                valuesOf(reference, "OpticalPathDifference")),
-      1e-5);
-    given->SetDensityScale(1);
-    given->Update();
-    EXPECT_NEAR(largest(valuesOf(given, "OpticalPathDifference")) /
-        largest(valuesOf(left, "OpticalPathDifference")),
-      1e-3, 1e-6);
-  }
-}
-
-TEST(ArrayChoice, MoistAirAndMixtures)
-{
-  auto air = cube(17);
-  addPointArray(air, "p", bump(900, 1000)); // hPa, as weather models write it
-  addPointArray(air, "T", bump(280, 300));
-  auto given = filterOf(air);
-  given->SetIndexModel(Medium::CIDDOR);
-  choose(given, Medium::TEMPERATURE, "T");
-  choose(given, Medium::PRESSURE, "p");
-  given->SetPressureScale(100);
-  expectSameImage(filterOf(air), given);
-
-  auto flame = cube(17);
-  addPointArray(flame, "density", bump(0.2, 1.1));
-  addPointArray(flame, "Y(H2)", bump(0, 0.1));
-  auto mixture = filterOf(flame);
-  mixture->SetIndexModel(Medium::GLADSTONE_DALE_MIXTURE);
-  choose(mixture, Medium::DENSITY, "density");
-  mixture->AddMixtureArray("Y(H2)");
-  mixture->AddMixtureGas("H2");
-  auto left = filterOf(flame);
-  expectSameImage(left, mixture);
-  EXPECT_STREQ(left->GetArraysUsed(), "Density: 'density'; fractions: 'Y(H2)'.");
-  // One gas by the user's choice.
-  left->SetGas("helium");
-  EXPECT_STREQ(left->GetArraysUsed(), "Density: 'density'.");
-}
-
 // A ball that either kind of name marks blocks light, as much as if the mask were chosen; None blocks none.
 TEST(ArrayChoice, MasksByTheirNames)
 {
@@ -194,21 +136,6 @@ TEST(ArrayChoice, MasksByTheirNames)
     left->Update();
     EXPECT_EQ(largest(valuesOf(left, "BlockedFraction")), 0);
   }
-}
-
-TEST(ArrayChoice, TheGridFilterTakesTheSame)
-{
-  auto flow = flowWithRho();
-  vtkNew<Medium> medium;
-  medium->SetInputData(flow);
-  medium->Update();
-  EXPECT_STREQ(medium->GetArraysUsed(), "Density: 'rho'.");
-  double range[2];
-  vtkImageData::SafeDownCast(medium->GetOutput())
-    ->GetPointData()
-    ->GetArray("Refractivity")
-    ->GetRange(range);
-  EXPECT_NEAR(range[1], 1.3 * vtkGasTable::GetConstant("air", 632.8), 1e-9);
 }
 
 TEST(ArrayChoice, WhereNothingIsKnownOneMessageSaysWhatThereIs)

@@ -335,16 +335,6 @@ TEST(Photograph, KnifeEdgeIsFoundWhereLightIsClipped)
   }
 }
 
-TEST(Photograph, EdgeFromTheOtherSideIsFound)
-{
-  const Taken taken = take(jet().light, jet().grid, truePlace(), jet().undisturbed);
-  auto bench = jetBench();
-  bench->SetKnifeEdgeAngle(270);
-  auto comparison = compared(bench, taken, truePlace());
-  comparison->Update();
-  EXPECT_NEAR(fieldValue(comparison, "PhotographAngle"), edgeAngle, 0.3);
-}
-
 TEST(Photograph, KAndOffsetCannotBeSeparatedWithoutClippedLight)
 {
   const Jet weak(0.35, 0);
@@ -404,19 +394,6 @@ TEST(Photograph, FeaturesOfALongerJetAreFoundWhereTheyAre)
   EXPECT_TRUE(has(report(comparison), "Warning: it was placed by its flow")) << report(comparison);
   EXPECT_LT(std::abs(errorsOfShift(comparison, 0).disc), 1.5);
   EXPECT_GT(distanceOf(foundPlace(comparison), truePlace(), pixel), 2);
-}
-
-TEST(Photograph, FlowThatIsRightPlacesThePhotograph)
-{
-  const Taken taken = take(jet().light, jet().grid, truePlace(), jet().undisturbed);
-  Place start = truePlace();
-  start.scale *= 1.03;
-  start.rotation += 0.03;
-  start.position[0] += 3 * pixel;
-  auto comparison = compared(jet().bench, taken, start);
-  comparison->SetFitPlace(vtkCompareWithPhotograph::FIT_FLOW);
-  comparison->Update();
-  EXPECT_LT(distanceOf(foundPlace(comparison), truePlace(), pixel), 0.5);
 }
 
 TEST(Photograph, SilhouettePlacesThePhotograph)
@@ -564,13 +541,6 @@ TEST(Photograph, FringesOfTheImageAreNotThoseOfThePhotograph)
   EXPECT_LT(fieldValue(comparison, "PhotographCorrelation"), 0.6);
 }
 
-TEST(Photograph, ReferenceBeamIsFoundWithAWeakFlow)
-{
-  const ReferenceBeam truth{ halfHeight / 6, 120, 0.4, 0.6 };
-  const Interferograms of(truth, 0.01); // a tenth of a fringe
-  expectFringes(compared(of.bench, of.taken, truePlace()), truth);
-}
-
 TEST(Photograph, SideOfTheReferenceBeamIsNotSeenWithoutFlow)
 {
   const ReferenceBeam truth{ halfHeight / 6, 120, 0.4, 0.6 };
@@ -687,54 +657,6 @@ TEST(Photograph, SixteenBitsOfColourAreLuminance)
   comparison->Update();
   const Plane green = planeOf(comparison, "Photograph");
   EXPECT_NEAR(green(100, 75), 0.7152 * plain(100, 75), 1e-4);
-}
-
-TEST(Photograph, PhotographOfManyPixelsTakesSeconds)
-{
-  constexpr int factor = 30; // 27 million pixels
-  const Taken taken = take(jet().light, jet().grid, truePlace(), jet().undisturbed);
-  const auto enlarged = [](vtkImageData* image)
-  {
-    auto large = vtkSmartPointer<vtkImageData>::New();
-    large->SetDimensions(factor * columns, factor * rows, 1);
-    vtkNew<vtkUnsignedShortArray> array;
-    array->SetNumberOfValues(large->GetNumberOfPoints());
-    auto* values = vtkUnsignedCharArray::SafeDownCast(image->GetPointData()->GetScalars());
-    for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
-    {
-      const vtkIdType row = i / (factor * columns) / factor,
-                      column = i % (factor * columns) / factor;
-      array->SetValue(
-        i, static_cast<unsigned short>(257 * values->GetValue(row * columns + column)));
-    }
-    large->GetPointData()->SetScalars(array);
-    return large;
-  };
-  Taken large{ enlarged(taken.withFlow), enlarged(taken.withoutFlow) };
-  Film film;
-  film.width = factor * columns;
-  film.height = factor * rows;
-  const Place place = truePlace(film.width, film.height);
-  auto comparison = compared(jet().bench, large, place, true, film);
-  comparison->SetMirrorCenter(
-    0.5 * (film.width - 1) + factor * mirrorX, 0.5 * (film.height - 1) + factor * mirrorY);
-  comparison->GetInputAlgorithm(0, 0)->Update();
-  const std::clock_t begin = std::clock();
-  comparison->Update();
-  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 15);
-  EXPECT_NEAR(fieldValue(comparison, "PhotographK") / jet().k, 1, 0.02);
-  EXPECT_LT(errorsOfShift(comparison, 0).median, 0.05);
-}
-
-TEST(Photograph, BlackPhotographIsNotFitted)
-{
-  const Taken taken = take(jet().light, jet().grid, truePlace(), jet().undisturbed);
-  taken.withFlow->GetPointData()->GetScalars()->Fill(0);
-  auto comparison = compared(jet().bench, taken, truePlace());
-  comparison->Update();
-  EXPECT_TRUE(has(report(comparison), "no light in it")) << report(comparison);
-  EXPECT_EQ(fieldArray(comparison, "PhotographContrast"), nullptr);
-  EXPECT_FALSE(isEmpty(comparison));
 }
 
 TEST(Photograph, MistakesAreOneMessage)

@@ -79,16 +79,6 @@ double bordersByElsewhere(vtkSchlierenFilter* filter, const IsAtBorder& isAtBord
   return atBorders / elsewhere;
 }
 
-TEST(Amr, BordersOfBlocksDoNotShow)
-{
-  auto filter = bench(ballOnLevels(32, { { 0, 32, true }, { 16, 32, true }, { 48, 32 } }), 127);
-  filter->SetParallelScale(0.95);
-  filter->Update();
-  EXPECT_LT(bordersByElsewhere(filter,
-              [](double x) { return std::abs(x - 0.5) < 0.06 || std::abs(x - 0.25) < 0.03; }),
-    1);
-}
-
 // Of which no grid over all of the domain fits in memory: 512 of the finest cells along each edge.
 vtkSmartPointer<vtkOverlappingAMR> deepBall(const GaussianBall& ball)
 {
@@ -207,15 +197,6 @@ TEST(Amr, BodiesInDeepLevelsCastSharpShadows)
   const double pixel = 0.2 / 200;
   const double area = std::accumulate(blocked.begin(), blocked.end(), 0.) * pixel * pixel;
   EXPECT_NEAR(area / (pi * 0.05 * 0.05), 1, 0.01);
-}
-
-TEST(Amr, BlocksOfOneLevelMatchTheClosedForm)
-{
-  auto filter = bench(ballOnLevels(32, { { 0, 32, true } }), 128);
-  filter->SetParallelScale(0.95);
-  filter->Update();
-  EXPECT_LT(
-    compareWithBall(filter, GaussianBall()).deflection, 8e-3); // values taken as points': 2e-2
 }
 
 // The levels need not be known as such, nor lie over each other.

@@ -6,7 +6,6 @@
 
 #include "vtkAppendFilter.h"
 #include "vtkDataSetTriangleFilter.h"
-#include "vtkExtractVOI.h"
 #include "vtkImageDataToPointSet.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiBlockDataSet.h"
@@ -15,7 +14,6 @@
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkXMLImageDataReader.h"
 
 namespace
 {
@@ -144,38 +142,6 @@ TEST(Flat, MeshesAreAsDeepAsGiven)
   }
 }
 
-// One slice of a shock that the file holds 3-D: the same optical path for each unit of length.
-TEST(Flat, SliceOfAShockIsAsDeepAsItIsThick)
-{
-  vtkNew<vtkXMLImageDataReader> reader;
-  reader->SetFileName(SCHLIEREN_TEST_DATA "/oblique_shock_extruded.vti");
-  reader->Update();
-  vtkImageData* whole = reader->GetOutput();
-  vtkNew<vtkExtractVOI> slice;
-  slice->SetInputData(whole);
-  const int* extent = whole->GetExtent();
-  slice->SetVOI(extent[0], extent[1], extent[2], extent[3], extent[4], extent[4]);
-  slice->Update();
-  const double depth = whole->GetBounds()[5] - whole->GetBounds()[4];
-  const auto pathsThrough = [](vtkDataObject* input)
-  {
-    auto filter = bench(input);
-    filter->SetIndexModel(vtkRefractiveIndex::GLADSTONE_DALE);
-    filter->SetInputArrayToProcess(
-      vtkRefractiveIndex::DENSITY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rho");
-    filter->SetDensityScale(1e-3); // so weak that no ray is displaced
-    filter->SetDepth(1);
-    filter->Update();
-    return valuesOf(filter, "OpticalPathDifference");
-  };
-  std::vector<double> expected = pathsThrough(whole);
-  for (double& path : expected)
-  {
-    path /= depth;
-  }
-  EXPECT_LT(relativeDifference(pathsThrough(slice->GetOutput()), expected), 1e-4);
-}
-
 // Hidden cells, and points of which all cells are hidden, are solid in two dimensions, too.
 TEST(Flat, HiddenCellsBlock)
 {
@@ -261,34 +227,6 @@ TEST(Flat, TheUnitOfLengthsDoesNotMatter)
       EXPECT_NEAR(paths[0], 1e-4 * 0.02, 4e-8); // half a pixel from the middle
       EXPECT_NEAR(paths[1] / paths[0], 1, 1e-5);
       EXPECT_NEAR(paths[2] / paths[0], 1, 1e-5);
-    }
-  }
-}
-
-TEST(Flat, OpticalPathsAreInProportionToDepth)
-{
-  auto image = bump(1, 2);
-  std::vector<vtkSmartPointer<vtkDataObject>> inputs = asMeshes(image);
-  inputs.emplace_back(image);
-  for (const auto& input : inputs)
-  {
-    auto filter = bench(input);
-    filter->SetPathModel(vtkSchlierenFilter::STRAIGHT);
-    filter->SetDepth(1);
-    filter->Update();
-    const std::vector<double> once = valuesOf(filter, "OpticalPathDifference");
-    const double bent = largestOf(filter, "Deflection");
-    for (const double depth : { 0.001, 50. })
-    {
-      filter->SetDepth(depth);
-      filter->Update();
-      std::vector<double> paths = valuesOf(filter, "OpticalPathDifference");
-      for (double& path : paths)
-      {
-        path /= depth;
-      }
-      EXPECT_LT(relativeDifference(paths, once), 1e-5) << depth;
-      EXPECT_NEAR(largestOf(filter, "Deflection") / bent / depth, 1, 1e-5) << depth;
     }
   }
 }

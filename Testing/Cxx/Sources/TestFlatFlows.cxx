@@ -4,15 +4,12 @@
 // Two-dimensional flows as they are computed: bodies in far fields, triangles, adaptive meshes.
 #include "Fixtures.h"
 
-#include "vtkDelaunay2D.h"
 #include "vtkDiskSource.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
 #include "vtkSphereSource.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
-
-#include <random>
 
 namespace
 {
@@ -237,55 +234,6 @@ TEST(FlatFlows, ALayerIsSeenObliquely)
   EXPECT_NEAR(shadowOf(filter), cosine * (1 + 2 * 0.4 / pi), 0.01);
 }
 
-TEST(FlatFlows, JitteredTrianglesAreRightToThreeThousandths)
-{
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> jitter(-0.25, 0.25);
-  constexpr int cells = 60; // ten for each radius
-  constexpr double width = 1. / 3;
-  const auto field = [](double a, double b)
-  { return 1e-6 * std::exp(-(a * a + b * b) / (width * width)); };
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (int j = 0; j <= cells; ++j)
-  {
-    for (int i = 0; i <= cells; ++i)
-    {
-      const bool isInside = i > 0 && j > 0 && i < cells && j < cells;
-      const auto at = [&](int k)
-      { return -1 + 2. / cells * (k + (isInside ? jitter(random) : 0)); };
-      const double a = at(i), b = at(j);
-      points->InsertNextPoint(a, b, 0.3 + 1e-6 * jitter(random)); // as rounding may make it
-    }
-  }
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(points);
-  vtkNew<vtkDelaunay2D> triangles;
-  triangles->SetInputData(cloud);
-  triangles->Update();
-  for (const bool ofCells : { false, true })
-  {
-    vtkPolyData* mesh = triangles->GetOutput();
-    const auto ofPlace = [&](const Vec& x) { return field(x[0], x[1]); };
-    ofCells ? addCellArray(mesh, "N", ofPlace)
-            : static_cast<void>(addPointArray(mesh, "N", ofPlace));
-    auto filter = flatBench(mesh, 128);
-    if (ofCells)
-    {
-      filter->SetInputArrayToProcess(
-        vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
-    }
-    filter->SetParallelScale(0.95);
-    filter->SetMediumTolerance(1e-3);
-    filter->Update();
-    const auto isWithin = [](double, double) { return true; };
-    const Errors errors = errorsOf(filter, field, isWithin);
-    EXPECT_LT(errors.rms, ofCells ? 0.015 : 0.003) << ofCells; // 0.055 and 0.014 on a grid
-    mesh->GetPointData()->Initialize();
-    mesh->GetCellData()->Initialize();
-  }
-}
-
 // Ten cells a pixel and waves of twelve cells: as fine as its voxels are, an image of a target error shows the mean of a pixel.
 TEST(FlatFlows, WavesOfAPixelAreTheirMean)
 {
@@ -327,34 +275,6 @@ TEST(FlatFlows, WavesOfAPixelAreTheirMean)
   const double error = errors[errors.size() * 99 / 100];
   EXPECT_LT(error, 0.006); // 0.016 with voxels of a quarter of a pixel
   EXPECT_LT(error, 2 * fieldValue(filter, "ErrorReached"));
-}
-
-// Values of cells beside a shock.
-TEST(FlatFlows, LittleOvershootsBesideAShock)
-{
-  auto image = cube(65);
-  int dimensions[3] = { 65, 65, 1 };
-  image->SetDimensions(dimensions);
-  addCellArray(image, "N", [](const Vec& x) { return x[0] < 0.1 ? 1e-6 : 3e-6; });
-  vtkNew<vtkStructuredGrid> mesh;
-  mesh->SetDimensions(dimensions);
-  vtkNew<vtkPoints> points;
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    points->InsertNextPoint(image->GetPoint(i));
-  }
-  mesh->SetPoints(points);
-  mesh->GetCellData()->AddArray(image->GetCellData()->GetArray("N"));
-  auto filter = flatBench(mesh, 256);
-  filter->SetInputArrayToProcess(
-    vtkRefractiveIndex::INDEX_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "N");
-  filter->SetAmbientRefractivity(0);
-  filter->SetMediumTolerance(1e-3);
-  filter->Update();
-  const std::vector<double> path = valuesOf(filter, "OpticalPathDifference");
-  const auto [lowest, highest] = std::minmax_element(path.begin(), path.end());
-  EXPECT_GT(*lowest, 0.95e-6);
-  EXPECT_LT(*highest, 3.05e-6);
 }
 
 // Two levels, refined in the middle.
@@ -456,49 +376,5 @@ TEST(FlatFlows, BodiesAreCutByThePlane)
       filter->Update();
       EXPECT_NEAR(shadowOf(filter), 1 + 0.64, 0.02);
     }
-  }
-}
-
-TEST(FlatFlows, MaskedCellsAreBodies)
-{
-  const Plane plane{ 0 };
-  auto mesh = cylinderMesh(plane);
-  addPointArray(mesh, "solid", [](const Vec& x) { return x[1] > 0 && std::abs(x[2]) < 3 ? 1 : 0; });
-  auto filter = flatBench(mesh, 128);
-  filter->SetInputArrayToProcess(
-    vtkRefractiveIndex::MASK, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "solid");
-  plane.look(filter);
-  filter->SetParallelScale(6);
-  filter->Update();
-  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(0));
-  const std::vector<double> blocked = valuesOf(filter, "BlockedFraction");
-  for (std::size_t i = 0; i < blocked.size(); ++i)
-  {
-    const double* x = image->GetPoint(static_cast<vtkIdType>(i));
-    const bool isIn = std::hypot(x[0], x[1]) < 0.9 || (x[0] > 0.3 && std::abs(x[1]) < 2.8);
-    const bool isOut = std::hypot(x[0], x[1]) > 1.1 && (x[0] < -0.7 || std::abs(x[1]) > 3.5);
-    EXPECT_TRUE(isIn ? blocked[i] == 1 : !isOut || blocked[i] == 0) << x[0] << ' ' << x[1];
-  }
-}
-
-// Other values on the same mesh.
-TEST(FlatFlows, TimeStepsKeepWhatIsKnownOfTheMesh)
-{
-  auto mesh = cylinderMesh({ 2 });
-  auto filter = flatBench(mesh, 64);
-  filter->SetParallelScale(3);
-  filter->SetFocalPoint(0, 0, 0);
-  for (const double factor : { 1., 2., 4. })
-  {
-    addPointArray(
-      mesh, "N", [&](const Vec& x) { return factor * 1e-6 * CylinderFlow::density(x[0], x[1]); });
-    mesh->Modified();
-    filter->Update();
-    EXPECT_EQ(filter->GetMeshBuilds(), 1);
-    auto fresh = flatBench(mesh, 64);
-    fresh->SetParallelScale(3);
-    fresh->SetFocalPoint(0, 0, 0);
-    fresh->Update();
-    EXPECT_EQ(valuesOf(filter, "Deflection"), valuesOf(fresh, "Deflection")) << factor;
   }
 }

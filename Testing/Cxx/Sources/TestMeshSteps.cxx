@@ -190,31 +190,6 @@ TEST(MeshSteps, NewValuesOnTheMeshAreThoseOfANewMesh)
   }
 }
 
-TEST(MeshSteps, ImagesOnTheMeshAreThoseOfANewFilter)
-{
-  for (const auto& [name, make] : kinds())
-  {
-    SCOPED_TRACE(name);
-    auto filter = bench(nullptr, 24);
-    filter->SetAmbientRefractivity(-1);
-    filter->SetMediumTolerance(0.1);
-    for (double time = 1; time < 3; ++time)
-    {
-      filter->SetInputDataObject(make(time));
-      filter->Update();
-      auto fresh = bench(make(time), 24);
-      fresh->SetAmbientRefractivity(-1);
-      fresh->SetMediumTolerance(0.1);
-      fresh->Update();
-      ASSERT_FALSE(isEmpty(filter));
-      EXPECT_EQ(valuesOf(filter, "Intensity"), valuesOf(fresh, "Intensity"));
-      EXPECT_EQ(valuesOf(filter, "Deflection"), valuesOf(fresh, "Deflection"));
-    }
-    EXPECT_EQ(filter->GetMeshBuilds(), 1);
-    EXPECT_EQ(filter->GetMediumBuilds(), 2);
-  }
-}
-
 // What a mesh is made of is looked at: nobody says Modified() here.
 TEST(MeshSteps, WhatChangesTheMeshIsSeen)
 {

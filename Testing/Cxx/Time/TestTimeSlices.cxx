@@ -216,44 +216,6 @@ TEST(TimeSlices, TheLastImageFillsThePromisedExtent)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 120 * 20);
 }
 
-TEST(TimeSlices, AnotherPropertyInTheMidstMakesAnotherImage)
-{
-  const auto image = columnImage();
-  const std::pair<const char*, void (*)(vtkSchlierenFilter*)> changes[] = {
-    { "cutoff", [](vtkSchlierenFilter* filter) { filter->SetKnifeEdgeAngle(60); } },
-    { "view", [](vtkSchlierenFilter* filter) { filter->SetViewDirection(1, 0.2, 0); } },
-    { "medium", [](vtkSchlierenFilter* filter) { filter->SetAmbientRefractivity(1e-5); } },
-    { "more samples", [](vtkSchlierenFilter* filter) { filter->SetSamplesPerPixel(5); } }
-  };
-  for (const auto& [what, change] : changes)
-  {
-    SCOPED_TRACE(what);
-    auto fresh = smallBench(image);
-    change(fresh);
-    fresh->Update();
-    for (const bool isRefined : { false, true }) // the order does not matter
-    {
-      auto filter = smallBench(image);
-      filter->SetTimeLimit(shortest);
-      filter->Update();
-      for (int slice = 0; slice < 14; ++slice)
-      {
-        filter->Refine();
-        filter->Update();
-      }
-      EXPECT_FALSE(filter->GetFinished());
-      if (isRefined)
-      {
-        filter->Refine();
-      }
-      change(filter);
-      filter->Refine();
-      updateInSlices(filter);
-      expectSameImage(filter, fresh);
-    }
-  }
-}
-
 TEST(TimeSlices, RefineBeginsAfterAnotherProperty)
 {
   const auto image = columnImage();

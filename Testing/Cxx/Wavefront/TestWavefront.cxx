@@ -203,20 +203,6 @@ TEST(Wavefront, PlaneWavefrontHasAnAiryPattern)
   }
 }
 
-TEST(Wavefront, SquareBeamHasItsFarField)
-{
-  auto filter = wavefrontOf([](double, double) { return 0; });
-  filter->SetApertureShape(vtkWavefront::APERTURE_SQUARE);
-  filter->Update();
-  EXPECT_EQ(number(filter, "AperturePixels"), pixels * pixels);
-  const double angle = farField(filter)->GetSpacing()[0];
-  for (int points = 1; points < 100; ++points)
-  {
-    const double v = pi * points * angle * diameter / wavelength;
-    EXPECT_NEAR(beside(filter, "PointSpread", points), std::pow(std::sin(v) / v, 2), 1e-4);
-  }
-}
-
 TEST(Wavefront, StrehlOfDefocusIsItsClosedForm)
 {
   double coarsest = 0;
@@ -363,37 +349,6 @@ TEST(Wavefront, LargestApertureHasLightThroughTheDataEverywhere)
   EXPECT_NEAR(number(filter, "ApertureDiameter") / pixel, 40, 1e-9);
   EXPECT_EQ(number(filter, "AperturePixels"), 1600);
   EXPECT_NEAR(place(number(filter, "ApertureY"), 96), 39.5, 1e-6);
-}
-
-TEST(Wavefront, LargestCircleIsThatOfASearch)
-{
-  constexpr int columns = 40, rows = 70;
-  std::mt19937 random(3);
-  std::vector<std::array<int, 2>> dark;
-  auto image = imageOf([](double, double) { return 0; }, columns, rows);
-  vtkDataArray* path = image->GetPointData()->GetArray("OpticalPathDifference");
-  for (int i = 0; i < 12; ++i)
-  {
-    dark.push_back({ static_cast<int>(random() % columns), static_cast<int>(random() % rows) });
-    path->SetComponent(dark.back()[1] * columns + dark.back()[0], 0, std::nan(""));
-  }
-  double largest = 0;
-  for (int row = 0; row < rows; ++row)
-  {
-    for (int column = 0; column < columns; ++column)
-    {
-      double distance = std::min({ column + 1, columns - column, row + 1, rows - row });
-      for (const auto& pixel : dark)
-      {
-        distance = std::min(distance, std::hypot(pixel[0] - column, pixel[1] - row));
-      }
-      largest = std::max(largest, 2 * distance - 1);
-    }
-  }
-  vtkNew<vtkWavefront> filter;
-  filter->SetInputData(image);
-  filter->Update();
-  EXPECT_NEAR(number(filter, "ApertureDiameter") / image->GetSpacing()[0], largest, 1e-9);
 }
 
 TEST(Wavefront, MistakesAreOneMessage)
