@@ -6,7 +6,7 @@ or where the rays of the brushed pixels go, and the image shows it without Apply
 import os
 
 import numpy as np
-from views_testing import check_baseline, frame, load, png, png_of_text, simple, views, write_png
+from views_testing import load, png, png_of_text, simple
 from window_testing import FOLDER, PANEL, PROPERTIES, VIEW, Session
 
 WIDGET, PREVIEW = "ColorFilterImage", "ColorFilterImage/Preview"
@@ -49,7 +49,6 @@ user.event(f"{PROPERTIES}/{WIDGET}/BrushSize", "set_int", 12)
 line = ((-0.5, 0.25), (0.5, 0.25))
 stroke(*line)
 look("stroke")
-user.save_state("stroke.pvsm")
 
 # A dab by keys: 8 * 2 steps of 1/64 to the left of where the mouse was, and 1 up.
 for name in ("ShiftLeft", "ShiftLeft", "Up", "Space"):
@@ -233,31 +232,3 @@ assert np.array_equal(*cameras)
 
 load("image.pvsm")
 assert simple.FindSource("bench").ColorFilterImage == text
-
-
-def check_shown(name, painted):
-    """The image, as the view shows it behind this filter."""
-    bench, ((_, view),) = simple.FindSource("bench"), views()
-    bench.ColorFilterImage = os.path.join(FOLDER, "exact.png")
-    write_png(painted, bench.ColorFilterImage)
-    frame(bench, view, [270, 270], 10)
-    check_baseline(view, name, [270, 270])
-
-
-# What is at the rim depends on the window's size, so that it is painted again as if the mouse had been in the
-# middle of the pixel.
-exact = np.rint(WHEEL)
-exact[distances(places[away < 0], on_filter).min(axis=0) < 0.06] = COLOR
-assert (np.abs(exact - decoded(text)).max(axis=2) > 1).mean() < 0.02
-check_shown("WindowPaintOnImage.png", exact)
-
-# So is the stroke on the filter, moved back by what the widget's middle depends on the font; all else of the
-# filter is the wheel, see above.
-load("stroke.pvsm")
-bench = simple.FindSource("bench")
-assert bench.ColorFilterImage == seen("stroke")[0]
-back = [-round(away * SIDE / 2) for away in shift]
-exact = decoded(bench.ColorFilterImage)
-exact[colored] = np.rint(WHEEL)[colored]
-exact[np.roll(colored, (back[1], back[0]), (0, 1))] = COLOR
-check_shown("WindowPaintColorFilter.png", exact)

@@ -37,16 +37,6 @@ SetActiveSource(benches["bench"])
 """
 
 
-def scripted(simple, schlieren, kept, name="bench"):
-    """A script's own filter with the view of one whose image was saved."""
-    flow = simple.Calculator(Input=simple.Wavelet(WholeExtent=3 * [-8, 8]), ResultArrayName="rho", Function="RTData")
-    flow.UpdatePipeline()
-    return schlieren(Input=flow, ImageSize=[SIZE, SIZE], GladstoneDaleConstant=1e-6, Quality="Fine",
-                     Cutoff={"bench": "Knife Edge", "shadows": "Shadowgraph"}[name],
-                     ViewDirection=list(kept["direction"]), ViewUp=list(kept["up"]),
-                     FocalPoint=list(kept["focus"]), ParallelScale=float(kept["scale"]))
-
-
 def saved(name):
     with np.load(os.path.join(FOLDER, name + ".npz")) as kept:
         return dict(kept)

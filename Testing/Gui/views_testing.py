@@ -81,16 +81,6 @@ def frame(bench, view, size, scale):
     view.UseFXAA = 0  # would mix neighbouring pixels where they differ much
 
 
-def show_grey(bench, view):
-    """As the toolbar's images are shown: black is 0, white is 1."""
-    simple.ColorBy(shown(bench, view), ("POINTS", "Intensity"))
-    colors = simple.GetColorTransferFunction("Intensity")
-    colors.AutomaticRescaleRangeMode = "Never"
-    colors.ColorSpace = "RGB"
-    colors.RGBPoints = [0, 0, 0, 0, 1, 1, 1, 1]
-    shown(bench, view).SetScalarBarVisibility(view, False)
-
-
 def check_baseline(view, name, size):
     """What the view shows, or several views side by side, is the kept image of that name."""
     several = view if isinstance(view, list) else [view]

@@ -2,12 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Names, values and defaults that scripts rely on, and what a change of each one does again."""
 
-import os
-import sys
-
 import numpy as np
 from defaults_testing import check_defaults, property_tables
-from paraview.simple import AppendDatasets, Calculator, Clip, Sphere
 from plugin_testing import MadeByUsers, RefractiveIndex, Schlieren, gaussian_column, output, image_array
 from schlieren.vtkSchlierenFilters import vtkRefractiveIndex, vtkSchlierenFilter
 
@@ -145,37 +141,6 @@ moved = output(bench).GetOrigin()
 assert np.allclose(np.subtract(moved, centred), [0.25, -0.5, 0]), (moved, centred)
 bench.FocalPoint = []
 assert np.allclose(output(bench).GetOrigin(), centred)
-
-# A body: its shadow, and no other image without it.
-free = image_array(bench, "Deflection")
-bench.Bodies = Sphere(Radius=0.4)
-blocked = image_array(bench, "BlockedFraction") * output(bench).GetSpacing()[0]**2
-assert abs(blocked.sum() / (np.pi * 0.4**2) - 1) < 0.2, blocked.sum()
-bench.Bodies = None
-assert np.array_equal(image_array(bench, "Deflection"), free)
-assert image_array(bench, "BlockedFraction").max() == 0
-with_body = Schlieren(Input=source, Bodies=Sphere(Radius=0.4), Density=["POINTS", "rho"])
-assert image_array(with_body, "BlockedFraction").max() == 1
-
-# Outside of a mesh light may pass.
-mesh = Clip(AppendDatasets(source), ClipType="Sphere")
-mesh.ClipType.Radius = 0.8
-outside = Schlieren(mesh, Density=["POINTS", "rho"], ImageSize=[16, 16])
-for value, blocked in (("Blocks", 1), ("Passes", 0)):
-    outside.Outside = value
-    assert image_array(outside, "BlockedFraction")[8, 1] == blocked, value
-
-# A mask: light ends where rho is high, and only then.
-top = 0.9 * source.GetDataInformation().GetPointDataInformation().GetArrayInformation("rho").GetComponentRange(0)[1]
-dense = Calculator(source, ResultArrayName="dense", Function=f"rho - {top} + 0.5")
-dense.UpdatePipeline()
-masked = Schlieren(dense, Density=["POINTS", "rho"], ImageSize=[16, 16])
-assert masked.Mask[1] == "None", masked.Mask
-assert image_array(masked, "BlockedFraction").max() == 0
-masked.Mask = ["POINTS", "dense"]
-assert 0 < image_array(masked, "BlockedFraction").mean() < 0.5
-masked.Mask = ["POINTS", "None"]
-assert image_array(masked, "BlockedFraction").max() == 0
 
 # A shadowgraph's screen: an automatic one is further away than the far side of the data.
 bench.Cutoff = "Shadowgraph"
