@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Schlieren contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The demo takes what the filter takes: a plane, a series, blocks, the folder of a decomposed OpenFOAM case."""
+"""The demo takes what the filter takes: a plane, a series, blocks, the folder of a decomposed OpenFOAM case, a formula."""
 
 import os
 import shutil
@@ -67,3 +67,8 @@ shutil.rmtree(os.path.join("case", "constant", "polyMesh"))
 if not os.path.isdir(os.path.join("case", "system")):
     open(os.path.join("case", "case.foam"), "w", encoding="ascii").close()
 check("case", "--set", "Outside=Passes")
+
+# A file that holds no density, and a grid whose values are in another file, in dimensionless units.
+check(os.path.join(case, "ladenburg.foam"), "--formula", "p/(287.1*T)", "--set", "Outside=Passes")
+check(os.path.join(DATA, "bluntfin_plot3d", "bluntfinxyz.bin"), "--density-scale", "0.72", "--length-scale", "0.0127",
+      saying=["bluntfinq.bin", "'Density'"])
