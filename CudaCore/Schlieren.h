@@ -169,7 +169,6 @@ struct Scene
   /// of Cutoff::Background pixels of displacement; else the fraction of full scale, of a shadowgraph of undisturbed light,
   /// not counting what light displaced by 0.05 pixels explains.
   double targetError = 0;
-  bool estimatesErrors = false; ///< with a targetError: those of all pixels, in Accuracy::estimate
 
   PathModel pathModel = PathModel::Refracted;             ///< straight or refracted rays
   Integrator integrator = Integrator::Leapfrog;           ///< of refracted rays

@@ -34,10 +34,9 @@ bool Bench::Stages::findSettings(Aim& ofImage, const Watch& watch)
     return true;
   }
   scene.screenDistance = request.scene.screenDistance;
-  Pilot<Real>& pilot =
-    targets.pilotOf<Real>({ view->key, ofImage.device, field.lengthScale, view->projection,
-                            scene.seed, scene.estimatesErrors },
-      [&] { return std::make_unique<Pilot<Real>>(*view, scene); });
+  Pilot<Real>& pilot = targets.pilotOf<Real>(
+    { view->key, ofImage.device, field.lengthScale, view->projection, scene.seed },
+    [&] { return std::make_unique<Pilot<Real>>(*view, scene); });
   const double k = scene.kScale.value_or(
     automaticK(pilot.view().strongDeflection, techniqueOf(scene.cutoff).fullScale));
   if (ofImage.isPaused)

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 namespace schlieren
@@ -12,8 +11,7 @@ namespace schlieren
 struct Difference
 {
   double value;
-  double pixels;         ///< of the whole image that it stands for
-  std::size_t pixel = 0; ///< of its patch
+  double pixels; ///< of the whole image that it stands for
 };
 using Differences = std::vector<Difference>;
 

@@ -174,7 +174,7 @@ void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& pat
       (edges == Edges::Count || !(a.isStopped[pixel] || b.isStopped[pixel])))
     {
       const double difference = differenceAt(pixel, a, b, patch, factor, scene, projection);
-      differences.push_back({ difference, patch.weight, pixel });
+      differences.push_back({ difference, patch.weight });
     }
   }
 }
@@ -188,7 +188,7 @@ void addSlopesAtEdges(
     if (pixels.hasMet[pixel] && pixels.isLit[pixel])
     {
       const double slope = pixels.isStopped[pixel] ? unit * slopeAt(pixel, pixels.light, patch) : 0;
-      differences.push_back({ slope, patch.weight, pixel });
+      differences.push_back({ slope, patch.weight });
     }
   }
 }

@@ -39,7 +39,7 @@ public:
   {
   }
 
-  PatchLayout layOut(std::int64_t margin, bool wantsAllPixels);
+  PatchLayout layOut(std::int64_t margin);
 
 private:
   /// A square of pixels that may be a patch.
@@ -65,7 +65,7 @@ private:
   bool findOrigin(Patch& patch) const;
   /// Whether light through a patch lands so far from it that others' light may be there instead.
   bool movesLightAway(const Patch& patch) const;
-  void takeWholeIfCheaper(std::int64_t margin, bool isWanted);
+  void takeWholeIfCheaper(std::int64_t margin);
 
   const Scouts& scouts_;
   const View& view_;
@@ -76,7 +76,7 @@ private:
 };
 
 /// Divides the view into cells, of one scout or as large as a patch, and these into strata.
-PatchLayout Planner::layOut(std::int64_t margin, bool wantsAllPixels)
+PatchLayout Planner::layOut(std::int64_t margin)
 {
   const std::int64_t stride = scouts_.stride();
   const std::int64_t size = (Patch::edge + stride - 1) / stride; // scouts
@@ -140,7 +140,7 @@ PatchLayout Planner::layOut(std::int64_t margin, bool wantsAllPixels)
   sortAlongBorder(atBorders);
   spread(atBorders, patchesAtBorders, PatchPlace::Border);
 
-  takeWholeIfCheaper(margin, wantsAllPixels);
+  takeWholeIfCheaper(margin);
   return std::move(layout_);
 }
 
@@ -161,9 +161,9 @@ void Planner::sortAlongBorder(Cells& cells)
     [&](const Cell& a, const Cell& b) { return directionOf(a) < directionOf(b); });
 }
 
-/// Makes the image the only patch where that is wanted, where others miss their light, or where the rays around them are
+/// Makes the image the only patch where others miss their light, or where the rays around them are
 /// more than that takes. Light that few scouts have met may be between the patches.
-void Planner::takeWholeIfCheaper(std::int64_t margin, bool isWanted)
+void Planner::takeWholeIfCheaper(std::int64_t margin)
 {
   double moved = 0;
   for (const Scout& scout : scouts_.all())
@@ -201,7 +201,7 @@ void Planner::takeWholeIfCheaper(std::int64_t margin, bool isWanted)
     static_cast<double>(scouts_.view().crossed) / static_cast<double>(scouts_.all().size());
   const bool isNarrow =
     patches == 0 || (crossing < few && crossing * raysOf(whole) < mostRays * rays);
-  if (isWanted || isNarrow || static_cast<double>(lost_) > mostLost * patches ||
+  if (isNarrow || static_cast<double>(lost_) > mostLost * patches ||
     rays > mostRays * raysOf(whole))
   {
     layout_.isWhole = true;
@@ -374,10 +374,9 @@ bool Planner::movesLightAway(const Patch& patch) const
 
 } // namespace
 
-PatchLayout layOutPatches(
-  const Scouts& scouts, const View& view, std::int64_t margin, bool wantsAllPixels)
+PatchLayout layOutPatches(const Scouts& scouts, const View& view, std::int64_t margin)
 {
-  return Planner(scouts, view).layOut(margin, wantsAllPixels);
+  return Planner(scouts, view).layOut(margin);
 }
 
 } // namespace schlieren

@@ -49,8 +49,7 @@ struct PatchLayout
   bool isWhole = false;  ///< both sets are the image, set 0
 };
 
-/// `margin`: pixels around the image from which light may be bent into it; `wantsAllPixels`: the image is the patch.
-PatchLayout layOutPatches(
-  const Scouts& scouts, const View& view, std::int64_t margin, bool wantsAllPixels);
+/// `margin`: pixels around the image from which light may be bent into it.
+PatchLayout layOutPatches(const Scouts& scouts, const View& view, std::int64_t margin);
 
 } // namespace schlieren

@@ -22,7 +22,7 @@ Pilot<Real>::Pilot(const ViewSetup<Real>& setup, const Scene& scene)
   : setup_(setup)
   , scene_(scene)
   , scouts_(taskFor(longestStep, setup.medium.medium), setup_, scene_)
-  , layout_(layOutPatches(scouts_, scene_.view, setup_.margin, scene_.estimatesErrors))
+  , layout_(layOutPatches(scouts_, scene_.view, setup_.margin))
 {
   for (std::size_t set = 0; set < 2; ++set)
   {

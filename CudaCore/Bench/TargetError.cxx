@@ -363,7 +363,7 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
     };
     const bool isOnScreen = techniqueOf(scene.cutoff).plane == RecordedPlane::Screen;
     // Where the image is the patch, that would take longer than the image, and these rays are traced.
-    const bool isTraced = samples > fewRays && pilot.isWhole() && !scene.estimatesErrors;
+    const bool isTraced = samples > fewRays && pilot.isWhole();
     ofRays = isTraced
       ? compare(samples / fewRays, samples)
       : compare(samples,
@@ -385,26 +385,6 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   settings.accuracy.reached =
     sum(steps.errorOf(ofSteps, settings.samples, mayExceed), exceededBy(mayExceed, ofRays));
   settings.accuracy.largest = sum(largestOf(ofSteps), largestOf(ofRays));
-  if (scene.estimatesErrors) // of the image, which is the patch
-  {
-    const auto pixels =
-      static_cast<std::size_t>(scene.view.width) * static_cast<std::size_t>(scene.view.height);
-    PixelArray<float> estimate(pixels);
-    std::fill(estimate.begin(), estimate.end(), 0.F);
-    std::vector<double> all(pixels, 0.);
-    const auto add = [&](const Differences& differences, double factor)
-    {
-      for (const Difference& one : differences)
-      {
-        all[one.pixel] = sumOf(all[one.pixel], factor * one.value);
-        estimate[one.pixel] =
-          static_cast<float>(sumOf(all[one.pixel], known.voxels, known.rounding));
-      }
-    };
-    add(ofSteps, bySteps);
-    add(ofRays, 1);
-    settings.accuracy.estimate = std::move(estimate);
-  }
 }
 
 template <class Real>
@@ -459,8 +439,7 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
     const bool isSame = tries > 0 && settings.step == last.step &&
       settings.samples == last.samples && settings.samplesAtEdges == last.samplesAtEdges;
     const bool isHopeless = !canBeKept && settings.accuracy.limit == ErrorSource::Steps;
-    verify(settings, pilot, steps, known, !(isHopeless && pilot.isWhole()) || scene.estimatesErrors,
-      monitor);
+    verify(settings, pilot, steps, known, !(isHopeless && pilot.isWhole()), monitor);
     if (isSame || !canBeKept || settings.accuracy.isKept() || !isResolved)
     {
       break;

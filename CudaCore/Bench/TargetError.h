@@ -66,14 +66,13 @@ struct PilotKey
   double lengthScale;
   Projection projection;
   std::uint32_t seed;
-  bool wantsAllPixels;
 
   auto tie() const
   {
     const Projection& p = projection;
     return std::tuple_cat(view.tie(),
       std::tie(device, lengthScale, p.distance, p.perDataUnit, p.pathPerDataUnit, p.exitRatio,
-        p.perSourceDistance, p.isOfCamera, seed, wantsAllPixels));
+        p.perSourceDistance, p.isOfCamera, seed));
   }
 };
 

@@ -29,7 +29,6 @@ struct Accuracy
   double reached = 0; ///< of 99 % of the pixels whose light has crossed the data
   double largest = 0; ///< of the pixels that were looked at
   ErrorSource limit = ErrorSource::None;
-  PixelArray<float> estimate{}; ///< of each pixel; empty without Scene::estimatesErrors
   bool isKept() const { return reached <= target; }
 };
 

@@ -41,8 +41,8 @@ inline double pixelOnBackground(const Frame& frame, const Scene& scene)
 }
 
 /// At a pixel. The path counts where no body covers the pixel's centre, whose path it is.
-inline double trueErrorAt(const Image& image, const Image& truth, const Scene& scene,
-  std::size_t pixel, bool isClear = true)
+inline double trueErrorAt(
+  const Image& image, const Image& truth, const Scene& scene, std::size_t pixel, bool isClear)
 {
   double ofLight = 0;
   const auto look = [&](const PixelArray<float>& a, const PixelArray<float>& b, std::size_t at) {

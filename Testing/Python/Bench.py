@@ -121,7 +121,7 @@ comes_back("bench.pvsm", script, check)
 
 # So do state files with properties that there are no more, without a word.
 GONE = ("InvertCutoff", "CutoffPosition", "HomogeneityTolerance", "FullWell", "BitDepth", "Bandwidth", "MaskedSide",
-        "WhiteLight")
+        "WhiteLight", "ErrorEstimate")
 with open("bench.pvsm", encoding="utf-8") as file:
     older, count = re.subn(r'<Proxy group="filters" type="Schlieren" id="(\d+)"[^>]*>', lambda proxy: proxy[0] + "".join(
         f'<Property name="{name}" id="{proxy[1]}.{name}" number_of_elements="1"><Element index="0" value="1"/></Property>'

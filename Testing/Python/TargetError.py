@@ -79,25 +79,6 @@ fin = simple.PLOT3DReader(FileName=[os.path.join(DATA, "bluntfin_plot3d", "blunt
                           FunctionFileName="", Functions=[100])
 check(fin, 0.05, Density=["POINTS", "Density"])
 
-# Errors of all pixels, as an array.
-for source, settings in ((jet, {"LengthScale": 0.001}), (fin, {"Density": ["POINTS", "Density"]})):
-    bench = Schlieren(source, TargetError=0.02, ErrorEstimate=1, **SETTINGS, **settings)
-    image = output(bench)
-    estimate = vtk_to_numpy(image.GetPointData().GetArray("ErrorEstimate")).astype(float)
-    path = vtk_to_numpy(image.GetPointData().GetArray("OpticalPathDifference"))
-    crossed = (path != 0) & (estimate > 0)
-    reached, largest = fact(image, "ErrorReached"), fact(image, "ErrorLargest")
-    # Those of steps and rays are added in each pixel here, and as quantiles there.
-    assert 0.5 * reached < np.quantile(estimate[crossed], 0.99) < 1.5 * reached, (reached, np.quantile(estimate, 0.99))
-    assert 0.5 * largest < estimate.max() <= 1.001 * largest, (largest, estimate.max())
-    bench.ErrorEstimate = 0
-    assert not output(bench).GetPointData().HasArray("ErrorEstimate")
-    bench.ViewDirection, bench.ImageSize = [-0.3, 0.1, -1], [24, 18]  # nor that of the view before
-    assert not output(bench).GetPointData().HasArray("ErrorEstimate")
-    bench.ErrorEstimate = 1
-    assert output(bench).GetPointData().GetArray("ErrorEstimate").GetNumberOfTuples() == 24 * 18
-    simple.Delete(bench)
-
 # What cannot be kept is said.
 bench = Schlieren(jet, TargetError=1e-9, ImageSize=[16, 16])
 image = output(bench)

@@ -79,7 +79,6 @@ void vtkSchlierenFilter::FitKOverSeries()
   this->TimeLimit = 0;
   this->SamplesPerPixel = 1; // k is chosen from the first ray of each pixel
   this->TargetError = 0;
-  this->ErrorEstimate = false;
   double k = 0;
   for (std::size_t i = 0; i < times.size(); ++i)
   {

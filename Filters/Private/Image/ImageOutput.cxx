@@ -148,10 +148,6 @@ void setOutput(vtkImageData* output, schlieren::Image& image)
     arrays->AddArray(newVectors("BackgroundDisplacement", image.backgroundDisplacement, dataUnits));
     addWithUnit(output, "PatternPixel", image.patternPixel, dataUnits);
   }
-  if (!image.accuracy.estimate.empty())
-  {
-    arrays->AddArray(newArray<vtkFloatArray>("ErrorEstimate", image.accuracy.estimate, 1, "1"));
-  }
 
   addFieldValue<vtkStringArray>(output, "SchlierenVersion", schlieren::version());
   addFieldValue<vtkStringArray>(

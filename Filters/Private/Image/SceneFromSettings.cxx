@@ -274,7 +274,6 @@ schlieren::Scene sceneFrom(
     scene.lightModel == schlieren::LightModel::Rays;
   scene.integrator =
     !hasTarget && areExact ? schlieren::Integrator::Adaptive : schlieren::Integrator::Leapfrog;
-  scene.estimatesErrors = settings.ErrorEstimate;
   scene.mediumMemory = static_cast<std::size_t>(settings.MediumMemory) << 20;
   scene.device = static_cast<schlieren::Device>(settings.Device);
   scene.threads = threadsFrom(settings.NumberOfThreads);

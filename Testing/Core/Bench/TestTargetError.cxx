@@ -157,42 +157,6 @@ TEST_P(TargetError, IsKeptInATree)
     std::make_shared<BallsSource>(std::vector<Ball>{ { { 0, 0, 0 }, 0.4, 1e-3 } }, 1., 0.1)));
 }
 
-/// The error of each pixel is stated.
-TEST_P(TargetError, OfAllPixelsIsStated)
-{
-  const SampledField<float> field(cube(48, 1), shock);
-  Scene scene = sceneOf(GetParam());
-  scene.targetError = 4 * GetParam().target;
-  scene.estimatesErrors = true;
-  const Image image = Bench().render(field.field, scene);
-  const Image truth = finest(field.field, scene, image.kScale);
-  ASSERT_EQ(image.accuracy.estimate.size(), truth.intensity.size());
-  ASSERT_TRUE(image.accuracy.isKept());
-  double largestEstimate = 0;
-  std::vector<double> errors;
-  std::int64_t isBelow = 0;
-  for (std::size_t pixel = 0; pixel < truth.intensity.size(); ++pixel)
-  {
-    const double estimate = static_cast<double>(image.accuracy.estimate[pixel]);
-    largestEstimate = std::max(largestEstimate, estimate);
-    if (truth.opticalPathDifference[pixel] != 0)
-    {
-      const double error = trueErrorAt(image, truth, scene, pixel);
-      errors.push_back(error);
-      isBelow += error <= 2 * estimate + 0.05 * scene.targetError ? 1 : 0;
-    }
-  }
-  std::sort(errors.begin(), errors.end());
-  const auto most = static_cast<std::size_t>(0.99 * static_cast<double>(errors.size()));
-  EXPECT_LE(errors[most], scene.targetError);
-  EXPECT_GT(image.accuracy.largest, 0.5 * errors.back());
-  EXPECT_LT(image.accuracy.largest, 4 * errors.back());
-  EXPECT_GT(largestEstimate,
-    0.5 * image.accuracy.largest); // the largest of steps may be elsewhere than that of rays
-  EXPECT_LE(largestEstimate, 1.0001 * image.accuracy.largest);
-  EXPECT_GT(isBelow, 0.95 * static_cast<double>(errors.size()));
-}
-
 /// What nothing can keep is said.
 TEST(TargetErrors, ThatCannotBeKeptAreSaid)
 {

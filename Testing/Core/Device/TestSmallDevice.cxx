@@ -104,7 +104,6 @@ TEST_F(SmallDevice, LooksAtAViewWithWhatThereIs)
   Bench bench;
   render(bench);
   scene_.targetError = 1. / 64;
-  scene_.estimatesErrors = true; // of all pixels, which are looked at
   scene_.view.viewDirection = { 0.1, 0.2, -1 };
   const Image expected = rendered();
   EXPECT_EQ(expected.device, Device::Cuda);
