@@ -25,7 +25,6 @@ namespace
 /// How much of an image's progress belongs to making the medium's voxels, where some are to be made.
 constexpr double fractionOfVoxels = 0.3;
 
-/// A monitor for making voxels.
 Monitor monitorOfVoxels(UnfinishedImage& request, const Monitor& monitor)
 {
   Monitor ofTree;

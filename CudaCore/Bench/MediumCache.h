@@ -78,7 +78,6 @@ private:
   std::unique_ptr<ProcessTracer<Real>> together_;
 };
 
-/// The medium of a bench.
 template <class Real>
 struct MediumOfBench
 {
@@ -102,7 +101,6 @@ public:
   /// Takes the next media from these, or adds them; null: from none.
   void setMedia(std::shared_ptr<SharedMedia> media) { media_ = std::move(media); }
 
-  /// Whether the medium of a field is there.
   bool holds(const Field& field, const Scene& scene) const;
   /// Gives a scene with a target error what the medium of its field that is there has: finer voxels, double precision.
   void adopt(const Field& field, Scene& scene) const;

@@ -111,7 +111,6 @@ struct RaysOnDevice
     return exits[(row - margin - pass.firstRow) * pass.columns + column - margin -
       pass.firstColumn];
   }
-  /// Counts the blocks that work for rows.
   unsigned blocks(std::int64_t rowCount) const
   {
     return static_cast<unsigned>(

@@ -101,7 +101,6 @@ public:
     return static_cast<std::size_t>(rays);
   }
 
-  /// The rays before a band.
   std::size_t raysBefore(std::int64_t band) const
   {
     if (band >= bands_)

@@ -176,7 +176,6 @@ void pqCutoffView::keyPressEvent(QKeyEvent* event)
   pqCutoff cutoff = this->Cutoff;
   if (turns)
   {
-    // Turns clockwise for Right.
     cutoff.Angle = std::fmod(cutoff.Angle + (right ? 360 - turnStep : turnStep), 360);
   }
   else if (moves)

@@ -67,7 +67,6 @@ public:
   QPointF turnHandle(const pqCutoff& cutoff) const;
   double turnRadius() const;
 
-  /// Returns the handle at a pixel.
   Handle handleAt(const pqCutoff& cutoff, const QPointF& pixel) const;
 
   /// Returns the cutoff after dragging a handle of `start` from a pixel to another, rounded to the

@@ -68,7 +68,6 @@ private:
   QLabel* Note;
   QAbstractButton *Clear, *Save = nullptr, *Light = nullptr, *OnImage = nullptr;
 
-  // The brush of a colour filter.
   pqColorFilterImage::Brush Brush;
   QImage Canvas, Underneath;
   bool IsPainting = false;

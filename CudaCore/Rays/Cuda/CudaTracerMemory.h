@@ -27,7 +27,6 @@ void copyRays(T* toHost, const T* fromDevice, std::size_t count, const CudaStrea
     "Fetching rays");
 }
 
-/// What a tracer has on the device.
 template <class Real>
 struct CudaTracer<Real>::DeviceMemory
 {

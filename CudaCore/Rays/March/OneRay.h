@@ -84,7 +84,6 @@ SCHLIEREN_HD Entry meetGrid(const RayTask<Number>& task, const Pass& pass, std::
   return { chord.from, { slope[0], slope[1] }, cosine };
 }
 
-/// Where a ray of a batch starts.
 template <class Number, int Lanes>
 SCHLIEREN_HD Vec3<double> startOf(const RayBatch<Number, Lanes>& batch, int i)
 {

@@ -14,7 +14,6 @@
 namespace schlieren
 {
 
-/// Which kernel.
 struct KernelChoice
 {
   PathModel path;

@@ -271,7 +271,6 @@ struct RaysInMedium
     return by < 0 ? -by : by;
   }
 
-  /// Finds the drift at the end.
   SCHLIEREN_HD void findDrift()
   {
     if constexpr (!Path::bends)

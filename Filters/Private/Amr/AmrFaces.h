@@ -11,7 +11,6 @@
 namespace filters
 {
 
-/// The state of a cell of a level.
 enum class CellState : unsigned char
 {
   None,    ///< not in a block of this or a finer level

@@ -87,7 +87,6 @@ private:
   std::vector<std::int32_t> Order;
 };
 
-/// Returns the square of a point's distance to a triangle.
 double squaredDistance(const Triangles& surface, std::size_t triangle, const Point& place);
 
 /// Sorts triangles and points, independently of ranks, and removes duplicate triangles. `marks`: of the triangles.

@@ -25,7 +25,6 @@ public:
 
   /// Stores the arrays of this rank, unless those of all ranks are known.
   void Note(std::vector<FlowArray> arrays);
-  /// Stores the arrays of all ranks.
   void SetOfRanks(std::vector<FlowArray> arrays);
   bool AreOfRanks() const { return this->AreAll; }
 

@@ -20,7 +20,6 @@ inline void setUnit(vtkDataArray* array, const char* unit)
   array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
 }
 
-/// Adds an array of values to the field data.
 template <class Array, class Values>
 void addFieldValues(
   vtkDataObject* output, const char* name, const Values& values, int components = 1)
@@ -35,7 +34,6 @@ void addFieldValues(
   output->GetFieldData()->AddArray(array);
 }
 
-/// Adds an array of one value.
 template <class Array, class Value>
 void addFieldValue(vtkDataObject* output, const char* name, const Value& value)
 {

@@ -35,7 +35,6 @@ void addColor(vtkImageData* output, const schlieren::Image& image);
 /// Adds spacing (data units) and angle (degrees) of finite fringes, and the wavelength (metres) of light that has only one.
 void addFringes(vtkImageData* output, const schlieren::Scene& scene);
 
-/// Adds statistics of the medium.
 void addMedium(vtkImageData* output, const schlieren::MediumStatistics& medium);
 
 /// Returns statistics as text: "1234 leaves on levels 1 to 5, ...".

@@ -23,7 +23,6 @@ std::string errorInWords(const schlieren::Accuracy& accuracy, const schlieren::S
 /// Says whether waves matter to an image whose LightModel is not Rays; empty for others.
 std::string wavesInWords(const schlieren::Image& image);
 
-/// Returns how much of an image's light is blocked, 0 to 1.
 double blockedShare(const schlieren::Image& image);
 /// Says how much light is blocked where no cell is; empty for less than a thousandth.
 std::string outsideInWords(const schlieren::Image& image, bool isAlone);

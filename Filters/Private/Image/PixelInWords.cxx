@@ -59,7 +59,6 @@ std::string axisName(vtkImageData* image, const char* direction, const char* oth
   return otherwise;
 }
 
-/// Returns a shift, metres, in words.
 std::string shiftInWords(double right, double up)
 {
   const double length = std::hypot(right, up);

@@ -187,7 +187,6 @@ bool flattenCells(const Leaf& leaf, const Sides& sides, const Planes& planes, Re
     }
     return found;
   };
-  /// Returns whether a point is of both planes.
   const auto isOfBoth = [&](vtkIdType point) {
     return sideOf(point) == Both || (opposite(point) < 0 && planes.areOneAt(placeOf(data, point)));
   };

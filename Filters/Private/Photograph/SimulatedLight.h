@@ -60,7 +60,6 @@ public:
     return this->Is != Technique::DarkField && !this->hasFringes();
   }
 
-  /// Whether the fit has fringes.
   bool hasFringes() const { return this->Is == Technique::Interferogram; }
   /// Fringes with the opposite tilt and phase, which look the same without flow; and without any contrast.
   static Parameters mirrored(const Parameters& ofFringes);

@@ -29,7 +29,6 @@ namespace
 constexpr int layersForPoints = 4;
 constexpr int layersForMeans = 6;
 
-/// Returns whether cells have values.
 bool hasCellValues(vtkDataSet* mesh)
 {
   return mesh->GetCellData()->GetNumberOfArrays() > (mesh->GetCellGhostArray() ? 1 : 0);

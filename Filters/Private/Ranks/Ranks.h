@@ -23,7 +23,6 @@ namespace filters
 /// others leave them empty.
 bool isRank0();
 
-/// Returns whether there are other ranks.
 bool hasOtherRanks();
 
 /// Declares, in RequestData, outputs complete for their whole extents. Otherwise, ranks with empty

@@ -89,7 +89,6 @@ public:
 
 private:
   WorkProgress progressOf(double from, double to) const;
-  /// Fills `made` from an image.
   void makeImage(const Choice& choice, MadeRefractivity& made);
   std::shared_ptr<const schlieren::MediumSource> sourceOfImage(
     vtkImageData* refractivity, vtkDataObject* bodies, std::string& warning);

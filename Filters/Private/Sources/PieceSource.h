@@ -29,7 +29,6 @@ public:
 
   bool hasGas() const { return this->All.cells > 0; }
   const GasBoundary& boundary() const { return *this->Boundary; }
-  /// Returns whether bodies meet the bounds.
   bool meetsBodies() const { return this->Boundary->hasBodiesIn(this->bounds()); }
 
   schlieren::Box bounds() const override { return this->All.bounds; }

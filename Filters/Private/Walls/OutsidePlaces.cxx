@@ -158,7 +158,6 @@ void OutsidePlaces::markCrossed(const Triangles& own)
   }
 }
 
-/// Returns the parts of places of a kind.
 OutsidePlaces::Parts OutsidePlaces::partsOf(Kind kind) const
 {
   Classes classes(this->count());
