@@ -60,16 +60,6 @@ TEST_F(KeptK, IsNoneAtFirst)
   EXPECT_EQ(fresh->GetLockedK(), 0);
 }
 
-TEST_F(KeptK, IsFoundAgainForAnyImage)
-{
-  for (const double time : { 0., 2., 1., 0. })
-  {
-    this->filter->FitK();
-    EXPECT_DOUBLE_EQ(this->kAt(time), this->own[time]);
-    EXPECT_FALSE(this->saysLocked());
-  }
-}
-
 TEST_F(KeptK, AutomaticIsThatOfTheFirstImage)
 {
   EXPECT_DOUBLE_EQ(this->kAt(1), this->own[1]);
@@ -256,26 +246,6 @@ protected:
 
 } // namespace
 
-TEST_F(KeptAmbient, KeepsTheSurroundingsOfTheFirstImage)
-{
-  const double first = this->ambientAt(1);
-  EXPECT_NEAR(first, 2e-4, 1e-8);
-  EXPECT_EQ(this->filter->GetLockedAmbient(), 0);
-  for (const double time : { 2., 0., 1., 2. })
-  {
-    EXPECT_EQ(this->ambientAt(time), first) << time;
-  }
-  EXPECT_EQ(this->filter->GetLockedAmbient(), first);
-  // A corner that the column hardly reaches: fringes count what the gas has become, over a depth of 2.
-  const double b = vtkImageData::SafeDownCast(this->filter->GetOutputDataObject(0))->GetOrigin()[0];
-  EXPECT_NEAR(valuesOf(this->filter, "OpticalPathDifference")[0],
-    2 * 1e-4 + 3 * GaussianColumn().opticalPath(b), 1e-8);
-  // Not what only changes the light.
-  this->filter->SetCutoff(Filter::KNIFE_EDGE);
-  this->filter->SetParallelScale(0.3);
-  EXPECT_EQ(this->ambientAt(2), first);
-}
-
 TEST_F(KeptAmbient, AnotherMediumOrDataHaveTheirOwn)
 {
   this->ambientAt(0);
@@ -292,16 +262,6 @@ TEST_F(KeptAmbient, AnotherMediumOrDataHaveTheirOwn)
   EXPECT_EQ(this->ambientAt(1), 5e-4);
   this->filter->SetAmbientRefractivity(-1);
   EXPECT_NEAR(this->ambientAt(1), 1e-4, 1e-8);
-}
-
-TEST_F(KeptAmbient, CanBeGiven)
-{
-  this->filter->SetLockedAmbient(7e-5);
-  EXPECT_EQ(this->ambientAt(2), 7e-5);
-  EXPECT_EQ(this->ambientAt(1), 7e-5);
-  EXPECT_EQ(this->filter->GetLockedAmbient(), 7e-5);
-  this->filter->SetLockedAmbient(0);
-  EXPECT_NEAR(this->ambientAt(1), 2e-4, 1e-8);
 }
 
 // The medium need not be made again where the surroundings are what was found for it.
