@@ -216,9 +216,9 @@ bool vtkSchlierenFilter::Render(vtkImageData* output, vtkImageData* histogram, b
     }
   }
   schlieren::Image image = this->Begin(false, this->TimeLimit, monitor);
-  // Shows no time step with the image of another: an animation does not wait until that is refined.
-  while (
-    inside.ShownTime != inside.Time && image.intensity.empty() && !image.finished && !image.aborted)
+  // A time step is not shown with the image of another: an animation does not wait until that is refined.
+  while (inside.ShownTime && inside.ShownTime != inside.Time && image.intensity.empty() &&
+    !image.finished && !image.aborted)
   {
     image = inside.Images.Resume(this->TimeLimit, monitor);
   }
