@@ -11,6 +11,8 @@ from demo_testing import SOURCE, snippets
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+trapezoid = np.trapezoid if hasattr(np, "trapezoid") else np.trapz  # its name before NumPy 2
+
 EXAMPLE = os.path.join(SOURCE, "Examples", "wavefront.py")
 with open(EXAMPLE, encoding="utf-8") as file:
     lines = file.read().splitlines()
@@ -25,7 +27,7 @@ u, v = (values[np.hypot(*np.meshgrid(places, places)) <= 0.025] for values in np
 y = np.linspace(0, made["thickness"], 81)[:, None]
 residuals = []
 for i in range(steps):
-    path = 2.26e-4 * np.trapz(made["density"](u, y, -v, i * step), y, axis=0)
+    path = 2.26e-4 * trapezoid(made["density"](u, y, -v, i * step), y, axis=0)
     terms = np.stack([np.ones(u.size), u, v], 1)
     fit = np.linalg.lstsq(terms, path, rcond=None)[0]
     residuals.append(path - terms @ fit)
