@@ -203,7 +203,8 @@ Image Bench::Stages::proceed(UnfinishedImage& request, const Watch& watch)
   {
     return abortedImage();
   }
-  const RaysKey key{ view->key, view->settings, request.scene.seed, request.device };
+  const RaysKey key{ view->key, view->settings, request.scene.seed, request.device,
+    pointsOfPixel(request.scene.samplesPerPixel, request.scene, view->light) };
   work.raySets += rays.prepare(key, view->margin) ? 1 : 0;
   const bool hasAllPasses = PassLoop<Real>(*view, request, watch, rays, cutoffs, work).run();
   if (watch.isAborted())

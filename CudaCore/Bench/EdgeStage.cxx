@@ -107,7 +107,7 @@ std::vector<Pass> EdgeStage<Real>::passesOf(const Patch& tile) const
   {
     passes.push_back({ -tile.margin, -tile.margin, tile.columns + 2 * tile.margin,
       tile.rows + 2 * tile.margin, { 0, 0 } });
-    aimPass(passes.back(), number, scene_, view_.light);
+    aimPass(passes.back(), number, scene_.samplesAtEdges, scene_, view_.light);
   }
   return passes;
 }

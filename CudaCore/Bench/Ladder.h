@@ -60,24 +60,28 @@ StepRange stepsFor(const Medium<Real>& medium, bool hasWalls, bool hasFilm)
   return steps;
 }
 
-/// So many rays per pixel that the error of fewer is seen beside theirs. On a screen and of fringes each of 4 rays lights all
-/// of a pixel, as one does: see sideOnFilm().
+/// Whether each of four rays lights all of a pixel, as one does: on a screen and of fringes, see sideOnFilm().
+inline bool lightsAllOfPixel(Cutoff cutoff)
+{
+  const Technique& technique = techniqueOf(cutoff);
+  return technique.plane == RecordedPlane::Screen || technique.hasFringes;
+}
+
+/// So many rays per pixel that the error of fewer is seen beside theirs.
 inline int manyMoreThan(int samples, Cutoff cutoff)
 {
   constexpr int fewest = 16;
-  const Technique& technique = techniqueOf(cutoff);
-  const bool lightAll = technique.plane == RecordedPlane::Screen || technique.hasFringes;
-  return std::max(4 * samples, lightAll ? fewest : 1);
+  return std::max(4 * samples, lightsAllOfPixel(cutoff) ? fewest : 1);
 }
 
 /// Rays per pixel whose error is not seen beside twice as many.
 constexpr int fewRays = 4;
 
-/// Whether the error of so many rays is seen beside the most rays only: of fringes, of which squares of fewer rays have
-/// more noise than a few rays have, which light all of a pixel.
+/// Whether the error of so few rays, which light all of a pixel, may be seen beside the most rays only: squares of fewer have
+/// more noise than these, with fringes or on a screen.
 inline bool needsMostRays(int samples, Cutoff cutoff, bool isOfWholeImage)
 {
-  return samples <= fewRays && techniqueOf(cutoff).hasFringes && !isOfWholeImage;
+  return samples <= fewRays && lightsAllOfPixel(cutoff) && !isOfWholeImage;
 }
 
 /// Finds errors of steps and rays per pixel when they are requested.

@@ -50,7 +50,7 @@ bool PassLoop<Real>::addPass()
   ProgressiveImage& image = *request_.image;
   const std::int64_t number = image.passes();
   Monitor monitor = monitorOfPass(number);
-  aimPass(pass_, number, scene, view_.task.light);
+  aimPass(pass_, number, scene.samplesPerPixel, scene, view_.task.light);
   const double tracedBefore = request_.traceSeconds;
   const TracedPass* traced = rays_.raysOf(number, pass_, request_.device,
     request_.keepsRays ? scene.memoryBudget : 0,

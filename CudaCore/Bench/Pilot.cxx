@@ -50,11 +50,11 @@ RayTask<Real> Pilot<Real>::taskFor(double step, const Medium<Real>& medium) cons
 }
 
 template <class Real>
-Pass Pilot<Real>::passOf(const Patch& patch, std::int64_t number) const
+Pass Pilot<Real>::passOf(const Patch& patch, std::int64_t number, int samples) const
 {
   Pass pass{ -patch.margin, -patch.margin, patch.columns + 2 * patch.margin,
     patch.rows + 2 * patch.margin, { 0, 0 } };
-  aimPass(pass, number, scene_, setup_.light);
+  aimPass(pass, number, samples, scene_, setup_.light);
   return pass;
 }
 
@@ -73,7 +73,7 @@ bool Pilot<Real>::trace(Group& group, const PassNumber& first, const Monitor& mo
   std::size_t rays = 0; // of a pass of all patches
   for (const Patch& patch : places)
   {
-    rays += Passes(passOf(patch, 0)).rays();
+    rays += Passes(passOf(patch, 0, 1)).rays();
   }
   const std::size_t most =
     layout_.isWhole ? 1 : std::max<std::size_t>(1, raysAtOnce / std::max<std::size_t>(1, rays));
@@ -95,7 +95,7 @@ bool Pilot<Real>::trace(Group& group, const PassNumber& first, const Monitor& mo
   {
     for (const PassNumber& pass : missing)
     {
-      passes.push_back(passOf(places[n], pass.in(n)));
+      passes.push_back(passOf(places[n], pass.in(n), first.set->samples));
       passes.back().firstColumn += places[n].fromColumn;
       passes.back().firstRow += places[n].fromRow;
     }
@@ -181,12 +181,10 @@ const std::vector<PatchPixels>* Pilot<Real>::expose(
       return nullptr;
     }
     const std::vector<TracedPass>& rays = group.traced[keyOf(number)];
-    const double side = sideOnFilm(set.samples, scene_, setup_.light);
     withEach(
       [&](std::size_t n, PatchFilm& film)
       {
-        Pass pass = passOf(places[n], number.in(n));
-        pass.side = side;
+        const Pass pass = passOf(places[n], number.in(n), set.samples);
         film.add(rays[n], pass);
       });
     if (isTooMuch(rays) && number.number + 1 < set.samples)
@@ -257,17 +255,18 @@ Differences Pilot<Real>::compare(Patches patches, const PatchSettings& a, const 
           ? std::max(raysOfB.samples, std::min(moreAtBodies * raysOfB.samples, most))
           : raysOfB.samples;
       }
-      // The error falls as one over the number of rays, about. At edges of bodies those of the halves of twice as many are
-      // independent, and on a screen those of so many squares and of more.
+      // The error falls as one over the number of rays, about. At edges of bodies in focus that of other points is independent;
+      // on a screen it falls as the side of the squares that rays light.
       const Technique& technique = techniqueOf(scene_.cutoff);
-      const bool isOfEdges = place == PatchPlace::Body && !layout_.isWhole &&
-        technique.plane == RecordedPlane::Focus && !technique.hasFringes;
-      const bool isOnScreen = technique.plane == RecordedPlane::Screen;
-      const double ofMore = 1 - static_cast<double>(samplesOfA) / raysOfB.samples;
+      const bool areEdges = place == PatchPlace::Body && !layout_.isWhole;
+      const bool areIndependent = areEdges && technique.plane == RecordedPlane::Focus &&
+        !technique.hasFringes && haveOwnPoints(raysOfB.samples);
+      const bool areBlurred = areEdges && technique.plane == RecordedPlane::Screen;
+      const double fewer = static_cast<double>(samplesOfA) / raysOfB.samples;
       constexpr double partOfOthers = 0.85; // they err, too, and some see nothing of an edge
       const double part = raysOfB.areOthers ? partOfOthers
-        : isOfRays ? ((isOfEdges && ofMore <= 0.5) || isOnScreen ? std::sqrt(ofMore) : ofMore)
-                   : 1;
+        : isOfRays && !areIndependent       ? 1 - (areBlurred ? std::sqrt(fewer) : fewer)
+                                            : 1;
       const double factor = (choice && choice->hasEdge ? factorAtEdges : 1) / part;
       return compare(
         { group, raysOfA }, { group, raysOfB }, factor, Edges::Count, monitor, all, choice);

@@ -11,6 +11,7 @@
 #include "Bench/Scouts.h"
 #include "Bench/ViewSetup.h"
 #include "Optics/Cutoffs.h"
+#include "Rays/RayStarts.h"
 #include "Rays/TracedPass.h"
 #include "Schlieren.h"
 
@@ -155,11 +156,13 @@ private:
     }
   };
 
-  using PassKey = std::tuple<double, int, int>; ///< step, pass, and how many rays others are of
+  using PassKey = std::tuple<double, int, int, bool>; ///< step, pass; of how many rays, others
   static PassKey keyOf(const PassNumber& pass)
   {
     const RaySet& set = *pass.set;
-    return { set.step, pass.number, set.areOthers && pass.number > 0 ? set.samples : 0 };
+    const bool areOthers = set.areOthers && pass.number > 0;
+    const bool areAlone = pass.number > 0 && (areOthers || haveOwnPoints(set.samples));
+    return { set.step, pass.number, areAlone ? set.samples : 0, areOthers };
   }
 
   /// Patches of a place, and what has been made of them.
@@ -176,7 +179,7 @@ private:
   RayTask<Real> taskFor(double step, const Medium<Real>& medium) const;
   /// Makes finer voxels where some patches' light is. False if aborted.
   bool makeFiner(Part part, const Monitor& monitor);
-  Pass passOf(const Patch& patch, std::int64_t number) const;
+  Pass passOf(const Patch& patch, std::int64_t number, int samples) const;
   /// Traces a pass of all patches of a group where that has not been done, and some of those that come next. False if aborted
   /// or paused.
   bool trace(Group& group, const PassNumber& first, const Monitor& monitor);

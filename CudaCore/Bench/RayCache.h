@@ -101,12 +101,13 @@ struct RaysKey
   RaySettings settings;
   std::uint32_t seed;
   Device device;
+  int points; ///< of a pixel, see pointsOfPixel()
 
   auto tie() const
   {
     return std::tuple_cat(view.tie(),
-      std::tie(
-        settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, seed, device));
+      std::tie(settings.stepVoxels, settings.adaptiveTolerance, settings.lengthScale, seed, device,
+        points));
   }
 };
 

@@ -355,10 +355,17 @@ double sideOnFilm(int raysPerPixel, const Scene& scene, const Light& light)
     : std::min(1., (isOnScreen ? overlap : 1) * sideOf(raysPerPixel));
 }
 
-void aimPass(Pass& pass, std::int64_t number, const Scene& scene, const Light& light)
+int pointsOfPixel(int samples, const Scene& scene, const Light& light)
 {
-  pass.offset = pixelOffset(number, scene.seed);
-  pass.side = sideOnFilm(scene.samplesPerPixel, scene, light);
+  const bool areAlone = isOfCamera(scene.cutoff) || scene.source.shape != SourceShape::Point ||
+    light.pupilTilt > 0 || !haveOwnPoints(samples);
+  return areAlone ? 1 : samples;
+}
+
+void aimPass(Pass& pass, std::int64_t number, int samples, const Scene& scene, const Light& light)
+{
+  pass.offset = pixelOffset(number, scene.seed, pointsOfPixel(samples, scene, light));
+  pass.side = sideOnFilm(samples, scene, light);
   if (light.pupilTilt > 0)
   {
     const std::array<double, 2> place = pupilPoint(number, scene.samplesPerPixel);

@@ -225,7 +225,7 @@ bool WaveStage<Real>::trace(Image& image, Screen& screen, LightAtExit& light)
   const std::int64_t border = borderOf(image, screen) * screen.raysPerPixel;
   const RaysKey key{ { frame, scene.view.width, scene.view.height, settings.kernel,
                        LightKey::of(scene, frame, 0, faces_), view_.medium.changes },
-    settings, scene.seed, request_.device };
+    settings, scene.seed, request_.device, 1 };
   work_.raySets += rays_.prepare(key, border) ? 1 : 0;
   // Rays of a wider margin will do.
   const std::int64_t around = rays_.margin() - rays_.margin() % screen.raysPerPixel;

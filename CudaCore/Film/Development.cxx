@@ -61,7 +61,8 @@ bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
       exits_.assign(rays, {});
     }
   }
-  pass.offset = pixelOffset(passes_, settings_.seed);
+  const bool areAlone = settings_.isOfCamera || exposure_.projection.pupilTilt > 0;
+  pass.offset = pixelOffset(passes_, settings_.seed, areAlone ? 1 : settings_.samplesPerPixel);
   pass.side = sideOf(settings_.samplesPerPixel);
   const std::array<double, 2> place = pupilPoint(passes_, settings_.samplesPerPixel);
   for (std::size_t axis = 0; axis < 2; ++axis)

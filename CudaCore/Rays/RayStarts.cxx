@@ -62,6 +62,23 @@ std::uint32_t rowDigits(std::uint32_t number)
     (moved >> digitsOfFirst);
 }
 
+/// The binary digits of a column and a row of Hammersley's points. Their order takes the digits of the number alternately as those
+/// that count most along columns and along rows.
+std::array<std::uint32_t, 2> ownDigits(std::uint32_t number, std::uint32_t count)
+{
+  int digits = 0;
+  while (count >> digits > 1)
+  {
+    ++digits;
+  }
+  std::uint32_t point = 0;
+  for (int n = 0; n < digits; ++n)
+  {
+    point |= (number >> n & 1u) << (n % 2 == 0 ? n / 2 : digits - 1 - n / 2);
+  }
+  return { columnDigits(point), point << (32 - digits) };
+}
+
 } // namespace
 
 std::array<double, 2> sourcePoint(
@@ -106,18 +123,32 @@ std::array<double, 2> pupilPoint(std::int64_t pass, std::int64_t passes)
   return { radius * std::cos(angle), radius * std::sin(angle) };
 }
 
-PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed)
+PixelOffset pixelOffset(std::int64_t pass, std::uint32_t seed, std::int64_t together)
 {
   const std::uint64_t choice = seed == firstSeed ? 0 : mixed(seed);
   const auto first = static_cast<std::uint32_t>(choice & 3u);
-  const auto coordinate = [&](std::uint32_t (&digits)(std::uint32_t), bool isMirrored)
+  const auto count = static_cast<std::uint32_t>(haveOwnPoints(together) ? together : 1);
+  const auto digitsOf = [&](std::uint32_t number)
   {
-    const std::uint32_t off = digits(static_cast<std::uint32_t>(pass) ^ first) - digits(first);
+    std::array<std::uint32_t, 2> digits{ columnDigits(number / count), rowDigits(number / count) };
+    if (count > 1)
+    {
+      const std::array<std::uint32_t, 2> own = ownDigits(number % count, count);
+      digits[0] += own[0];
+      digits[1] += own[1];
+    }
+    return digits;
+  };
+  const std::array<std::uint32_t, 2> digits = digitsOf(static_cast<std::uint32_t>(pass) ^ first),
+                                     ofFirst = digitsOf(first);
+  const auto coordinate = [&](std::size_t axis, bool isMirrored)
+  {
+    const std::uint32_t off = digits[axis] - ofFirst[axis];
     return std::ldexp(
       static_cast<double>(static_cast<std::int32_t>(isMirrored ? 0 - off : off)), -32);
   };
-  const double a = coordinate(columnDigits, (choice & 4u) != 0);
-  const double b = coordinate(rowDigits, (choice & 8u) != 0);
+  const double a = coordinate(0, (choice & 4u) != 0);
+  const double b = coordinate(1, (choice & 8u) != 0);
   return (choice & 16u) != 0 ? PixelOffset{ b, a } : PixelOffset{ a, b };
 }
 

@@ -45,8 +45,7 @@ Scene sceneOf(const Case& of)
   return scene;
 }
 
-/// What settings beyond those that can be chosen make. `isInParts`: where light, or paths, are smooth, one ray in each of many
-/// pixels shows it best.
+/// What settings beyond those that can be chosen make. `isInParts`: of 16 pixels for each, where paths are smooth with one ray.
 Image finest(const Field& field, Scene scene, double k, bool isInParts)
 {
   scene.targetError = 0;
@@ -64,12 +63,14 @@ Image finest(const Field& field, Scene scene, double k, bool isInParts)
   {
     return Bench().render(field, scene);
   }
+  const bool isOnScreen = scene.cutoff == Cutoff::Shadowgraph;
   constexpr int finer = 4;
   scene.samplesPerPixel = 1;
   Image truth = Bench().render(field, scene);
   Scene fine = scene;
   fine.view.width *= finer;
   fine.view.height *= finer;
+  fine.samplesPerPixel = isOnScreen ? 16 : 1;
   const Image inParts = Bench().render(field, fine);
   for (int pixel = 0; pixel < scene.view.width * scene.view.height; ++pixel)
   {
@@ -201,23 +202,6 @@ TEST(TargetErrors, OfBodiesInFewPixelsAreThoseOfMost)
     image, truth, scene, [&](std::size_t pixel) { return truth.blockedFraction[pixel] < 1; });
   EXPECT_LT(error, image.accuracy.reached);
   EXPECT_LT(image.accuracy.reached, 2 * error);
-}
-
-/// On a screen, too, where what is moved by a twentieth of a pixel does not count: of a body that fills the image.
-TEST(TargetErrors, OfBodiesOnScreensAreThoseOfMovedEdges)
-{
-  const Field field = fieldOf(std::make_shared<SphereSource>());
-  Scene scene = sceneOf({ "", Cutoff::Shadowgraph, 0 });
-  scene.view.width = scene.view.height = 24;
-  scene.view.parallelScale = 1.3;
-  scene.targetError = 1. / 256;
-  const Image image = Bench().render(field, scene);
-  const Image truth = finest(field, scene, 0);
-  const double error = trueError(
-    image, truth, scene, [&](std::size_t pixel) { return truth.blockedFraction[pixel] < 1; });
-  EXPECT_EQ(image.accuracy.limit, ErrorSource::Voxels);
-  EXPECT_GT(image.accuracy.reached, 0.5 * error);
-  EXPECT_LT(image.accuracy.reached, 3 * error);
 }
 
 /// Where memory does not suffice for the voxels that are needed.

@@ -186,7 +186,7 @@ struct GaussianLens
     for (int number = 0; number < passes; ++number)
     {
       const Pass pass{ -margin, -margin, size + 2 * margin, size + 2 * margin,
-        pixelOffset(number, 1) };
+        pixelOffset(number, 1, passes) };
       std::vector<RayExit>& ofPass = exits.emplace_back();
       for (std::int64_t ray = 0; ray < pass.columns * pass.rows; ++ray)
       {
@@ -200,7 +200,7 @@ struct GaussianLens
     for (int number = 0; number < passes; ++number)
     {
       rays.push_back({ { -margin, -margin, size + 2 * margin, size + 2 * margin,
-                         pixelOffset(number, 1), { 0, 0 }, side },
+                         pixelOffset(number, 1, passes), { 0, 0 }, side },
         exits[static_cast<std::size_t>(number)].data() });
     }
     Films films(1, size, size, 10000000);
@@ -322,6 +322,17 @@ TEST(Estimators, ManyRaysPerPixelAreNearerToIt)
     const std::vector<double> truth = lens.truth();
     EXPECT_LT(rmsError(lens.image(passes, 0.5), truth), strength < 1 ? 1.5e-3 : 0.015) << strength;
   }
+}
+
+/// Light that is compressed has hardly any noise of the squares: with points of the sequence it was 0.0012 to 0.0014,
+/// however many rays there were.
+TEST(Estimators, SquaresOfManyRaysStayEven)
+{
+  const GaussianLens lens{ GaussianLens::Shape::Ball, 0.5 };
+  const std::vector<double> truth = lens.truth();
+  EXPECT_LT(rmsError(lens.image(16, 0.5), truth), 5e-4);
+  EXPECT_LT(rmsError(lens.image(64, 0.25), truth), 3e-4);
+  EXPECT_LT(rmsError(lens.image(256, 0.125), truth), 1.5e-4);
 }
 
 /// The image of so many rays per pixel that are not displaced; `exitAt`: of column and row.
