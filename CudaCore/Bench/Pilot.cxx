@@ -255,18 +255,26 @@ Differences Pilot<Real>::compare(Patches patches, const PatchSettings& a, const 
           ? std::max(raysOfB.samples, std::min(moreAtBodies * raysOfB.samples, most))
           : raysOfB.samples;
       }
-      // The error falls as one over the number of rays, about. At edges of bodies in focus that of other points is independent;
-      // on a screen it falls as the side of the squares that rays light.
+      // The error falls as one over the number of rays, about. At edges of bodies in focus those of the halves of twice as many
+      // are independent; on a screen it falls as the side of the squares that rays light.
       const Technique& technique = techniqueOf(scene_.cutoff);
       const bool areEdges = place == PatchPlace::Body && !layout_.isWhole;
-      const bool areIndependent = areEdges && technique.plane == RecordedPlane::Focus &&
-        !technique.hasFringes && haveOwnPoints(raysOfB.samples);
-      const bool areBlurred = areEdges && technique.plane == RecordedPlane::Screen;
       const double fewer = static_cast<double>(samplesOfA) / raysOfB.samples;
-      constexpr double partOfOthers = 0.85; // they err, too, and some see nothing of an edge
-      const double part = raysOfB.areOthers ? partOfOthers
-        : isOfRays && !areIndependent       ? 1 - (areBlurred ? std::sqrt(fewer) : fewer)
-                                            : 1;
+      double part = isOfRays ? 1 - fewer : 1;
+      if (raysOfB.areOthers)
+      {
+        constexpr double partOfOthers = 0.85; // they err, too, and some see nothing of an edge
+        part = partOfOthers;
+      }
+      else if (isOfRays && areEdges && technique.plane == RecordedPlane::Screen)
+      {
+        part = 1 - std::sqrt(fewer);
+      }
+      else if (isOfRays && areEdges && technique.plane == RecordedPlane::Focus &&
+        !technique.hasFringes && fewer >= 0.5)
+      {
+        part = std::sqrt(1 - fewer);
+      }
       const double factor = (choice && choice->hasEdge ? factorAtEdges : 1) / part;
       return compare(
         { group, raysOfA }, { group, raysOfB }, factor, Edges::Count, monitor, all, choice);

@@ -9,9 +9,9 @@
 #include "Bench/PatchFilm.h"
 #include "Bench/Patches.h"
 #include "Bench/Scouts.h"
+#include "Bench/StageSettings.h"
 #include "Bench/ViewSetup.h"
 #include "Optics/Cutoffs.h"
-#include "Rays/RayStarts.h"
 #include "Rays/TracedPass.h"
 #include "Schlieren.h"
 
@@ -157,11 +157,12 @@ private:
   };
 
   using PassKey = std::tuple<double, int, int, bool>; ///< step, pass; of how many rays, others
-  static PassKey keyOf(const PassNumber& pass)
+  PassKey keyOf(const PassNumber& pass) const
   {
     const RaySet& set = *pass.set;
     const bool areOthers = set.areOthers && pass.number > 0;
-    const bool areAlone = pass.number > 0 && (areOthers || haveOwnPoints(set.samples));
+    const bool areAlone =
+      pass.number > 0 && (areOthers || pointsOfPixel(set.samples, scene_, setup_.light) > 1);
     return { set.step, pass.number, areAlone ? set.samples : 0, areOthers };
   }
 

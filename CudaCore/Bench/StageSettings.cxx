@@ -357,9 +357,10 @@ double sideOnFilm(int raysPerPixel, const Scene& scene, const Light& light)
 
 int pointsOfPixel(int samples, const Scene& scene, const Light& light)
 {
-  const bool areAlone = isOfCamera(scene.cutoff) || scene.source.shape != SourceShape::Point ||
-    light.pupilTilt > 0 || !haveOwnPoints(samples);
-  return areAlone ? 1 : samples;
+  const Technique& technique = techniqueOf(scene.cutoff);
+  const bool areTogether = (technique.plane == RecordedPlane::Screen || technique.hasFringes) &&
+    scene.source.shape == SourceShape::Point && !(light.pupilTilt > 0) && haveOwnPoints(samples);
+  return areTogether ? samples : 1;
 }
 
 void aimPass(Pass& pass, std::int64_t number, int samples, const Scene& scene, const Light& light)

@@ -72,8 +72,8 @@ FilmSettings filmSettingsOf(const Scene& scene);
 /// paths are straight. A screen shows how far rays part from their neighbours: there squares overlap.
 double sideOnFilm(int raysPerPixel, const Scene& scene, const Light& light);
 
-/// Of how many rays, of so many per pixel, the points in it are chosen together, see pixelOffset(); 1: of a sequence, as for rays
-/// that each see another point of a source or an aperture.
+/// Of how many rays, of so many per pixel, the points in it are chosen together, see pixelOffset(): on a screen and with fringes. 1:
+/// of a sequence, as in focus, and for rays that each see another point of a source or an aperture.
 int pointsOfPixel(int samples, const Scene& scene, const Light& light);
 
 /// Where a pass's rays, of `samples` per pixel, start in their pixels and at their source, and how much of a pixel they light.

@@ -61,8 +61,7 @@ bool UndisturbedImage::addPass(Device device, const Monitor& monitor)
       exits_.assign(rays, {});
     }
   }
-  const bool areAlone = settings_.isOfCamera || exposure_.projection.pupilTilt > 0;
-  pass.offset = pixelOffset(passes_, settings_.seed, areAlone ? 1 : settings_.samplesPerPixel);
+  pass.offset = pixelOffset(passes_, settings_.seed);
   pass.side = sideOf(settings_.samplesPerPixel);
   const std::array<double, 2> place = pupilPoint(passes_, settings_.samplesPerPixel);
   for (std::size_t axis = 0; axis < 2; ++axis)
