@@ -76,7 +76,9 @@ bool EdgeStage<Real>::trace(const RaysKey& key)
       EdgeTiles::in(request_.image->blockedFraction(), scene_.view, view_.movedInFocus);
   }
   UnfinishedImage::Edges& edges = *request_.edges;
-  rays_.prepare(key, scene_.samplesAtEdges, edges.tiles);
+  RaysKey ofEdges = key;
+  ofEdges.points = pointsOfPixel(scene_.samplesAtEdges, scene_, view_.light);
+  rays_.prepare(ofEdges, scene_.samplesAtEdges, edges.tiles);
   while (edges.images.size() < edges.tiles.size())
   {
     const std::size_t first = edges.images.size(), end = endOfChunk(first);

@@ -186,6 +186,8 @@ TEST(Edges, AreTracedOnceForAllCutoffs)
   const Image image = bench.render(flow.field, sceneOf(Cutoff::BrightField, 4, 16));
   EXPECT_EQ(bench.work().raysTraced, before);
   expectSameImage(image, Bench().render(flow.field, sceneOf(Cutoff::BrightField, 4, 16)));
+  const Scene fringes = sceneOf(Cutoff::Interferogram, 4, 16); // whose rays start elsewhere
+  expectSameImage(bench.render(flow.field, fringes), Bench().render(flow.field, fringes));
   Scene scene = sceneOf(Cutoff::BrightField, 4, 16);
   scene.memoryBudget = 1; // no rays are cached
   expectSameImage(bench.render(flow.field, scene), image);
