@@ -60,18 +60,12 @@ StepRange stepsFor(const Medium<Real>& medium, bool hasWalls, bool hasFilm)
   return steps;
 }
 
-/// Whether each of four rays lights all of a pixel, as one does: on a screen and of fringes, see sideOnFilm().
-inline bool lightsAllOfPixel(Cutoff cutoff)
-{
-  const Technique& technique = techniqueOf(cutoff);
-  return technique.plane == RecordedPlane::Screen || technique.hasFringes;
-}
-
-/// So many rays per pixel that the error of fewer is seen beside theirs.
+/// So many rays per pixel that the error of fewer is seen beside theirs. Where squares show each of 4 rays lights all of a pixel,
+/// as one does: see sideOnFilm().
 inline int manyMoreThan(int samples, Cutoff cutoff)
 {
   constexpr int fewest = 16;
-  return std::max(4 * samples, lightsAllOfPixel(cutoff) ? fewest : 1);
+  return std::max(4 * samples, techniqueOf(cutoff).showsSquares() ? fewest : 1);
 }
 
 /// Rays per pixel whose error is not seen beside twice as many.
@@ -81,7 +75,7 @@ constexpr int fewRays = 4;
 /// more noise than these, with fringes or on a screen.
 inline bool needsMostRays(int samples, Cutoff cutoff, bool isOfWholeImage)
 {
-  return samples <= fewRays && lightsAllOfPixel(cutoff) && !isOfWholeImage;
+  return samples <= fewRays && techniqueOf(cutoff).showsSquares() && !isOfWholeImage;
 }
 
 /// Finds errors of steps and rays per pixel when they are requested.

@@ -357,8 +357,7 @@ double sideOnFilm(int raysPerPixel, const Scene& scene, const Light& light)
 
 int pointsOfPixel(int samples, const Scene& scene, const Light& light)
 {
-  const Technique& technique = techniqueOf(scene.cutoff);
-  const bool areTogether = (technique.plane == RecordedPlane::Screen || technique.hasFringes) &&
+  const bool areTogether = techniqueOf(scene.cutoff).showsSquares() &&
     scene.source.shape == SourceShape::Point && !(light.pupilTilt > 0) && haveOwnPoints(samples);
   return areTogether ? samples : 1;
 }

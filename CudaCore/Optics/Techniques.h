@@ -59,6 +59,8 @@ struct Technique
   Coloring coloring;
 
   constexpr bool hasK() const { return fullScale > 0; }
+  /// Whether it shows where the squares that rays light lie beside each other: on a screen, and as fringes.
+  constexpr bool showsSquares() const { return plane == RecordedPlane::Screen || hasFringes; }
 };
 
 /// The table, in the order of Cutoff.
