@@ -132,9 +132,9 @@ void BrickMaker<Real>::storeGasDistances(const BrickSamples& samples, Brick<Real
         // Where gas ends with the domain there is no edge: rounding would decide where rays that end there are.
         const std::array<int, 3> nearest =
           samples.nearestWithin({ i + skipped, j + skipped, isLayer ? 0 : k + skipped });
-        const std::size_t at = samples.index(nearest[0], nearest[1], nearest[2]);
         const double units =
-          std::clamp(static_cast<double>(samples.distances[at]), -reach, reach) * distanceUnits / 2;
+          std::clamp(static_cast<double>(samples.distanceForLinear(nearest)), -reach, reach) *
+          distanceUnits / 2;
         const int even = 2 * static_cast<int>(units + (units < 0 ? -0.5 : 0.5));
         const bool isWindow = hasWindow && endsAtWindow(samples, nearest);
         brick.gasDistances.push_back(static_cast<std::int16_t>(even + (isWindow ? 1 : 0)));

@@ -89,6 +89,20 @@ struct BrickSamples
     }
     return sum / 8;
   }
+  /// The distance of a point such that linear interpolation between them, which would move what is curved towards its hollow
+  /// side, has the right mean: less a twelfth of second differences.
+  float distanceForLinear(const std::array<int, 3>& point) const
+  {
+    const float* at = &distances[index(point[0], point[1], point[2])];
+    const std::ptrdiff_t strides[3] = { 1, n, n * n };
+    float sum = 0;
+    for (std::size_t axis = 0; axis < (layers > 1 ? 3 : 2); ++axis)
+    {
+      const bool hasBoth = point[axis] > begin[axis] && point[axis] + 1 < end[axis];
+      sum += hasBoth ? at[strides[axis]] - 2 * at[0] + at[-strides[axis]] : 0;
+    }
+    return at[0] - sum / 12;
+  }
   void addNormal(int i, int j, int k, std::array<std::array<float, 2>, 3>& normals) const
   {
     const float* at = &distances[index(i, j, k)];
