@@ -117,15 +117,6 @@ PatchLayout Planner::layOut(std::int64_t margin)
       }
     }
   }
-  constexpr auto edgeWithMargin = static_cast<double>(Patch::edge + 2 * around);
-  const double crossing =
-    static_cast<double>(scouts_.view().crossed) * static_cast<double>(stride * stride);
-  const double ofVoxels =
-    std::max(fewestOfVoxels, partOfVoxels * crossing / (edgeWithMargin * edgeWithMargin));
-  const std::size_t all =
-    patchesElsewhere + patchesAtBodies + patchesAtBorders + patchesAtVariations;
-  everyOfVoxels_ = static_cast<std::size_t>(
-    std::ceil(static_cast<double>(all) / std::min(ofVoxels, static_cast<double>(all))));
   constexpr std::size_t perStrong = 12; // of so many cells one
   Cells sorted = within;
   const auto rank = static_cast<std::ptrdiff_t>(sorted.size() / perStrong);
@@ -134,8 +125,19 @@ PatchLayout Planner::layOut(std::int64_t margin)
   const double least = sorted.empty() ? 0 : sorted[static_cast<std::size_t>(rank)].variation;
   const auto weak = std::stable_partition(
     within.begin(), within.end(), [&](const Cell& cell) { return cell.variation > least; });
-  spread(Cells(within.begin(), weak), patchesAtVariations, PatchPlace::Elsewhere);
-  spread(Cells(weak, within.end()), patchesElsewhere, PatchPlace::Elsewhere);
+  const Cells strong(within.begin(), weak), others(weak, within.end());
+  constexpr auto edgeWithMargin = static_cast<double>(Patch::edge + 2 * around);
+  const double crossing =
+    static_cast<double>(scouts_.view().crossed) * static_cast<double>(stride * stride);
+  const double ofVoxels =
+    std::max(fewestOfVoxels, partOfVoxels * crossing / (edgeWithMargin * edgeWithMargin));
+  const std::size_t all = std::min(strong.size(), patchesAtVariations) +
+    std::min(others.size(), patchesElsewhere) + std::min(atBodies.size(), patchesAtBodies) +
+    std::min(atBorders.size(), patchesAtBorders);
+  everyOfVoxels_ = std::max<std::size_t>(
+    1, static_cast<std::size_t>(std::ceil(static_cast<double>(all) / ofVoxels)));
+  spread(strong, patchesAtVariations, PatchPlace::Elsewhere);
+  spread(others, patchesElsewhere, PatchPlace::Elsewhere);
   spread(atBodies, patchesAtBodies, PatchPlace::Body);
   sortAlongBorder(atBorders);
   spread(atBorders, patchesAtBorders, PatchPlace::Border);

@@ -417,10 +417,6 @@ Differences Pilot<Real>::ofVoxels(
       return {};
     }
   }
-  if (part == Part::All)
-  {
-    finer_.reset(); // its rays stay
-  }
   return all;
 }
 

@@ -118,6 +118,8 @@ public:
   };
   Differences ofVoxels(
     const PatchSettings& settings, double tolerance, Part part, const Monitor& monitor);
+  /// Frees the medium within a lower tolerance. Its rays stay.
+  void dropFiner() { finer_.reset(); }
 
   /// Whether the monitor has paused it since then. What it has done is kept.
   bool isPaused() const { return isPaused_; }

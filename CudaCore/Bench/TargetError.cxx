@@ -34,7 +34,7 @@ double sumOf(double a, double b, double c = 0, double d = 0)
 /// pixels of a shift that do not count.
 Differences atMovedEdges(const Differences& slopes, double invisible)
 {
-  constexpr double deviation = 0.03; // pixels
+  constexpr double deviation = 0.02; // pixels
   constexpr std::array<double, 8> shifts{ 0.08, 0.24, 0.40, 0.58, 0.78, 1.01, 1.32, 2.8 };
   Differences moved;
   for (const Difference& slope : slopes)
@@ -274,6 +274,12 @@ bool hasFinerMedium(const Scene& scene, bool isMemoryShort)
   return scene.mediumTolerance > refinedTolerance && !isMemoryShort;
 }
 
+/// Whether voxels are too large for the target.
+bool areTooLarge(const KnownErrors& known, const Scene& scene)
+{
+  return known.voxels > scene.targetError / margin;
+}
+
 template <class Real>
 KnownErrors knownErrors(Pilot<Real>& pilot, const Monitor& monitor)
 {
@@ -292,19 +298,34 @@ KnownErrors knownErrors(Pilot<Real>& pilot, const Monitor& monitor)
     using Part = typename Pilot<Real>::Part;
     const auto lookAt = [&](Part part)
     {
-      // What is compared errs, too, in proportion to its tolerance.
-      known.voxels =
-        exceededBy(mayExceed, pilot.ofVoxels(stepsFor(pilot).with(step), further, part, monitor)) /
-        (1 - further / tolerance);
+      PatchSettings settings = stepsFor(pilot).with(step);
+      const auto look = [&]
+      {
+        // What is compared errs, too, in proportion to its tolerance.
+        known.voxels = exceededBy(mayExceed, pilot.ofVoxels(settings, further, part, monitor)) /
+          (1 - further / tolerance);
+      };
+      look();
+      // Single rays see in finer voxels what the mean of a pixel does not.
+      if (areTooLarge(known, scene) && !needsOneRay(pilot) && !pilot.isPaused())
+      {
+        constexpr int ofMean = 16;
+        settings.samples = settings.samplesAtBodies = ofMean;
+        look();
+      }
     };
     // Finer voxels take long, and some may show that those of the image do not suffice.
     if (hasFinerMedium(scene, tree->statistics().isMemoryShort))
     {
       lookAt(Part::Some);
     }
-    if (!(known.voxels > scene.targetError) && !pilot.isPaused())
+    if (!areTooLarge(known, scene) && !pilot.isPaused())
     {
       lookAt(Part::All);
+    }
+    if (!pilot.isPaused())
+    {
+      pilot.dropFiner();
     }
   }
   return known;
@@ -319,7 +340,7 @@ bool refine(const KnownErrors& known, bool isMemoryShort, Scene& scene)
     scene.precision = Precision::Double;
     return true;
   }
-  if (known.voxels > scene.targetError && hasFinerMedium(scene, isMemoryShort))
+  if (areTooLarge(known, scene) && hasFinerMedium(scene, isMemoryShort))
   {
     scene.mediumTolerance = refinedTolerance;
     return true;
