@@ -16,6 +16,8 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace schlieren
@@ -50,14 +52,60 @@ struct Trial
   bool isMissed() const { return isKept() && error > target; }
 };
 
+/// An image of so many pixels fewer each way, of which each has the mean light of the others, and the path and displacement of
+/// the one in its middle. `times` is odd.
+Image meanOf(const Image& fine, int times)
+{
+  Image image = fine;
+  image.width /= times;
+  image.height /= times;
+  image.frame.pixelSize *= times;
+  const auto pixels =
+    static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const auto reduce = [&](auto& values, bool isMean)
+  {
+    using Values = std::remove_reference_t<decltype(values)>;
+    const std::size_t channels = values.size() /
+      (static_cast<std::size_t>(fine.width) * static_cast<std::size_t>(fine.height));
+    Values reduced(channels * pixels);
+    const int first = isMean ? 0 : times / 2, end = isMean ? times : times / 2 + 1;
+    const double share = isMean ? 1. / (times * times) : 1;
+    for (std::size_t at = 0; at < reduced.size(); ++at)
+    {
+      const int pixel = static_cast<int>(at / channels);
+      double sum = 0;
+      for (int j = first; j < end; ++j)
+      {
+        for (int i = first; i < end; ++i)
+        {
+          const std::size_t of =
+            pixelOf(fine, pixel % image.width * times + i, pixel / image.width * times + j);
+          sum += static_cast<double>(values[channels * of + at % channels]);
+        }
+      }
+      reduced[at] = static_cast<typename Values::value_type>(share * sum);
+    }
+    values = std::move(reduced);
+  };
+  reduce(image.intensity, true);
+  reduce(image.color, true);
+  reduce(image.blockedFraction, true);
+  reduce(image.opticalPathDifference, false);
+  reduce(image.backgroundDisplacement, false);
+  return image;
+}
+
 /// What the settings of an image leave out: bent rays, steps of a quarter, of an integrator that
 /// chooses shorter ones for a much finer tolerance, other rays through other points of the pixels, eight times as many (of
-/// trees, which take long, four), finer voxels, double precision.
-Image truthOf(const Field& field, Scene scene, const Image& image)
+/// trees, which take long, four), finer voxels, double precision. Of what is finer than pixels, whose voxels would be too
+/// coarse otherwise, it is made with nine times the pixels.
+Image truthOf(const RandomData& data, Scene scene, const Image& image)
 {
+  const Field& field = data.field;
   const double finestStep = field.source ? 0.25 : 0.125;
   constexpr int fewestRays = 16;
   const int more = field.source ? 4 : 8;
+  const int times = data.kind == DataKind::TreeFine ? 3 : 1;
   scene.targetError = 0;
   scene.interpolation = Interpolation::Cubic;
   // Rounding in single precision is far below all targets but those of paths.
@@ -68,10 +116,14 @@ Image truthOf(const Field& field, Scene scene, const Image& image)
   scene.adaptiveTolerance = 1e-7;
   scene.pathModel = PathModel::Refracted;
   scene.integrator = Integrator::Adaptive;
-  scene.samplesPerPixel =
-    isOfCamera(scene.cutoff) ? 1 : std::max(more * image.samplesPerPixel, fewestRays);
+  scene.view.width *= times;
+  scene.view.height *= times;
+  const int rays =
+    std::max(more * std::max(image.samplesPerPixel, image.samplesAtEdges), fewestRays);
+  scene.samplesPerPixel = isOfCamera(scene.cutoff) ? 1 : std::max(1, rays / (times * times));
   scene.seed += 1;
-  return Bench().render(field, scene);
+  const Image truth = Bench().render(field, scene);
+  return times > 1 ? meanOf(truth, times) : truth;
 }
 
 /// The optical path of a box full of gas.
@@ -140,7 +192,7 @@ SceneResult tryScene(int number, bool isShown)
     scene.targetError *= 0.5;
   }
   const auto begin = std::chrono::steady_clock::now();
-  const Image truth = truthOf(data.field, scene, images[1]);
+  const Image truth = truthOf(data, scene, images[1]);
   const double seconds = secondsSince(begin);
   const PixelArray<double> crossing = crossings(data, scene);
   const PixelArray<float> blocked =
