@@ -44,7 +44,7 @@ using PatchSet = std::array<PatchList, patchPlaces>;
 struct PatchLayout
 {
   PatchSet sets[2];
-  PatchSet ofVoxels;     ///< those that are looked at with finer voxels: some of the first set
+  PatchSet ofVoxels;     ///< those that are looked at with finer voxels: some of both sets
   PatchSet someOfVoxels; ///< a third of these
   bool isWhole = false;  ///< both sets are the image, set 0
 };
