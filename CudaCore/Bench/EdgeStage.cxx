@@ -17,31 +17,31 @@ namespace
 {
 
 template <class T>
-void pastePixels(
-  const PixelArray<T>& from, const Patch& tile, std::int64_t width, PixelArray<T>& to)
+void pastePixels(const PixelArray<T>& from, const Patch& tile, const EdgePixels& pixels,
+  std::int64_t width, PixelArray<T>& to)
 {
-  const std::size_t pixels = static_cast<std::size_t>(tile.columns * tile.rows);
-  const auto perPixel = static_cast<std::int64_t>(from.size() / pixels);
-  for (std::int64_t row = 0; row < tile.rows; ++row)
+  const auto perPixel = static_cast<std::int64_t>(from.size()) / (tile.columns * tile.rows);
+  for (std::int64_t n = 0; n < tile.columns * tile.rows; ++n)
   {
-    std::copy_n(from.data() + perPixel * row * tile.columns, perPixel * tile.columns,
-      to.data() + perPixel * ((tile.row + row) * width + tile.column));
+    const std::int64_t column = tile.column + n % tile.columns, row = tile.row + n / tile.columns;
+    if (pixels.isLit(column, row))
+    {
+      std::copy_n(
+        from.data() + perPixel * n, perPixel, to.data() + perPixel * (row * width + column));
+    }
   }
 }
 
 } // namespace
 
-void EdgeRays::prepare(const RaysKey& key, int samples, const PatchList& tiles)
+void EdgeRays::prepare(const RaysKey& key, int samples, const EdgePixels& pixels)
 {
-  const auto isSame = [](const Patch& a, const Patch& b)
-  { return a.column == b.column && a.row == b.row; };
-  if (!key_ || key_->tie() != key.tie() || samples_ != samples ||
-    !std::equal(tiles_.begin(), tiles_.end(), tiles.begin(), tiles.end(), isSame))
+  if (!key_ || key_->tie() != key.tie() || samples_ != samples || !(pixels_ == pixels))
   {
     clear();
     key_ = key;
     samples_ = samples;
-    tiles_ = tiles;
+    pixels_ = pixels;
   }
 }
 
@@ -72,19 +72,19 @@ bool EdgeStage<Real>::trace(const RaysKey& key)
   if (!request_.edges)
   {
     request_.edges.emplace();
-    request_.edges->tiles =
-      EdgeTiles::in(request_.image->blockedFraction(), scene_.view, view_.movedInFocus);
+    request_.edges->pixels = findPixels();
+    request_.edges->tiles = EdgeTiles::in(request_.edges->pixels, scene_.view, view_.movedInFocus);
   }
   UnfinishedImage::Edges& edges = *request_.edges;
   RaysKey ofEdges = key;
   ofEdges.points = pointsOfPixel(scene_.samplesAtEdges, scene_, view_.light);
-  rays_.prepare(ofEdges, scene_.samplesAtEdges, edges.tiles);
+  rays_.prepare(ofEdges, scene_.samplesAtEdges, edges.pixels);
   while (edges.images.size() < edges.tiles.size())
   {
     const std::size_t first = edges.images.size(), end = endOfChunk(first);
     const auto tiles = edges.tiles.cbegin();
     const RaysOfTiles rays(tiles + static_cast<std::ptrdiff_t>(first),
-      tiles + static_cast<std::ptrdiff_t>(end), scene_.samplesAtEdges);
+      tiles + static_cast<std::ptrdiff_t>(end), edges.pixels, scene_.samplesAtEdges);
     const TracedPass* traced = trace(rays, edges.chunks, first, end);
     if (traced == nullptr || watch_.isAborted())
     {
@@ -99,6 +99,32 @@ bool EdgeStage<Real>::trace(const RaysKey& key)
     watch_.monitor().progress(request_.progressOfRays(1, true));
   }
   return true;
+}
+
+template <class Real>
+EdgePixels EdgeStage<Real>::findPixels() const
+{
+  const Image image = request_.image->centres();
+  const std::int64_t around = EdgeTiles::marginFor(view_.movedInFocus);
+  std::vector<RaysOfPixel> rays;
+  for (std::int64_t j = -around; j < image.height + around; ++j)
+  {
+    for (std::int64_t i = -around; i < image.width + around; ++i)
+    {
+      // What is outside of the image is as its border.
+      const auto row = std::clamp<std::int64_t>(j, 0, image.height - 1);
+      const auto column = std::clamp<std::int64_t>(i, 0, image.width - 1);
+      const auto n = static_cast<std::size_t>(row * image.width + column);
+      const double deflection[2] = { image.deflection[2 * n], image.deflection[2 * n + 1] };
+      const float displacement[2] = { image.displacement[2 * n], image.displacement[2 * n + 1] };
+      const FilmShift shift = shiftOnFilm(deflection, displacement, static_cast<double>(column),
+        static_cast<double>(row), Pass{}.tilt, view_.projection);
+      rays.push_back({ image.blockedFraction[n],
+        { view_.projection.perDataUnit * shift.moved[0],
+          view_.projection.perDataUnit * shift.moved[1] } });
+    }
+  }
+  return { rays, image.width, around };
 }
 
 template <class Real>
@@ -123,8 +149,12 @@ std::size_t EdgeStage<Real>::endOfChunk(std::size_t first) const
   for (std::int64_t rays = 0; end < tiles.size() && rays < raysAtOnce; ++end)
   {
     const Patch& tile = tiles[end];
-    rays +=
-      scene_.samplesAtEdges * (tile.columns + 2 * tile.margin) * (tile.rows + 2 * tile.margin);
+    for (std::int64_t n = 0; n < tile.columns * tile.rows; ++n)
+    {
+      const bool hasRays =
+        request_.edges->pixels.hasRays(tile.column + n % tile.columns, tile.row + n / tile.columns);
+      rays += hasRays ? scene_.samplesAtEdges : 0;
+    }
   }
   return end;
 }
@@ -192,6 +222,11 @@ void EdgeStage<Real>::expose(
   const TracedPass& traced, const RaysOfTiles& rays, std::size_t first, std::size_t end)
 {
   UnfinishedImage::Edges& edges = *request_.edges;
+  for (const RayExit& exit : traced.exits)
+  {
+    edges.counts.add(exit);
+  }
+  constexpr RayExit none{ { 0, 0 }, { 0, 0 }, 0, RayFate::Turned, 0 }; // lights nothing
   edges.images.resize(end);
   parallelFor(static_cast<std::int64_t>(end - first), 1, scene_.threads,
     [&](std::int64_t from, std::int64_t to)
@@ -211,8 +246,8 @@ void EdgeStage<Real>::expose(
             for (std::int64_t column = pass.firstColumn; column < pass.firstColumn + pass.columns;
                  ++column)
             {
-              ofPass.push_back(
-                traced.exits[rays.ray(tile.column + column, tile.row + row, number)]);
+              const auto ray = rays.ray(tile.column + column, tile.row + row, number);
+              ofPass.push_back(ray ? traced.exits[*ray] : none);
             }
           }
           film.add(all.back(), pass);
@@ -232,18 +267,22 @@ void EdgeStage<Real>::paste(Image& image) const
     const Patch& tile = request_.edges->tiles[n];
     const Image& ofTile = request_.edges->images[n];
     const auto paste = [&](auto PixelsOfImage)
-    { pastePixels(ofTile.*PixelsOfImage, tile, image.width, image.*PixelsOfImage); };
+    {
+      pastePixels(
+        ofTile.*PixelsOfImage, tile, request_.edges->pixels, image.width, image.*PixelsOfImage);
+    };
     paste(&Image::intensity);
     paste(&Image::color);
     paste(&Image::deflection);
     paste(&Image::opticalPathDifference);
     paste(&Image::displacement);
     paste(&Image::blockedFraction);
-    image.raysTraced += ofTile.raysTraced;
-    image.stepsTaken += ofTile.stepsTaken;
-    image.raysBlocked += ofTile.raysBlocked;
-    image.raysLost += ofTile.raysLost;
   }
+  const RayCounts counts = request_.edges ? request_.edges->counts : RayCounts{};
+  image.raysTraced += counts.crossed;
+  image.stepsTaken += counts.steps;
+  image.raysBlocked += counts.blocked;
+  image.raysLost += counts.lost;
 }
 
 template class EdgeStage<float>;

@@ -25,7 +25,7 @@ class EdgeRays
 {
 public:
   /// Drops what is cached where it is not of these.
-  void prepare(const RaysKey& key, int samples, const PatchList& tiles);
+  void prepare(const RaysKey& key, int samples, const EdgePixels& pixels);
   void clear() { *this = {}; }
 
 private:
@@ -34,12 +34,12 @@ private:
 
   std::optional<RaysKey> key_;
   int samples_ = 0;
-  PatchList tiles_;
+  EdgePixels pixels_;
   std::deque<TracedPass> chunks_; ///< of consecutive tiles
   TracedPass scratch_;            ///< the next one, which a pause may have interrupted
 };
 
-/// Traces Scene::samplesAtEdges rays per pixel in tiles of an image that has all of its passes, and replaces their pixels.
+/// Traces Scene::samplesAtEdges rays per pixel where edges light an image that has all of its passes, and replaces these pixels.
 template <class Real>
 class EdgeStage
 {
@@ -54,6 +54,8 @@ public:
   void paste(Image& image) const;
 
 private:
+  /// By the rays that the image has.
+  EdgePixels findPixels() const;
   std::vector<Pass> passesOf(const Patch& tile) const;
   /// The end of those that are traced at once from a tile on.
   std::size_t endOfChunk(std::size_t first) const;

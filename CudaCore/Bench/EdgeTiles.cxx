@@ -17,33 +17,75 @@ bool EdgeTiles::arePossible(const Scene& scene, const Light& light, double moved
     !isOfCamera(scene.cutoff) && !(light.pupilTilt > 0) && scene.smoothingRadius <= 0;
 }
 
-PatchList EdgeTiles::in(const PixelArray<float>& blockedFraction, const View& view, double moved)
+EdgePixels::EdgePixels(
+  const std::vector<RaysOfPixel>& rays, std::int64_t columns, std::int64_t around)
+  : around_(around)
+  , stride_(columns + 2 * around)
+  , lit_(rays.size())
+  , lighting_(rays.size())
+{
+  const auto rows = static_cast<std::int64_t>(rays.size()) / stride_;
+  // Calls visit(pixel) for those whose middles are no farther than `reach`, along either axis, from that of a pixel's light.
+  const auto visitAround = [&](std::size_t n, const double(&moved)[2], double reach, auto visit)
+  {
+    const double column = static_cast<double>(static_cast<std::int64_t>(n) % stride_) + moved[0];
+    const double row = static_cast<double>(static_cast<std::int64_t>(n) / stride_) + moved[1];
+    const auto within = [](double place, std::int64_t count)
+    { return static_cast<std::int64_t>(std::clamp(place, 0., static_cast<double>(count))); };
+    const std::int64_t endRow = within(std::floor(row + reach) + 1, rows),
+                       endColumn = within(std::floor(column + reach) + 1, stride_);
+    for (std::int64_t j = within(std::ceil(row - reach), rows); j < endRow; ++j)
+    {
+      for (std::int64_t i = within(std::ceil(column - reach), stride_); i < endColumn; ++i)
+      {
+        visit(static_cast<std::size_t>(j * stride_ + i));
+      }
+    }
+  };
+  for (std::size_t n = 0; n < rays.size(); ++n)
+  {
+    bool stopsSome = false, stopsAll = true;
+    visitAround(n, { 0, 0 }, 1,
+      [&](std::size_t beside)
+      {
+        stopsSome = stopsSome || rays[beside].blocked > 0;
+        stopsAll = stopsAll && rays[beside].blocked >= 1;
+      });
+    if (stopsSome && !stopsAll)
+    {
+      constexpr double reach = 1.5; // a pixel around the one where light lands
+      lit_[n] = true;
+      if (rays[n].blocked < 1)
+      {
+        visitAround(n, rays[n].moved, reach, [&](std::size_t where) { lit_[where] = true; });
+      }
+    }
+  }
+  for (std::size_t n = 0; n < rays.size(); ++n)
+  {
+    bool isLighting = lit_[n];
+    if (rays[n].blocked < 1)
+    {
+      visitAround(n, rays[n].moved, EdgeTiles::reachOfRays,
+        [&](std::size_t where) { isLighting = isLighting || lit_[where]; });
+    }
+    lighting_[n] = isLighting;
+  }
+}
+
+PatchList EdgeTiles::in(const EdgePixels& pixels, const View& view, double moved)
 {
   constexpr std::int64_t edge = Patch::edge, longest = 16; // tiles
-  const std::int64_t around = 1 + std::llround(moved);
   const std::int64_t columns = (view.width + edge - 1) / edge,
                      rows = (view.height + edge - 1) / edge;
   std::vector<bool> isWanted(static_cast<std::size_t>(columns * rows));
-  const auto isEdgeIn = [&](std::int64_t left, std::int64_t low)
+  for (std::int64_t row = 0; row < view.height; ++row)
   {
-    bool stopsSome = false, stopsAll = true;
-    for (std::int64_t row = std::max<std::int64_t>(0, low - around);
-         row < std::min<std::int64_t>(view.height, low + edge + around); ++row)
+    for (std::int64_t column = 0; column < view.width; ++column)
     {
-      for (std::int64_t column = std::max<std::int64_t>(0, left - around);
-           column < std::min<std::int64_t>(view.width, left + edge + around); ++column)
-      {
-        const float blocked = blockedFraction[static_cast<std::size_t>(row * view.width + column)];
-        stopsSome = stopsSome || blocked > 0;
-        stopsAll = stopsAll && blocked >= 1;
-      }
+      const auto tile = static_cast<std::size_t>(row / edge * columns + column / edge);
+      isWanted[tile] = isWanted[tile] || pixels.isLit(column, row);
     }
-    return stopsSome && !stopsAll;
-  };
-  for (std::size_t n = 0; n < isWanted.size(); ++n)
-  {
-    const auto tile = static_cast<std::int64_t>(n);
-    isWanted[n] = isEdgeIn(tile % columns * edge, tile / columns * edge);
   }
   PatchList tiles;
   for (std::int64_t row = 0; row < rows; ++row)
@@ -79,8 +121,8 @@ PatchList EdgeTiles::in(const PixelArray<float>& blockedFraction, const View& vi
   return tiles;
 }
 
-RaysOfTiles::RaysOfTiles(
-  PatchList::const_iterator first, PatchList::const_iterator end, int samples)
+RaysOfTiles::RaysOfTiles(PatchList::const_iterator first, PatchList::const_iterator end,
+  const EdgePixels& pixels, int samples)
   : left_(std::numeric_limits<std::int64_t>::max())
   , low_(left_)
 {
@@ -96,15 +138,24 @@ RaysOfTiles::RaysOfTiles(
     });
   columns_ = right - left_;
   rectangleAt_.assign(static_cast<std::size_t>(columns_ * (high - low_)), outside);
-  const auto fill = [&](const Patch& with, int value)
+  const auto forEachPixel = [](const Patch& tile, const auto& use)
   {
-    for (std::int64_t row = with.row - with.margin; row < with.row + with.rows + with.margin; ++row)
+    for (std::int64_t row = tile.row - tile.margin; row < tile.row + tile.rows + tile.margin; ++row)
     {
-      std::fill_n(
-        &rectangleAt(with.column - with.margin, row), with.columns + 2 * with.margin, value);
+      for (std::int64_t column = tile.column - tile.margin;
+           column < tile.column + tile.columns + tile.margin; ++column)
+      {
+        use(column, row);
+      }
     }
   };
-  std::for_each(first, end, [&](const Patch& tile) { fill(tile, missing); });
+  std::for_each(first, end,
+    [&](const Patch& tile)
+    {
+      forEachPixel(tile,
+        [&](std::int64_t column, std::int64_t row)
+        { rectangleAt(column, row) = pixels.hasRays(column, row) ? missing : outside; });
+    });
   std::size_t count = 0;
   for (std::int64_t row = low_; row < high; ++row)
   {
@@ -128,7 +179,9 @@ RaysOfTiles::RaysOfTiles(
           ++rows;
         }
         rectangles_.push_back({ column, row, 1, column, row, 0, columns, rows });
-        fill(rectangles_.back(), static_cast<int>(rectangles_.size()) - 1);
+        forEachPixel(rectangles_.back(),
+          [&, number = static_cast<int>(rectangles_.size()) - 1](std::int64_t i, std::int64_t j)
+          { rectangleAt(i, j) = number; });
         firstRays_.push_back(count);
         count += static_cast<std::size_t>(samples * columns * rows);
       }
@@ -136,10 +189,15 @@ RaysOfTiles::RaysOfTiles(
   }
 }
 
-std::size_t RaysOfTiles::ray(std::int64_t column, std::int64_t row, int pass) const
+std::optional<std::size_t> RaysOfTiles::ray(std::int64_t column, std::int64_t row, int pass) const
 {
-  const auto n = static_cast<std::size_t>(
-    rectangleAt_[static_cast<std::size_t>((row - low_) * columns_ + column - left_)]);
+  const int number =
+    rectangleAt_[static_cast<std::size_t>((row - low_) * columns_ + column - left_)];
+  if (number < 0)
+  {
+    return {};
+  }
+  const auto n = static_cast<std::size_t>(number);
   const Patch& of = rectangles_[n];
   return firstRays_[n] +
     static_cast<std::size_t>((pass * of.rows + row - of.row) * of.columns + column - of.column);

@@ -112,19 +112,25 @@ PatchFilm::PatchFilm(const Patch& patch, const Scene& scene, const Cutoffs& cuto
 
 void PatchFilm::add(const TracedPass& traced, const Pass& pass)
 {
-  const bool isFirst = film_.passes() == 0;
+  const auto before = static_cast<float>(film_.passes());
+  const bool isFirst = before == 0;
   film_.add(traced, pass, schlieren::Rays::Go, {});
   const std::int64_t columns = patch_.columns + 2 * patch_.margin;
-  for (std::int64_t row = patch_.margin - 1; row <= patch_.margin + patch_.rows; ++row)
+  rays_.resize(traced.exits.size(), { 0, { 0, 0 } });
+  for (std::size_t n = 0; n < rays_.size(); ++n)
   {
-    for (std::int64_t column = patch_.margin - 1; column <= patch_.margin + patch_.columns;
-         ++column)
+    const RayExit& exit = traced.exits[n];
+    if (exit.fate == RayFate::Left && rays_[n].blocked == before)
     {
-      const bool isStopped =
-        traced.exits[static_cast<std::size_t>(row * columns + column)].fate == RayFate::Blocked;
-      stopsSome_ = stopsSome_ || isStopped;
-      stopsAll_ = stopsAll_ && isStopped;
+      const auto ray = static_cast<std::int64_t>(n);
+      const FilmShift shift = shiftOnFilm(exit.deflection, exit.displacement, pass.columnOf(ray),
+        pass.rowOf(ray), pass.tilt, projection_);
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        rays_[n].moved[axis] = projection_.perDataUnit * shift.moved[axis];
+      }
     }
+    rays_[n].blocked += exit.fate == RayFate::Blocked ? 1 : 0;
   }
   std::size_t pixel = 0;
   for (std::int64_t row = patch_.margin; row < patch_.margin + patch_.rows; ++row)
@@ -156,7 +162,17 @@ Image PatchFilm::image()
 PatchPixels PatchFilm::develop()
 {
   const Image image = this->image();
-  pixels_.hasEdge = stopsSome_ && !stopsAll_;
+  for (RaysOfPixel& ray : rays_)
+  {
+    ray.blocked /= static_cast<float>(film_.passes());
+  }
+  const EdgePixels edges(rays_, patch_.columns, patch_.margin);
+  for (std::int64_t n = 0; n < patch_.columns * patch_.rows; ++n)
+  {
+    const std::int64_t column = n % patch_.columns, row = n / patch_.columns;
+    pixels_.areAtEdge.push_back(edges.isLit(column, row));
+    pixels_.withRays += edges.hasRays(column, row) ? 1 : 0;
+  }
   const PixelArray<float>& light = image.color.empty() ? image.intensity : image.color;
   pixels_.light.assign(light.begin(), light.end());
   pixels_.path.assign(image.opticalPathDifference.begin(), image.opticalPathDifference.end());
@@ -166,11 +182,12 @@ PatchPixels PatchFilm::develop()
 }
 
 void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& patch, double factor,
-  const Scene& scene, const Projection& projection, Differences& differences, Edges edges)
+  const Scene& scene, const Projection& projection, Differences& differences, Edges edges,
+  const std::vector<bool>* areCounted)
 {
   for (std::size_t pixel = 0; pixel < b.isLit.size(); ++pixel)
   {
-    if (b.hasMet[pixel] && b.isLit[pixel] &&
+    if (b.hasMet[pixel] && b.isLit[pixel] && (!areCounted || (*areCounted)[pixel]) &&
       (edges == Edges::Count || !(a.isStopped[pixel] || b.isStopped[pixel])))
     {
       const double difference = differenceAt(pixel, a, b, patch, factor, scene, projection);

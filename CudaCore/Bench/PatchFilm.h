@@ -3,10 +3,12 @@
 #pragma once
 
 #include "Bench/Differences.h"
+#include "Bench/EdgeTiles.h"
 #include "Bench/Patches.h"
 #include "Film/ProgressiveImage.h"
 #include "Schlieren.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace schlieren
@@ -25,8 +27,9 @@ struct PatchPixels
   /// Whether any of its rays has met the data, or a body in it; whether any gives light; whether a body stops any.
   std::vector<bool> hasMet, isLit, isStopped;
   ///@}
-  std::vector<bool> isClear; ///< at the pixel's centre, whose path it has
-  bool hasEdge = false; ///< bodies stop some rays of the patch and pixels beside it, but not all
+  std::vector<bool> isClear;   ///< at the pixel's centre, whose path it has
+  std::vector<bool> areAtEdge; ///< see EdgePixels::isLit()
+  std::int64_t withRays = 0;   ///< how many have rays then
 };
 
 /// Exposes a patch.
@@ -47,8 +50,8 @@ private:
   Projection projection_;
   FilmSettings settings_;
   ProgressiveImage film_;
-  PatchPixels pixels_;                       ///< what of them the passes have shown
-  bool stopsSome_ = false, stopsAll_ = true; ///< bodies, of the rays so far
+  PatchPixels pixels_;            ///< what of them the passes have shown
+  std::vector<RaysOfPixel> rays_; ///< so far, of the patch and its margin; how many are blocked
 };
 
 /// Pixels in which a body stops some rays.
@@ -58,9 +61,11 @@ enum class Edges
   DoNotCount
 };
 
-/// Adds the differences of pixels, times a factor, as the technique's reader sees them: see Scene::targetError.
+/// Adds the differences of pixels, times a factor, as the technique's reader sees them: see Scene::targetError. `areCounted`: which;
+/// null: all.
 void addDifferences(const PatchPixels& a, const PatchPixels& b, const Patch& patch, double factor,
-  const Scene& scene, const Projection& projection, Differences& differences, Edges edges);
+  const Scene& scene, const Projection& projection, Differences& differences, Edges edges,
+  const std::vector<bool>* areCounted = nullptr);
 
 /// Adds what a shift of the light by a pixel would change where edges of bodies are, and nothing elsewhere.
 void addSlopesAtEdges(

@@ -221,11 +221,17 @@ bool Pilot<Real>::compare(const Exposure& a, const Exposure& b, double factor, E
   }
   for (std::size_t patch = 0; patch < ofB->size(); ++patch)
   {
-    if (!choice || (*by)[patch].hasEdge == choice->hasEdge)
+    std::vector<bool> areCounted;
+    if (choice)
     {
-      addDifferences((*ofA)[patch], (*ofB)[patch], (*a.group.patches)[patch], factor, scene_,
-        setup_.projection, differences, edges);
+      areCounted = (*by)[patch].areAtEdge;
+      if (!choice->areAtEdge)
+      {
+        areCounted.flip();
+      }
     }
+    addDifferences((*ofA)[patch], (*ofB)[patch], (*a.group.patches)[patch], factor, scene_,
+      setup_.projection, differences, edges, choice ? &areCounted : nullptr);
   }
   return true;
 }
@@ -275,7 +281,7 @@ Differences Pilot<Real>::compare(Patches patches, const PatchSettings& a, const 
       {
         part = std::sqrt(1 - fewer);
       }
-      const double factor = (choice && choice->hasEdge ? factorAtEdges : 1) / part;
+      const double factor = (choice && choice->areAtEdge ? factorAtEdges : 1) / part;
       return compare(
         { group, raysOfA }, { group, raysOfB }, factor, Edges::Count, monitor, all, choice);
     };
@@ -321,17 +327,12 @@ std::optional<double> Pilot<Real>::partOfEdges(double step, int samples, const M
   {
     return {};
   }
-  double pixels = 0; // of patches with edges
+  double pixels = 0;
   for (std::size_t patch = 0; patch < exposed->size(); ++patch)
   {
-    const double weight = (*bodies.patches)[patch].weight;
-    pixels += (*exposed)[patch].hasEdge ? weight * Patch::edge * Patch::edge : 0;
+    pixels += (*bodies.patches)[patch].weight * static_cast<double>((*exposed)[patch].withRays);
   }
-  // Tiles share their margins with their neighbours, but for those beside an edge.
-  constexpr double ofMargin = 1.2;
-  const double raysPerPixel =
-    1 + ofMargin * static_cast<double>(EdgeTiles::marginFor(setup_.movedInFocus)) / Patch::edge;
-  return pixels * raysPerPixel / (static_cast<double>(scene_.view.width) * scene_.view.height);
+  return pixels / (static_cast<double>(scene_.view.width) * scene_.view.height);
 }
 
 template <class Real>

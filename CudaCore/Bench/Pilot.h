@@ -43,7 +43,7 @@ struct PatchSettings
   int samples;         ///< rays per pixel
   int samplesAtBodies; ///< likewise, of patches there
   bool areAtEdges =
-    false; ///< the latter are of those that an edge of a body crosses, and others have `samples`
+    false; ///< the latter are of pixels that edges light there, and others have `samples`
 };
 
 /// Images of patches of pixels, see PatchLayout. Rays are traced once for each setting.
@@ -194,11 +194,11 @@ private:
     Group& group;
     RaySet rays;
   };
-  /// Of a group's patches those with or without an edge of a body, by what these rays show.
+  /// Of a group's pixels those that edges of bodies light, or the others, by what these rays show.
   struct Choice
   {
     RaySet by;
-    bool hasEdge;
+    bool areAtEdge;
   };
   /// Adds the differences of a group's patches, or of those of two groups with the same patches. False if aborted or paused.
   bool compare(const Exposure& a, const Exposure& b, double factor, Edges edges,

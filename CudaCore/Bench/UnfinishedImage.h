@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Bench/Patches.h"
+#include "Bench/EdgeTiles.h"
 #include "Bench/StageSettings.h"
+#include "Film/Exposure.h"
 #include "Film/ProgressiveImage.h"
 #include "Schlieren.h"
 
@@ -43,8 +44,10 @@ struct UnfinishedImage
   /// Where edges of bodies are, and what those that have been traced so far are replaced by.
   struct Edges
   {
+    EdgePixels pixels;
     PatchList tiles;
     std::vector<Image> images;
+    RayCounts counts;
     std::size_t chunks = 0; ///< of tiles that are traced together
   };
   std::optional<Edges> edges; ///< once the image has all passes, see EdgeStage

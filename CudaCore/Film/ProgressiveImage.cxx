@@ -148,13 +148,13 @@ void ProgressiveImage::developCentres(Image& image) const
   }
 }
 
-PixelArray<float> ProgressiveImage::blockedFraction() const
+Image ProgressiveImage::centres() const
 {
   Image image;
   image.width = settings_.width;
   image.height = settings_.height;
   developCentres(image);
-  return std::move(image.blockedFraction);
+  return image;
 }
 
 void ProgressiveImage::developUndisturbed(Image& image)

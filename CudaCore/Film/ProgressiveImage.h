@@ -56,7 +56,8 @@ public:
   /// Writes what the passes so far make into `image`. More may follow.
   void develop(Image& image);
 
-  PixelArray<float> blockedFraction() const; ///< see Image, of the passes so far
+  Image centres()
+    const; ///< what its light carries, and what of it bodies stop: of the passes so far
 
   /// Writes the result into `image`, with what has been left for the end, and gives all memory back. False
   /// if aborted.
