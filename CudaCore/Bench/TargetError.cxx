@@ -107,12 +107,14 @@ public:
     // By something larger that nothing can mend.
     const double beside = ofRays_ > allowed ? negligible * ofRays_ : 0;
     chooseStep(std::max({ allowed * allowed - ofRays_ * ofRays_, ofSteps, beside * beside }));
+    double mostOfAll = 0;
     if (errorNow() > target_)
     {
+      mostOfAll = more_ * errorNow();
       spare();
     }
     settings_.accuracy = { aim_, errorNow(), 0, limitOf(ofSteps_, ofRays_, known_) };
-    takeFewerBesideEdges(std::max(most, ofRays_));
+    takeFewerBesideEdges(std::max(most, ofRays_), mostOfAll);
     return settings_;
   }
 
@@ -140,8 +142,8 @@ private:
     }
   }
 
-  /// Takes fewer rays where no edges of bodies are, if with them the error of rays is within what is allowed.
-  void takeFewerBesideEdges(double most)
+  /// Takes fewer rays where no edges of bodies are, if with them the error of rays is within what is allowed, or all of it.
+  void takeFewerBesideEdges(double most, double mostOfAll)
   {
     const int atEdges = settings_.samples;
     for (const int samples : raysPerPixel)
@@ -153,12 +155,12 @@ private:
         return;
       }
       const double error = ladder_.ofRaysBesideEdges(samples, atEdges);
-      if (error <= most)
+      const double all = margin * sumOf(error, ofSteps_, known_.voxels, known_.rounding);
+      if (error <= most || all <= mostOfAll)
       {
         settings_.samples = samples;
         settings_.samplesAtEdges = atEdges;
-        settings_.accuracy.reached =
-          margin * sumOf(error, ofSteps_, known_.voxels, known_.rounding);
+        settings_.accuracy.reached = all;
         return;
       }
     }
