@@ -53,7 +53,7 @@ EdgePixels::EdgePixels(
       });
     if (stopsSome && !stopsAll)
     {
-      constexpr double reach = 1.5; // a pixel around the one where light lands
+      constexpr double reach = 2.5; // two pixels around the one where light lands
       lit_[n] = true;
       if (rays[n].blocked < 1)
       {

@@ -107,14 +107,14 @@ public:
     // By something larger that nothing can mend.
     const double beside = ofRays_ > allowed ? negligible * ofRays_ : 0;
     chooseStep(std::max({ allowed * allowed - ofRays_ * ofRays_, ofSteps, beside * beside }));
-    double mostOfAll = 0;
+    double mostOfAll = std::max(aim_, errorNow());
     if (errorNow() > target_)
     {
       mostOfAll = more_ * errorNow();
       spare();
     }
     settings_.accuracy = { aim_, errorNow(), 0, limitOf(ofSteps_, ofRays_, known_) };
-    takeFewerBesideEdges(std::max(most, ofRays_), mostOfAll);
+    takeFewerBesideEdges(mostOfAll);
     return settings_;
   }
 
@@ -142,8 +142,8 @@ private:
     }
   }
 
-  /// Takes fewer rays where no edges of bodies are, if with them the error of rays is within what is allowed, or all of it.
-  void takeFewerBesideEdges(double most, double mostOfAll)
+  /// Takes fewer rays where no edges of bodies are, if with them all of the error is within what is allowed.
+  void takeFewerBesideEdges(double most)
   {
     const int atEdges = settings_.samples;
     for (const int samples : raysPerPixel)
@@ -156,7 +156,7 @@ private:
       }
       const double error = ladder_.ofRaysBesideEdges(samples, atEdges);
       const double all = margin * sumOf(error, ofSteps_, known_.voxels, known_.rounding);
-      if (error <= most || all <= mostOfAll)
+      if (all <= most)
       {
         settings_.samples = samples;
         settings_.samplesAtEdges = atEdges;

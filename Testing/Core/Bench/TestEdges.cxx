@@ -163,10 +163,12 @@ TEST(Edges, LightWhatIsBesideThemAndWhereTheirLightLands)
   expect(none, 0, none);
   expect(all, 0, none);
   // What is dark has no light that lands anywhere.
-  expect({ "###.....", "###.....", "###....." }, 0, { "..+++-..", "..+++-..", "..+++-.." });
-  expect({ "###.....", "###.....", "###....." }, 2, { "..+++++.", "..+++++.", "..+++++." });
-  expect({ "......", "......", "..+...", "......", "......", "......" }, 0,
-    { "+++++-", "+++++-", "+++++-", "+++++-", "+++++-", "------" });
+  expect({ "###.....", "###.....", "###....." }, 0, { ".+++++-.", ".+++++-.", ".+++++-." });
+  expect({ "###.....", "###.....", "###....." }, 2, { "..++++++", "..++++++", "..++++++" });
+  Letters one(8, "........"), lit(6, "++++++-.");
+  one[2] = "..+.....";
+  lit.insert(lit.end(), { "-------.", "........" });
+  expect(one, 0, lit);
 }
 
 TEST(Edges, AreExposedInSquaresThatHaveLitPixels)
@@ -182,25 +184,25 @@ TEST(Edges, AreExposedInSquaresThatHaveLitPixels)
     all[static_cast<std::size_t>(row + around)][static_cast<std::size_t>(column + around)] = '+';
     return EdgeTiles::in(pixelsOf(all, around), view, moved);
   };
-  const PatchList one = tilesWith(5, 9);
-  ASSERT_EQ(one.size(), 1);
-  EXPECT_EQ(one[0].column, 4);
-  EXPECT_EQ(one[0].columns, 4);
-  EXPECT_EQ(one[0].row, 8);
-  EXPECT_EQ(one[0].rows, 4);
-  EXPECT_EQ(one[0].margin, 2);
-  const PatchList two = tilesWith(7, 5); // beside the next one
-  ASSERT_EQ(two.size(), 1);
+  const PatchList two = tilesWith(5, 9); // of two squares each
+  ASSERT_EQ(two.size(), 2);
+  EXPECT_EQ(two[0].column, 0);
   EXPECT_EQ(two[0].columns, 8);
+  EXPECT_EQ(two[0].row, 4);
   EXPECT_EQ(two[0].rows, 4);
-  EXPECT_EQ(tilesWith(7, 7).size(), 2); // two rows of two
+  EXPECT_EQ(two[0].margin, 2);
+  EXPECT_EQ(two[1].row, 8);
   EXPECT_EQ(tilesWith(5, 9, 1.8)[0].margin, 4);
+  const PatchList high = tilesWith(1, 5);
+  ASSERT_EQ(high.size(), 1);
+  EXPECT_EQ(high[0].columns, 4);
+  EXPECT_EQ(high[0].rows, 8);
   const PatchList last = tilesWith(37, 17);
-  ASSERT_EQ(last.size(), 1);
-  EXPECT_EQ(last[0].column, 36);
-  EXPECT_EQ(last[0].columns, 2);
-  EXPECT_EQ(last[0].row, 16);
-  EXPECT_EQ(last[0].rows, 2);
+  ASSERT_EQ(last.size(), 2);
+  EXPECT_EQ(last[1].column, 32);
+  EXPECT_EQ(last[1].columns, 6);
+  EXPECT_EQ(last[1].row, 16);
+  EXPECT_EQ(last[1].rows, 2);
 }
 
 TEST(Edges, HaveEachRayOnceHoweverManyTilesNeedIt)
