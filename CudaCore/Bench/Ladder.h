@@ -21,9 +21,9 @@ constexpr double longestStepAtWalls = 1, shortestStep = 0.25; // voxels
 constexpr double errorByHalving = 1.5;
 /// By how much it falls from n to 4 n, at least.
 constexpr double leastGain = 3.5;
-/// Settings are chosen so that fewer of the pixels that are looked at exceed the target than may: these are a sample, and of
-/// edges of bodies in small images it can have too few.
-constexpr double mayExceedAsChosen = 0.8 * mayExceed;
+/// Of the pixels that are looked at fewer exceed an error than may: these are a sample, and of edges of bodies in small images it can
+/// have too few.
+constexpr double mayExceedOfSample = 0.8 * mayExceed;
 
 /// How steps are compared.
 struct StepRange
@@ -110,7 +110,7 @@ public:
       return std::clamp(gained, 0.5, 1.) * before;
     }
     const auto errorIn = [&](const Differences& differences)
-    { return steps_.errorOf(differences, samples, mayExceedAsChosen); };
+    { return steps_.errorOf(differences, samples, mayExceedOfSample); };
     return errorByHalving * differenceOf(steps_.with(step), steps_.with(0.5 * step), errorIn);
   }
 
@@ -138,7 +138,7 @@ public:
       }
     }
     const auto errorIn = [&](const Differences& differences)
-    { return exceededBy(mayExceedAsChosen, differences); };
+    { return exceededBy(mayExceedOfSample, differences); };
     const auto differenceTo = [&](int more) {
       return differenceOf({ longest(), samples, samples }, { longest(), more, more }, errorIn);
     };
@@ -153,7 +153,7 @@ public:
   double ofRaysBesideEdges(int samples, int atEdges)
   {
     const auto errorIn = [&](const Differences& differences)
-    { return exceededBy(mayExceedAsChosen, differences); };
+    { return exceededBy(mayExceedOfSample, differences); };
     const int measured = std::min(atEdges, mostCompared);
     const Cutoff cutoff = pilot_.scene().cutoff;
     const int more = manyMoreThan(samples, cutoff), moreAtEdges = manyMoreThan(measured, cutoff);

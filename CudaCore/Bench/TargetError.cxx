@@ -392,8 +392,8 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
       : compare(samples,
           samples <= fewRays || isOnScreen ? manyMoreThan(samples, scene.cutoff) : 2 * samples);
     constexpr double notable = 0.5;
-    if (exceededBy(mayExceed, ofRays) > notable * scene.targetError && areFringesResolved(pilot) &&
-      needsMostRays(samples, scene.cutoff, pilot.isWhole()))
+    if (exceededBy(mayExceedOfSample, ofRays) > notable * scene.targetError &&
+      areFringesResolved(pilot) && needsMostRays(samples, scene.cutoff, pilot.isWhole()))
     {
       ofRays = compare(samples, raysPerPixel.back());
     }
@@ -405,8 +405,8 @@ void verify(AccurateSettings& settings, Pilot<Real>& pilot, const StepRange& ste
   const auto sum = [&](double errorOfSteps, double errorOfRays)
   { return sumOf(bySteps * errorOfSteps, errorOfRays, known.voxels, known.rounding); };
   settings.accuracy.target = scene.targetError;
-  settings.accuracy.reached =
-    sum(steps.errorOf(ofSteps, settings.samples, mayExceed), exceededBy(mayExceed, ofRays));
+  settings.accuracy.reached = sum(steps.errorOf(ofSteps, settings.samples, mayExceedOfSample),
+    exceededBy(mayExceedOfSample, ofRays));
   settings.accuracy.largest = sum(largestOf(ofSteps), largestOf(ofRays));
 }
 
@@ -429,7 +429,7 @@ AccurateSettings chooseFor(Pilot<Real>& pilot, const KnownErrors& ofMedium,
       pilot.slopesAtEdges(Pilot<Real>::Patches::ToVerify, steps.with(steps.longest), monitor);
     const double invisible = plane == RecordedPlane::Screen ? invisibleShift : 0;
     known.voxels =
-      sumOf(known.voxels, exceededBy(mayExceedAsChosen, atMovedEdges(slopes, invisible)));
+      sumOf(known.voxels, exceededBy(mayExceedOfSample, atMovedEdges(slopes, invisible)));
   }
   AccurateSettings settings{};
   if (before)
