@@ -31,96 +31,79 @@ struct Block
   static constexpr int rows = Lanes / columns;
 };
 
-/// Calls use(ray of its pass) for the rays of a tile, block by block.
-template <int Lanes, class Use>
-void forEachOfBlocks(const TileOfPass& tile, const Use& use)
-{
-  constexpr int columns = Block<Lanes>::columns, rows = Block<Lanes>::rows;
-  for (std::int64_t low = 0; low < tile.rows; low += rows)
-  {
-    for (std::int64_t left = 0; left < tile.columns; left += columns)
-    {
-      for (std::int64_t row = low; row < std::min(low + rows, tile.rows); ++row)
-      {
-        for (std::int64_t column = left; column < std::min(left + columns, tile.columns); ++column)
-        {
-          use((tile.low + row) * tile.of.pass.columns + tile.left + column);
-        }
-      }
-    }
-  }
-}
-
 template <class Number, int Lanes>
 std::int64_t traceTilesWith(const RayTask<Number>& task, MarchFunction<Number, Lanes> marchBatches,
   const Passes& passes, const Tiles& tiles, TracedPass& traced, int threads, const Monitor& monitor)
 {
-  struct OfPiece
+  struct OfTile
   {
     double worstDrift = 0;
     std::int64_t crossed = 0;
   };
-  // Small tiles are taken together, so that rays of several fill a batch.
-  const std::int64_t grain = std::max<std::int64_t>(1,
-    tileEdge * tileEdge * passes.tiles() /
-      (2 * static_cast<std::int64_t>(std::max<std::size_t>(1, passes.rays()))));
-  std::vector<OfPiece> ofPieces(static_cast<std::size_t>((tiles.count() + grain - 1) / grain));
+  std::vector<OfTile> ofTiles(static_cast<std::size_t>(tiles.count()));
+
+  const auto enterBlock = [&](const PlacedPass& of, std::int64_t column, std::int64_t row,
+                            RayBatch<Number, Lanes>& batch, Entry(&entries)[Lanes],
+                            std::int64_t(&rays)[Lanes])
+  {
+    const Pass& pass = of.pass;
+    for (int i = 0; i < Lanes; ++i)
+    {
+      const std::int64_t atColumn = column + i % Block<Lanes>::columns;
+      const std::int64_t atRow = row + i / Block<Lanes>::columns;
+      rays[i] = -1;
+      batch.fate[i] = RayFate::Missed;
+      if (atColumn < pass.columns && atRow < pass.rows)
+      {
+        const std::int64_t ray = atRow * pass.columns + atColumn;
+        entries[i] = enterGrid(task, pass, ray, batch, i);
+        rays[i] = of.firstRay + ray;
+      }
+    }
+  };
+  const auto leaveBlock = [&](const RayBatch<Number, Lanes>& batch, const Entry(&entries)[Lanes],
+                            const std::int64_t(&rays)[Lanes], OfTile& tile)
+  {
+    for (int i = 0; i < Lanes; ++i)
+    {
+      if (rays[i] >= 0)
+      {
+        traced.exits[static_cast<std::size_t>(rays[i])] = leaveGrid(task, batch, i, entries[i]);
+        tile.worstDrift = std::max(tile.worstDrift, static_cast<double>(batch.drift[i]));
+        tile.crossed += batch.fate[i] != RayFate::Missed ? 1 : 0;
+      }
+    }
+  };
 
   // Numbers as of all tiles, for the progress.
   const std::int64_t before = tiles.first / tiles.step;
   const std::int64_t done = parallelFrom(
-    before, before + tiles.count(), grain, threads,
-    [&](std::int64_t begin, std::int64_t end)
+    before, before + tiles.count(), 1, threads,
+    [&](std::int64_t number, std::int64_t)
     {
-      OfPiece& here = ofPieces[static_cast<std::size_t>((begin - before) / grain)];
-      RayBatch<Number, Lanes> batches[2]{};
-      Entry entries[2 * Lanes]{};
-      std::int64_t rays[2 * Lanes];
-      int taken = 0;
-      const auto marchTaken = [&]
+      const TileOfPass tile = passes.tile(tiles.first + (number - before) * tiles.step);
+      for (std::int64_t row = tile.low; row < tile.low + tile.rows; row += Block<Lanes>::rows)
       {
-        for (int i = taken; i < 2 * Lanes; ++i)
+        for (std::int64_t column = tile.left; column < tile.left + tile.columns;
+             column += 2 * Block<Lanes>::columns)
         {
-          batches[i / Lanes].fate[i % Lanes] = RayFate::Missed;
+          RayBatch<Number, Lanes> batches[2]{};
+          Entry entries[2][Lanes]{};
+          std::int64_t rays[2][Lanes];
+          enterBlock(tile.of, column, row, batches[0], entries[0], rays[0]);
+          enterBlock(tile.of, column + Block<Lanes>::columns, row, batches[1], entries[1], rays[1]);
+          marchBatches(task, batches[0], batches[1]);
+          OfTile& here = ofTiles[static_cast<std::size_t>(number - before)];
+          leaveBlock(batches[0], entries[0], rays[0], here);
+          leaveBlock(batches[1], entries[1], rays[1], here);
         }
-        marchBatches(task, batches[0], batches[1]);
-        for (int i = 0; i < taken; ++i)
-        {
-          const RayBatch<Number, Lanes>& batch = batches[i / Lanes];
-          const int lane = i % Lanes;
-          traced.exits[static_cast<std::size_t>(rays[i])] =
-            leaveGrid(task, batch, lane, entries[i]);
-          here.worstDrift = std::max(here.worstDrift, static_cast<double>(batch.drift[lane]));
-          here.crossed += batch.fate[lane] != RayFate::Missed ? 1 : 0;
-        }
-        batches[0] = batches[1] = {};
-        taken = 0;
-      };
-      for (std::int64_t number = begin; number < end; ++number)
-      {
-        const TileOfPass tile = passes.tile(tiles.first + (number - before) * tiles.step);
-        const Pass& pass = tile.of.pass;
-        forEachOfBlocks<Lanes>(tile,
-          [&](std::int64_t ray)
-          {
-            rays[taken] = tile.of.firstRay + ray;
-            entries[taken] = enterGrid(task, pass, ray, batches[taken / Lanes], taken % Lanes);
-            if (++taken == 2 * Lanes)
-            {
-              marchTaken();
-            }
-          });
-      }
-      if (taken > 0)
-      {
-        marchTaken();
       }
     },
     monitor);
-  for (const OfPiece& piece : ofPieces)
+  for (const OfTile& tile : ofTiles)
   {
-    traced.worstDrift = std::max(traced.worstDrift, piece.worstDrift);
-    traced.crossed += piece.crossed;
+    traced.worstDrift = std::max(traced.worstDrift, tile.worstDrift);
+    traced.crossed += tile.crossed;
   }
   return done - before;
 }
